@@ -1,0 +1,34 @@
+// A body that the program describes by functions.
+#pragma once
+
+#include <functional>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// A convex body given by its support function and boundary point, and its Hessian if the program has it. (In C++ deriving from
+/// Shape does the same; this is for functions that come from elsewhere, such as the C interface.)
+class SUPERNORMAL_API CallbackShape final : public Shape {
+ public:
+  using Support = std::function<double(const Vector3& n)>;
+  using Point = std::function<Vector3(const Vector3& n)>;
+  using Hessian = std::function<Matrix3(const Vector3& n)>;
+
+  /// `hessian` may be empty. Tries the functions in 26 directions (of the faces, edges and corners of a cube): finite results, a
+  /// size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) > 0, no point farther than 1e-6 of the size outside a
+  /// supporting plane, a symmetric Hessian with H n = 0 and no negative radius, to 1e-6 of its largest entry. std::invalid_argument
+  /// otherwise, with the direction, the value and what was expected.
+  CallbackShape(Support support, Point point, Hessian hessian = {});
+
+  /// Without a Hessian, Order::Curvature delivers h and r and leaves H as it is.
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_curvature() const override { return static_cast<bool>(hessian_); }
+
+ private:
+  Support support_;
+  Point point_;
+  Hessian hessian_;
+};
+
+}  // namespace supernormal

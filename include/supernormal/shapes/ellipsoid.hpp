@@ -1,0 +1,25 @@
+// Ellipsoid: the potential is a norm, no powers needed.
+#pragma once
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// (x/a)^2 + (y/b)^2 + (z/c)^2 = 1 in the body's frame; h(n) = |(a nx, b ny, c nz)|.
+class SUPERNORMAL_API Ellipsoid final : public Shape {
+ public:
+  /// Half-axes in m, finite and in [1e-30, 1e30]; std::invalid_argument otherwise.
+  explicit Ellipsoid(const Vector3& half_axes);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  Vector3 half_extents() const override { return half_axes_; }
+  MassProperties mass_properties() const override;
+
+  const Vector3& half_axes() const { return half_axes_; }
+
+ private:
+  Vector3 half_axes_;
+  Vector3 squares_;  // half_axes_ squared, m^2
+};
+
+}  // namespace supernormal

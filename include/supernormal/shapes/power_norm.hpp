@@ -1,0 +1,46 @@
+// The norm (x^p + y^p)^(1/p) of two numbers that are not negative: the building block of superellipsoids.
+#pragma once
+
+namespace supernormal {
+
+/// Value and derivatives of a PowerNorm at (x, y). The second derivatives and dx_over_x carry the factor `value`, which keeps them
+/// finite at the origin: d2/dx2 = xx / value and so on.
+struct PowerNormJet {
+  double value = 0;
+  double dx = 0, dy = 0;          ///< first derivatives, (x/value)^(p-1) and (y/value)^(p-1)
+  double dx_over_x = 0;           ///< value * dx / x, large but finite where p < 2 and x vanishes
+  double xx = 0, xy = 0, yy = 0;  ///< value times the second derivatives
+};
+
+/// (x^p + y^p)^(1/p), from two powers; from a square root for p = 2. The larger number is factored out, so that nothing
+/// overflows whatever p is.
+class PowerNorm {
+ public:
+  /// The norm with p = exponent.
+  static PowerNorm of_exponent(double exponent);
+
+  /// The dual norm of `exponent`: p = exponent/(exponent - 1), with p - 1 and 1/p free of cancellation.
+  static PowerNorm dual_to_exponent(double exponent);
+
+  double value(double x, double y) const;
+
+  /// Value and first derivatives. At the origin, where the direction is undefined, as if x = y.
+  void gradient(double x, double y, PowerNormJet& jet) const;
+
+  /// All of PowerNormJet.
+  void curvature(double x, double y, PowerNormJet& jet) const;
+
+ private:
+  PowerNorm(double p, double p_minus_1, double inverse_p);
+
+  /// value = larger * root; the derivative with respect to the larger number is root / sum.
+  struct Ratio {
+    double k, power, sum, root;  // smaller/larger, k^p, 1 + k^p, sum^(1/p)
+  };
+  Ratio ratio(double larger, double smaller) const;
+
+  double p_, p_minus_1_, inverse_p_;
+  bool is_euclidean_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,101 @@
+// A convex body as its generating potential (support function): give a normal, get the boundary point that has it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "supernormal/export.h"
+
+namespace supernormal {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// How much of the potential an evaluation has to deliver; each level includes those before it.
+enum class Order {
+  Value,      ///< h
+  Point,      ///< h and r
+  Curvature,  ///< h, r and H
+};
+
+/// The generating potential and its derivatives in one normal direction n, all in the body's frame.
+struct Jet {
+  double h = 0;                 ///< m; support function, the distance from the body's origin to the tangent plane with normal n
+  Vector3 r = Vector3::Zero();  ///< m; gradient of h: the boundary point with outward normal n, n.r = h
+  Matrix3 H = Matrix3::Zero();  ///< m; Hessian of h: symmetric, H n = 0; the other eigenvalues are the radii of curvature
+};
+
+/// Volume integrals of a homogeneous body of density one, in its own frame.
+struct MassProperties {
+  double volume = 0;                        ///< m^3
+  Vector3 centroid = Vector3::Zero();       ///< m
+  Matrix3 second_moment = Matrix3::Zero();  ///< m^5; integral of x x^T about the origin of the body's frame
+  double relative_error = 0;                ///< estimated, of volume and moments relative to their size; 0 for closed forms
+};
+
+/// Where a body is sharpest: the faces and edges of the polytope that it resembles, in its own frame. A body and its mirror image
+/// at the origin share them, so each stands for both signs; lengths do not matter. Solvers start there when they look for other
+/// local maxima.
+struct SharpFeatures {
+  double radius = 0;     ///< m; about the smallest radius of curvature
+  double roundness = 0;  ///< m; about how far the boundary is from that of the polytope
+  int face_count = 0;
+  int edge_count = 0;
+  std::array<Vector3, 4> face_normals;
+  std::array<Vector3, 6> edges;  ///< directions
+
+  void add_face(const Vector3& normal) { face_normals[static_cast<std::size_t>(face_count++)] = normal; }
+  void add_edge(const Vector3& direction) { edges[static_cast<std::size_t>(edge_count++)] = direction; }
+
+  /// Those of a box along the axes: three faces, three edges.
+  static SharpFeatures of_box(double radius);
+};
+
+/// A convex body known by its normal parameterization (Roemer; DESIGN section 1). The functions of a shape are pure:
+/// any number of threads may call them at once.
+class SUPERNORMAL_API Shape {
+ public:
+  Shape() = default;
+  Shape(const Shape&) = default;
+  Shape(Shape&&) = default;
+  Shape& operator=(const Shape&) = default;
+  Shape& operator=(Shape&&) = default;
+  virtual ~Shape() = default;
+
+  /// Evaluates the potential for the unit normal n, up to `order`; members of a higher order are left as they are.
+  /// On a flat face the radius of curvature is infinite; H then holds a large finite number.
+  virtual void evaluate(const Vector3& n, Order order, Jet& jet) const = 0;
+
+  /// Whether evaluate() can deliver Order::Curvature. Solvers estimate the curvature from boundary points otherwise.
+  virtual bool has_curvature() const { return true; }
+
+  /// The normal to move to when the boundary point is to move from jet.r by H dn: to first order n + dn. Shapes with flat faces
+  /// override it, because there the normal is a smooth function of the boundary point but not the other way round.
+  /// `jet` is the one of the unit normal n, with curvature. The result need not be of unit length.
+  virtual Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const;
+
+  /// Whether advance_normal() is more than n + dn.
+  virtual bool has_flat_faces() const { return false; }
+
+  /// Half of the extent along the three axes of the body's frame, m.
+  virtual Vector3 half_extents() const;
+
+  /// The polytope that the body resembles; unless overridden, a box along the axes, as sharp as the ellipsoid of the same extents.
+  virtual SharpFeatures sharp_features() const;
+
+  /// Volume, centroid and second moments; a closed form where there is one, quadrature over the normals otherwise: to 1e-10 for a
+  /// smooth body; flat faces and straight edges, which the normals do not see, are missing and counted in relative_error.
+  /// std::domain_error when the shape delivers values that are not finite.
+  virtual MassProperties mass_properties() const;
+
+  /// h(n), m.
+  double support(const Vector3& n) const;
+
+  /// r(n), m.
+  Vector3 point(const Vector3& n) const;
+
+  /// h, r and H together.
+  Jet jet(const Vector3& n) const;
+};
+
+}  // namespace supernormal

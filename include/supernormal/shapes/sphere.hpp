@@ -1,0 +1,25 @@
+// Sphere; of radius 0, a point.
+#pragma once
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// h(n) = radius. A sphere of radius 0 is a point, which makes the distance of a point from a body a question about two bodies.
+class SUPERNORMAL_API Sphere final : public Shape {
+ public:
+  /// Radius in m, in [0, 1e30]; std::invalid_argument otherwise.
+  explicit Sphere(double radius);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  Vector3 half_extents() const override { return Vector3::Constant(radius_); }
+  SharpFeatures sharp_features() const override;
+  MassProperties mass_properties() const override;
+
+  double radius() const { return radius_; }
+
+ private:
+  double radius_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,45 @@
+// Superellipsoid: from octahedron (exponents near 1) through ellipsoid (2) to box (large exponents).
+#pragma once
+
+#include "supernormal/shapes/power_norm.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// (|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 in the body's frame.
+///
+/// With the dual exponents p = delta/(delta-1) and q = epsilon/(epsilon-1) the potential is two nested norms,
+///     t = (|a nx|^p + |b ny|^p)^(1/p),   h = (t^q + |c nz|^q)^(1/q),
+/// evaluated with the larger term factored out, so that nothing over- or underflows (DESIGN section 1). The printed
+/// potential of Roemer's paper has a misprinted exponent; this one satisfies the implicit equation.
+class SUPERNORMAL_API Superellipsoid final : public Shape {
+ public:
+  static constexpr double kMinExponent = 1.01;
+  static constexpr double kMaxExponent = 1000;
+
+  /// Half-axes in m, finite and in [1e-30, 1e30]; exponents in [kMinExponent, kMaxExponent]; std::invalid_argument otherwise.
+  Superellipsoid(const Vector3& half_axes, double delta, double epsilon);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+
+  /// Moves the boundary point and takes the normal there (the gradient of the implicit function): on a flat face, r is
+  /// a steep power of n but n is a gentle power of r.
+  Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
+  bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
+
+  Vector3 half_extents() const override { return half_axes_; }
+  SharpFeatures sharp_features() const override;
+  MassProperties mass_properties() const override;
+
+  const Vector3& half_axes() const { return half_axes_; }
+  double delta() const { return delta_; }
+  double epsilon() const { return epsilon_; }
+
+ private:
+  Vector3 half_axes_;
+  double delta_, epsilon_;
+  PowerNorm inner_potential_, outer_potential_;  // of (a nx, b ny) and of (inner, c nz): exponents p and q
+  PowerNorm inner_gauge_, outer_gauge_;          // of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
+};
+
+}  // namespace supernormal

@@ -1,0 +1,125 @@
+#include "supernormal/shapes/callback_shape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+namespace {
+
+constexpr double kTolerance = 1e-6;  // of the size; what a single-precision callback can keep
+constexpr int kDirections = 26;
+
+struct Trial {
+  Vector3 n;
+  double h = 0;
+  Vector3 r = Vector3::Zero();
+};
+
+/// The directions to the faces, edges and corners of a cube; number 25 - i is opposite to number i.
+std::array<Trial, kDirections> trial_directions() {
+  std::array<Trial, kDirections> trials;
+  std::size_t count = 0;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (x != 0 || y != 0 || z != 0) trials[count++].n = Vector3(x, y, z).normalized();
+      }
+    }
+  }
+  return trials;
+}
+
+std::string to_text(const Vector3& v) {
+  return std::string("(") + supernormal::to_text(v.x()) + ", " + supernormal::to_text(v.y()) + ", " + supernormal::to_text(v.z()) +
+         ")";
+}
+
+[[noreturn]] void refuse(const std::string& what, const Vector3& n) {
+  throw std::invalid_argument(what + " in the direction n = " + to_text(n));
+}
+
+/// Finite values, n.r = h; returns the size, the largest distance of a boundary point from the origin.
+double check_points(const std::array<Trial, kDirections>& trials) {
+  double size = 0;
+  for (const Trial& trial : trials) {
+    if (!std::isfinite(trial.h)) refuse("support = " + supernormal::to_text(trial.h) + " is not finite", trial.n);
+    if (!trial.r.allFinite()) refuse("point = " + to_text(trial.r) + " is not finite", trial.n);
+    size = std::max({size, trial.r.lpNorm<Eigen::Infinity>(), std::abs(trial.h)});
+  }
+  require_in("size of the body", size, kMinLength, kMaxLength, "m");
+  for (const Trial& trial : trials) {
+    if (std::abs(trial.n.dot(trial.r) - trial.h) > kTolerance * size) {
+      refuse("point.n = " + supernormal::to_text(trial.n.dot(trial.r)) + " m differs from support = " +
+                 supernormal::to_text(trial.h) + " m by more than 1e-6 of the size " + supernormal::to_text(size) + " m",
+             trial.n);
+    }
+  }
+  return size;
+}
+
+/// A width above zero, and every boundary point behind every supporting plane.
+void check_convex(const std::array<Trial, kDirections>& trials, double size) {
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const Trial& trial = trials[i];
+    const double width = trial.h + trials[trials.size() - 1 - i].h;
+    if (!(width > 0)) refuse("the width support(n) + support(-n) = " + supernormal::to_text(width) + " m is not above 0", trial.n);
+    for (const Trial& other : trials) {
+      const double excess = trial.n.dot(other.r) - trial.h;
+      if (excess > kTolerance * size) {
+        refuse("the body is not convex: point" + to_text(other.n) + " lies " + supernormal::to_text(excess) +
+                   " m outside the supporting plane",
+               trial.n);
+      }
+    }
+  }
+}
+
+void check_hessian(const Matrix3& hessian, const Vector3& n) {
+  if (!hessian.allFinite()) refuse("hessian is not finite", n);
+  const double largest = hessian.cwiseAbs().maxCoeff();
+  if (largest == 0) return;  // a vertex
+  const Matrix3 H = hessian / largest;
+  const double asymmetry = (H - H.transpose()).cwiseAbs().maxCoeff();
+  if (asymmetry > kTolerance) {
+    refuse("hessian is not symmetric: entries differ by " + supernormal::to_text(asymmetry) + " of the largest", n);
+  }
+  const double radial = (H * n).lpNorm<Eigen::Infinity>();
+  if (radial > kTolerance) {
+    refuse("hessian times n is not zero but " + supernormal::to_text(radial) + " of the largest entry", n);
+  }
+  // With one eigenvalue zero these are the sum and the product of the two principal radii.
+  const double product = 0.5 * (H.trace() * H.trace() - H.squaredNorm());
+  if (H.trace() < 0 || product < -kTolerance) refuse("hessian has a negative principal radius", n);
+}
+
+}  // namespace
+
+CallbackShape::CallbackShape(Support support, Point point, Hessian hessian)
+    : support_(std::move(support)), point_(std::move(point)), hessian_(std::move(hessian)) {
+  if (!support_) throw std::invalid_argument("the support function is missing");
+  if (!point_) throw std::invalid_argument("the point function is missing");
+  std::array<Trial, kDirections> trials = trial_directions();
+  for (Trial& trial : trials) {
+    trial.h = support_(trial.n);
+    trial.r = point_(trial.n);
+  }
+  check_convex(trials, check_points(trials));
+  if (!hessian_) return;
+  for (const Trial& trial : trials) check_hessian(hessian_(trial.n), trial.n);
+}
+
+void CallbackShape::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  jet.h = support_(n);
+  if (order == Order::Value) return;
+  jet.r = point_(n);
+  if (order == Order::Point || !hessian_) return;
+  jet.H = hessian_(n);
+}
+
+}  // namespace supernormal

@@ -1,0 +1,42 @@
+#include "supernormal/shapes/rounded.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+
+Rounded::Rounded(std::shared_ptr<const Shape> core, double radius) : core_(std::move(core)), radius_(radius) {
+  if (!core_) throw std::invalid_argument("core is null; a shape is needed");
+  require_in("radius", radius, 0, kMaxLength, "m");
+}
+
+void Rounded::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  core_->evaluate(n, order, jet);
+  jet.h += radius_;
+  if (order == Order::Value) return;
+  jet.r += radius_ * n;
+  if (order == Order::Point || !has_curvature()) return;
+  jet.H += radius_ * (Matrix3::Identity() - n * n.transpose());
+}
+
+Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
+  if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
+  // The core's point moves by its own share, H_core dn, of the step; the sphere's share, radius dn, follows the normal.
+  Jet core_jet;
+  core_jet.h = jet.h - radius_;
+  core_jet.r = jet.r - radius_ * n;
+  core_jet.H = jet.H - radius_ * (Matrix3::Identity() - n * n.transpose());
+  return core_->advance_normal(n, core_jet, dn);
+}
+
+Vector3 Rounded::half_extents() const { return core_->half_extents() + Vector3::Constant(radius_); }
+
+SharpFeatures Rounded::sharp_features() const {
+  SharpFeatures features = core_->sharp_features();
+  features.radius += radius_;
+  return features;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,50 @@
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+Vector3 Shape::advance_normal(const Vector3& n, const Jet& /*jet*/, const Vector3& dn) const { return n + dn; }
+
+Vector3 Shape::half_extents() const {
+  Vector3 half;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 e = Vector3::Unit(axis);
+    half[axis] = 0.5 * (support(e) + support(-e));
+  }
+  return half;
+}
+
+SharpFeatures SharpFeatures::of_box(double radius) {
+  SharpFeatures features;
+  features.radius = radius;
+  for (int axis = 0; axis < 3; ++axis) {
+    features.add_face(Vector3::Unit(axis));
+    features.add_edge(Vector3::Unit(axis));
+  }
+  return features;
+}
+
+SharpFeatures Shape::sharp_features() const {
+  // The ellipsoid with half-axes of which c is the smallest and a the largest is sharpest at the ends of a: c^2/a.
+  const Vector3 half = half_extents();
+  return SharpFeatures::of_box(half.minCoeff() * (half.minCoeff() / half.maxCoeff()));
+}
+
+double Shape::support(const Vector3& n) const {
+  Jet out;
+  evaluate(n, Order::Value, out);
+  return out.h;
+}
+
+Vector3 Shape::point(const Vector3& n) const {
+  Jet out;
+  evaluate(n, Order::Point, out);
+  return out.r;
+}
+
+Jet Shape::jet(const Vector3& n) const {
+  Jet out;
+  evaluate(n, Order::Curvature, out);
+  return out;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,23 @@
+#include "supernormal/shapes/sphere.hpp"
+
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+
+Sphere::Sphere(double radius) : radius_(require_in("radius", radius, 0, kMaxLength, "m")) {}
+
+void Sphere::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  jet.h = radius_;
+  if (order == Order::Value) return;
+  jet.r = radius_ * n;
+  if (order == Order::Point) return;
+  jet.H = radius_ * (Matrix3::Identity() - n * n.transpose());
+}
+
+SharpFeatures Sphere::sharp_features() const {
+  SharpFeatures none;
+  none.radius = radius_;
+  return none;
+}
+
+}  // namespace supernormal

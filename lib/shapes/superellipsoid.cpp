@@ -1,0 +1,143 @@
+#include "supernormal/shapes/superellipsoid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+namespace {
+
+// Below this exponent edges and vertices are so sharp that any overlap may have several local maxima.
+constexpr double kSharpExponent = 1.3;
+
+/// About the smallest radius of curvature of a superellipse with half-axes 1: at its corners, a superellipse of exponent e > 2 has
+/// 1/(e - 1) within a factor of 1.5; below 2 the vertices have radius 0 but rounded surroundings.
+double relative_radius(double exponent) {
+  if (exponent >= 2) return 1 / (exponent - 1);
+  return std::max(0.0, (exponent - kSharpExponent) / (2 - kSharpExponent));
+}
+
+/// How far the superellipse of this exponent is from the square around it (above 2) or the one inscribed (below), along their
+/// diagonals.
+double relative_roundness(double exponent) { return 1 - std::exp2(exponent >= 2 ? -1 / exponent : 1 / exponent - 1); }
+
+}  // namespace
+
+Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double epsilon)
+    : half_axes_(require_half_axes(half_axes)),
+      delta_(require_in("delta", delta, kMinExponent, kMaxExponent)),
+      epsilon_(require_in("epsilon", epsilon, kMinExponent, kMaxExponent)),
+      inner_potential_(PowerNorm::dual_to_exponent(delta)),
+      outer_potential_(PowerNorm::dual_to_exponent(epsilon)),
+      inner_gauge_(PowerNorm::of_exponent(delta)),
+      outer_gauge_(PowerNorm::of_exponent(epsilon)) {}
+
+void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  const Vector3 scaled = half_axes_.cwiseProduct(n).cwiseAbs();
+  if (order == Order::Value) {
+    jet.h = outer_potential_.value(inner_potential_.value(scaled.x(), scaled.y()), scaled.z());
+    return;
+  }
+  PowerNormJet inner, outer;  // of x and y; of their norm t (as "x") and z (as "y")
+  if (order == Order::Point) {
+    inner_potential_.gradient(scaled.x(), scaled.y(), inner);
+    outer_potential_.gradient(inner.value, scaled.z(), outer);
+  } else {
+    inner_potential_.curvature(scaled.x(), scaled.y(), inner);
+    outer_potential_.curvature(inner.value, scaled.z(), outer);
+  }
+  const Vector3 signed_axes(std::copysign(half_axes_.x(), n.x()), std::copysign(half_axes_.y(), n.y()),
+                            std::copysign(half_axes_.z(), n.z()));
+  jet.h = outer.value;
+  jet.r = signed_axes.cwiseProduct(Vector3(outer.dx * inner.dx, outer.dx * inner.dy, outer.dy));
+  if (order == Order::Point) return;
+
+  // Chain rule; inner second derivatives are inner.xx / t, and outer.dx / t stays finite at the pole t = 0.
+  const double tt = outer.xx / outer.value;
+  const double tz = outer.xy / outer.value;
+  const double slope = outer.dx_over_x / outer.value;
+  Matrix3& H = jet.H;
+  H(0, 0) = tt * inner.dx * inner.dx + slope * inner.xx;
+  H(0, 1) = tt * inner.dx * inner.dy + slope * inner.xy;
+  H(1, 1) = tt * inner.dy * inner.dy + slope * inner.yy;
+  H(0, 2) = tz * inner.dx;
+  H(1, 2) = tz * inner.dy;
+  H(2, 2) = outer.yy / outer.value;
+  H(1, 0) = H(0, 1);
+  H(2, 0) = H(0, 2);
+  H(2, 1) = H(1, 2);
+  H.array() *= (signed_axes * signed_axes.transpose()).array();
+}
+
+Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
+  // Each of the two norms goes its own way: a flat one (exponent above 2) through the boundary point, a sharp one through the
+  // normal.
+  Vector3 moved = n + dn;
+  const bool inner_is_flat = delta_ > 2;
+  const bool outer_is_flat = epsilon_ > 2;
+  if (!inner_is_flat && !outer_is_flat) return moved;
+
+  const Vector3 target = jet.r + jet.H * dn;
+  const Vector3 gauge_point = target.cwiseQuotient(half_axes_).cwiseAbs();
+  const Vector3 scaled = half_axes_.cwiseProduct(moved).cwiseAbs();
+  PowerNormJet inner, outer;
+  inner_gauge_.gradient(gauge_point.x(), gauge_point.y(), inner);
+  Vector3 result;  // scaled by the half-axes, in the first octant
+  if (outer_is_flat) {
+    outer_gauge_.gradient(inner.value, gauge_point.z(), outer);
+    result.z() = outer.dy;
+  } else {
+    outer.dx = inner_potential_.value(scaled.x(), scaled.y());
+    result.z() = scaled.z();
+  }
+  if (inner_is_flat) {
+    result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);
+  } else {
+    const double norm = inner_potential_.value(scaled.x(), scaled.y());
+    result.head<2>() = norm > 0 ? Eigen::Vector2d(scaled.head<2>() * (outer.dx / norm)) : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  }
+  const Vector3& sign_xy = inner_is_flat ? target : moved;
+  const Vector3& sign_z = outer_is_flat ? target : moved;
+  return Vector3(std::copysign(result.x(), sign_xy.x()), std::copysign(result.y(), sign_xy.y()),
+                 std::copysign(result.z(), sign_z.z()))
+      .cwiseQuotient(half_axes_);
+}
+
+SharpFeatures Superellipsoid::sharp_features() const {
+  const double a = half_axes_.x(), b = half_axes_.y(), c = half_axes_.z();
+  const double smallest = half_axes_.minCoeff();
+  SharpFeatures features;
+  features.radius = smallest * (smallest / half_axes_.maxCoeff()) * std::min(relative_radius(delta_), relative_radius(epsilon_));
+  features.roundness = smallest * std::min(relative_roundness(delta_), relative_roundness(epsilon_));
+  const bool is_box_in_xy = delta_ >= 2;
+  const bool is_prism = epsilon_ >= 2;
+  // The section in xy is a rectangle or a rhombus; along z it is swept (prism) or drawn to two apices (bipyramid).
+  if (is_prism) {
+    features.add_face(Vector3::UnitZ());
+    features.add_edge(Vector3::UnitZ());
+    for (const double sign : {1.0, -1.0}) {
+      features.add_face(is_box_in_xy ? Vector3(sign > 0, sign < 0, 0) : Vector3(b, sign * a, 0));
+      features.add_edge(is_box_in_xy ? Vector3(sign > 0, sign < 0, 0) : Vector3(a, sign * b, 0));
+    }
+    return features;
+  }
+  for (const double sign : {1.0, -1.0}) {
+    if (is_box_in_xy) {
+      features.add_face(Vector3(c, 0, sign * a));
+      features.add_face(Vector3(0, c, sign * b));
+      features.add_edge(Vector3(sign > 0, sign < 0, 0));
+      features.add_edge(Vector3(a, b, sign * c));
+      features.add_edge(Vector3(a, -b, sign * c));
+    } else {
+      features.add_face(Vector3(b * c, sign * a * c, a * b));
+      features.add_face(Vector3(b * c, sign * a * c, -a * b));
+      features.add_edge(Vector3(a, sign * b, 0));
+      features.add_edge(Vector3(a, 0, sign * c));
+      features.add_edge(Vector3(0, b, sign * c));
+    }
+  }
+  return features;
+}
+
+}  // namespace supernormal

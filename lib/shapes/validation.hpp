@@ -1,0 +1,39 @@
+// Refusal of parameters: the message names the parameter, its value and what is allowed.
+#pragma once
+
+#include <charconv>
+#include <stdexcept>
+#include <string>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+// Lengths between these keep every quantity that a shape delivers, up to the fifth power in its second moments, a normal number.
+constexpr double kMinLength = 1e-30;  // m
+constexpr double kMaxLength = 1e30;   // m
+
+/// The shortest decimal text that reads back as the same double.
+inline std::string to_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+/// Returns `value`, or throws std::invalid_argument, such as "radius = -1 m is outside [0, 1e+30] m", unless low <= value <= high;
+/// a NaN is outside. `unit` is "" for a number without one.
+inline double require_in(const char* name, double value, double low, double high, const char* unit = "") {
+  if (value >= low && value <= high) return value;  // false for NaN
+  const std::string tail = *unit == '\0' ? std::string() : std::string(" ") + unit;
+  throw std::invalid_argument(std::string(name) + " = " + to_text(value) + tail + " is outside [" + to_text(low) + ", " +
+                              to_text(high) + "]" + tail);
+}
+
+/// Returns the half-axes a, b, c; std::invalid_argument names the first one outside [kMinLength, kMaxLength].
+inline Vector3 require_half_axes(const Vector3& half_axes) {
+  const char* const names[] = {"half-axis a", "half-axis b", "half-axis c"};
+  for (int axis = 0; axis < 3; ++axis) require_in(names[axis], half_axes[axis], kMinLength, kMaxLength, "m");
+  return half_axes;
+}
+
+}  // namespace supernormal
