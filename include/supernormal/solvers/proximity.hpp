@@ -1,0 +1,48 @@
+// What a query of two bodies is asked and what it answers.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace supernormal {
+
+/// The ways to find the common normal (DESIGN section 2).
+enum class Solver {
+  Hybrid,      ///< globally convergent ascent of the gap function; the default
+  Newton,      ///< Algorithm I of the paper: analytic curvature, no safeguard; Hybrid for shapes without a Hessian
+  FixedPoint,  ///< Algorithm II of the paper: centres of curvature from secants, no derivatives, no safeguard
+};
+
+/// How a query ended.
+enum class Status {
+  Converged,        ///< the error bound is within the tolerance
+  Apart,            ///< stopped early, as asked: the bodies are separated by `gap` or more
+  Stalled,          ///< no further ascent in double precision although the error bound exceeds the tolerance
+  EvaluationLimit,  ///< Settings::max_evaluations reached
+  Diverged,         ///< an unguarded solver (Newton, fixed point) left the domain: singular system or coincident centres
+  InvalidInput,     ///< a pose or a shape gave a number that is not finite; the result holds no answer
+};
+
+/// When a solve is to stop. `tolerance` is relative to the smallest half-extent of the two bodies: a solve has converged when
+///     error <= tolerance * min(smallest half-extent of body 1, of body 2)
+/// (of the other body alone, when one is a point), but never asks for less than a few units of rounding of the terms of s.
+struct Settings {
+  Solver solver = Solver::Hybrid;
+  double tolerance = 1e-9;       ///< in [1e-15, 1]
+  int max_evaluations = 1000;    ///< in [1, 1000000]
+  bool stop_when_apart = false;  ///< end with Status::Apart at the first normal that proves separation
+};
+
+/// The common normal of two bodies. Points and the normal are in the frame that the query was asked in.
+struct Proximity {
+  double gap = 0;                                     ///< m; distance when positive, minus the penetration depth when negative
+  double error = 0;                                   ///< m; bound on |gap - the local maximum of the gap function|
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, from body 1 to body 2
+  Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
+  Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
+  Eigen::Vector3d contact =
+      Eigen::Vector3d::Zero();  ///< m; where a contact force acts: between the two points, nearer to the sharper body's
+  int evaluations = 0;          ///< of the gap function
+  Status status = Status::InvalidInput;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,19 @@
+// Queries of two bodies.
+#pragma once
+
+#include "supernormal/shapes/shape.hpp"
+#include "supernormal/solvers/pose.hpp"
+#include "supernormal/solvers/proximity.hpp"
+
+namespace supernormal {
+
+/// The gap, common normal and witness points of two bodies; the result is in the world frame.
+///
+/// `first_normal` (unit, in body 1's frame, or null) is where to start: the normal of an earlier, similar pose of the two bodies.
+/// It is a guess only: of bodies apart or touching it finds the same answer. Overlapping bodies may have several local maxima; the
+/// hybrid then follows the one that `first_normal` leads to, so that a contact is continuous in time, and without it looks for the
+/// highest. std::invalid_argument when the settings are out of range.
+SUPERNORMAL_API Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                         const Settings& settings = {}, const Vector3* first_normal = nullptr);
+
+}  // namespace supernormal

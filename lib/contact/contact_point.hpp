@@ -1,0 +1,14 @@
+// One point for a contact force between two bodies.
+#pragma once
+
+#include "supernormal/solvers/gap_function.hpp"
+
+namespace supernormal {
+
+/// The point halfway between the two tangent planes at which the contact acts, in body 1's frame. In the plane it is the mean of
+/// the witness points weighted by the other body's radius of curvature, (A1 + A2)^-1 (A2 p1 + A1 p2): on a flat face the boundary
+/// point of a normal is known to no digit, while the edge or corner that touches the face is exact (DESIGN section 3). Symmetric
+/// under swapping the bodies. The middle of the witness points where there is no curvature to weigh with.
+Vector3 contact_point(const GapFunction& gap, const GapJet& jet);
+
+}  // namespace supernormal

@@ -1,0 +1,150 @@
+#include "solvers/ascent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace supernormal {
+namespace {
+
+// First trust radius, the tangent of 45 degrees: the first guess is right to some ten degrees, the model rarely farther.
+constexpr double kFirstRadius = 1;
+constexpr double kMaxRadius = 4;
+
+// A trust radius below the spacing of double-precision directions: no normal is left to try.
+constexpr double kNoRadius = 1e-15;
+
+// Share of the promised gain that must come true for the trust region to grow, and below which it shrinks.
+constexpr double kGoodShare = 0.5;
+constexpr double kPoorShare = 0.1;
+
+// A step through the boundary point may leave the trust region of the step through the normal by this factor.
+constexpr double kFlatStepReach = 2;
+
+// Where s rises like a power of the distance from the maximum, however high, the gain to come is less than twice that of the
+// quadratic model.
+constexpr double kGainSafety = 2;
+
+// The gain to come is summed as a geometric series of the model's contraction; this is the slowest contraction that is believed,
+// and the one assumed before two steps have shown it.
+constexpr double kSlowestContraction = 0.95;
+
+// Steps longer than this (radians) reach to where the curvature may be another (two vertices of exponent 1.02 change theirs within
+// 1/50): the contraction is not believed.
+constexpr double kAsymptoticStep = 5e-3;
+
+/// Of the solutions u1, u2 that the two bodies propose, each counted by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2).
+Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
+  return (A1 + A2).solve(A1 * u1 + A2 * u2);
+}
+
+/// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal.
+bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
+  const double height = direction.dot(plane.n);
+  if (!(height > 0)) return false;
+  u = plane.project(direction) / height;
+  return true;
+}
+
+}  // namespace
+
+Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance)
+    : gap_(gap),
+      cuts_(cuts),
+      settings_(settings),
+      tolerance_(tolerance),
+      has_flat_faces_(gap.has_curvature() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())) {}
+
+Status Ascent::climb(const Vector3& start, double worth) {
+  radius_ = kFirstRadius;
+  promised_gain_ = 0;
+  evaluate(start, current_);
+  if (!gap_.has_curvature()) secant_.restart(current_);
+  Status status = Status::Converged;
+  while (true) {
+    const Step step = choose_step();
+    if (finished(worth, status)) return status;
+    evaluate(step.normal.normalized(), trial_);
+    if (!gap_.has_curvature()) secant_.update(current_, trial_);
+    const double actual_gain = trial_.s - current_.s;
+    adapt_radius(step, actual_gain);
+    if (actual_gain > 0) {
+      std::swap(current_, trial_);
+    } else {
+      promised_gain_ = 0;
+    }
+  }
+}
+
+bool Ascent::finished(double worth, Status& status) const {
+  if (!std::isfinite(current_.s)) {
+    status = Status::InvalidInput;
+  } else if (settings_.stop_when_apart && current_.s > 0) {
+    status = Status::Apart;
+  } else if (error_ <= tolerance_) {
+    status = Status::Converged;
+  } else if (gap_.evaluations() >= settings_.max_evaluations) {
+    status = Status::EvaluationLimit;
+  } else if (radius_ < kNoRadius || current_.s + error_ < worth) {
+    status = Status::Stalled;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+Ascent::Step Ascent::choose_step() {
+  const LocalModel local = gap_.has_curvature() ? LocalModel::of(gap_, current_) : LocalModel::of(gap_, current_, secant_.matrix());
+  const Vector2 newton = local.model.maximize(radius_);
+  const double newton_gain = std::max(local.model.gain(newton), 0.0);
+
+  // What the model says is still to come, and by how much it promised more the step before.
+  const double whole_gain = local.model.largest_gain();
+  const bool is_asymptotic = promised_gain_ > 0 && newton.norm() < kAsymptoticStep;
+  const double contraction = is_asymptotic ? std::min(whole_gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
+  promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
+  error_ = kGainSafety / (1 - contraction) * whole_gain;
+
+  Step step{current_.n + local.plane1.lift(newton), newton.norm(), newton_gain};
+  if (has_flat_faces_) flat_step(local, newton, step);
+  if (error_ > tolerance_ && ruled_out(step)) {
+    const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
+    step = {current_.n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current_.s, 0.0)};
+    // The cuts bound s over the whole plane where their maximum is not on the rim.
+    if (top.is_interior) error_ = std::min(error_, kGainSafety * step.gain);
+  }
+  return step;
+}
+
+void Ascent::flat_step(const LocalModel& local, const Vector2& newton, Step& step) {
+  Vector2 u1, u2;
+  if (!to_plane(local.plane1, gap_.shape1().advance_normal(current_.n, current_.jet1, local.plane1.lift(newton)), u1)) return;
+  if (!to_plane(local.plane2, -gap_.shape2().advance_normal(current_.m, current_.jet2, -local.plane2.lift(newton)), u2)) return;
+  Vector2 u = blend(local.A1, local.A2, u1, u2);
+  double rise = local.model.g.dot(u);
+  if (!u.allFinite() || !(rise > 0)) return;
+  // s is concave where it matters: it gains at most the slope times the step, however flat the face.
+  error_ = std::max(error_, rise);
+  const double shrink = std::min(1.0, kFlatStepReach * radius_ / u.norm());
+  u *= shrink;
+  step = {current_.n + local.plane1.lift(u), u.norm(), std::min(step.gain, shrink * rise)};
+}
+
+bool Ascent::ruled_out(const Step& step) const {
+  return cuts_.upper_bound(step.normal) <= (current_.s + kPoorShare * step.gain) * step.normal.norm();
+}
+
+void Ascent::evaluate(const Vector3& normal, GapJet& jet) {
+  gap_.evaluate(normal, gap_.has_curvature() ? Order::Curvature : Order::Point, jet);
+  cuts_.add(jet.d);
+}
+
+void Ascent::adapt_radius(const Step& step, double actual_gain) {
+  if (actual_gain > kGoodShare * step.gain) {
+    radius_ = std::min(std::max(radius_, 2 * step.length), kMaxRadius);
+  } else if (!(actual_gain > kPoorShare * step.gain)) {
+    radius_ = 0.5 * std::min(radius_, step.length);
+  }
+}
+
+}  // namespace supernormal

@@ -1,0 +1,22 @@
+#include "solvers/curvature.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace supernormal {
+
+void SecantCurvature::restart(const GapJet& jet) { H_ = Matrix3::Identity() * std::abs(jet.jet1.h + jet.jet2.h); }
+
+void SecantCurvature::update(const GapJet& from, const GapJet& to) {
+  const Vector3 dn = to.n - from.n;
+  const Vector3 change = from.d - to.d;  // H dn to first order
+  const Vector3 predicted = H_ * dn;
+  const double slope = change.dot(dn);
+  const double predicted_slope = predicted.dot(dn);
+  // Rounding can make a vanishing slope negative, or the update larger than the estimate is good for: skip it then.
+  const double least = std::numeric_limits<double>::epsilon() * std::abs(predicted_slope);
+  if (!(slope > least) || !(predicted_slope > 0)) return;
+  H_ += change * (change / slope).transpose() - predicted * (predicted / predicted_slope).transpose();
+}
+
+}  // namespace supernormal

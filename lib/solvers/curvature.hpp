@@ -1,0 +1,25 @@
+// The curvature of the gap function where the shapes have no Hessian.
+#pragma once
+
+#include "supernormal/solvers/gap_function.hpp"
+
+namespace supernormal {
+
+/// A positive semi-definite estimate of H1 + H2 from the gradients met on the way (BFGS). The boundary points of a convex body
+/// are a monotone function of the normal, so every update keeps it definite; the paper's fixed point (Algorithm II) estimates the
+/// same radii of curvature, in one direction.
+class SecantCurvature {
+ public:
+  /// Starts with the curvature of two spheres that have the support of the bodies at this normal, as Algorithm II does.
+  void restart(const GapJet& jet);
+
+  /// Learns from two evaluations.
+  void update(const GapJet& from, const GapJet& to);
+
+  const Matrix3& matrix() const { return H_; }
+
+ private:
+  Matrix3 H_ = Matrix3::Identity();
+};
+
+}  // namespace supernormal

@@ -1,0 +1,109 @@
+#include "solvers/cutting_planes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace supernormal {
+namespace {
+
+// Slopes are compared relative to the steepest cut: a ridge whose slope is below this share of it is level.
+constexpr double kLevelSlope = 1e-12;
+
+// Cuts whose values differ by less than this share of the largest value or slope meet at a point.
+constexpr double kTie = 1e-12;
+
+/// One cut over the tangent plane: value + slope.u
+struct Cut {
+  double value;
+  Vector2 slope;
+
+  double at(const Vector2& u) const { return value + slope.dot(u); }
+};
+
+/// The point of the segment a b nearest to the origin.
+Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
+  const Vector2 edge = b - a;
+  const double squared = edge.squaredNorm();
+  if (squared == 0) return a;
+  return a + std::clamp(-a.dot(edge) / squared, 0.0, 1.0) * edge;
+}
+
+using Cuts = std::array<Cut, CuttingPlanes::kCapacity>;
+
+/// Steepest ascent of the least of some cuts that are equal here: the element of least norm in the convex hull of their slopes,
+/// zero where their minimum has its maximum. It lies on a vertex or an edge of the hull, in front of which no slope lies, or the
+/// hull holds the origin.
+Vector2 steepest_ascent(const Cuts& cuts, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i; j < count; ++j) {
+      const Vector2 nearest = nearest_on_segment(cuts[i].slope, cuts[j].slope);
+      const double least = nearest.squaredNorm() * (1 - kTie);
+      const auto is_behind = [&](const Cut& cut) { return cut.slope.dot(nearest) >= least; };
+      if (std::all_of(cuts.begin(), cuts.begin() + count, is_behind)) return nearest;
+    }
+  }
+  return Vector2::Zero();
+}
+
+/// The distance to walk from u along the unit vector p until |u| = radius.
+double distance_to_circle(const Vector2& u, const Vector2& p, double radius) {
+  const double along = u.dot(p);
+  const double rest = std::max(0.0, radius * radius - u.squaredNorm());
+  return -along + std::sqrt(along * along + rest);
+}
+
+}  // namespace
+
+double CuttingPlanes::upper_bound(const Vector3& m) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < size(); ++k) least = std::min(least, m.dot(d_[static_cast<std::size_t>(k)]));
+  return least;
+}
+
+CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double radius) const {
+  Cuts cuts, met;
+  const auto count = static_cast<std::size_t>(size());
+  double steepest = 0;
+  double scale = 0;
+  Maximum best{Vector2::Zero(), std::numeric_limits<double>::infinity(), false};
+  for (std::size_t k = 0; k < count; ++k) {
+    cuts[k] = {plane.n.dot(d_[k]), plane.project(d_[k])};
+    best.value = std::min(best.value, cuts[k].value);
+    steepest = std::max(steepest, cuts[k].slope.norm());
+    scale = std::max(scale, std::abs(cuts[k].value));
+  }
+  scale = std::max(scale, steepest);
+  for (std::size_t step = 0; step < 2 * count; ++step) {
+    std::size_t met_count = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (cuts[k].at(best.u) <= best.value + kTie * scale) met[met_count++] = cuts[k];
+    }
+    const Vector2 ascent = steepest_ascent(met, met_count);
+    const double slope = ascent.norm();
+    if (slope <= kLevelSlope * steepest) {
+      best.is_interior = true;
+      break;
+    }
+    // Walk up until another cut becomes the lowest, or to the rim.
+    const Vector2 p = ascent / slope;
+    double distance = distance_to_circle(best.u, p, radius);
+    bool reaches_rim = true;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double value = cuts[k].at(best.u);
+      const double closing = slope - cuts[k].slope.dot(p);
+      if (value <= best.value + kTie * scale || closing <= 0) continue;
+      const double reach = (value - best.value) / closing;
+      if (reach < distance) {
+        distance = reach;
+        reaches_rim = false;
+      }
+    }
+    best.u += distance * p;
+    best.value += distance * slope;
+    if (reaches_rim) break;
+  }
+  return best;
+}
+
+}  // namespace supernormal

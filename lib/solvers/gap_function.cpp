@@ -1,0 +1,51 @@
+#include "supernormal/solvers/gap_function.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace supernormal {
+namespace {
+
+// Rounding of s in units of the last place of its terms: each support function is good to a few, their sum adds a few.
+constexpr double kRoundingUnits = 8;
+
+double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_extents2) {
+  const double smallest1 = half_extents1.minCoeff();
+  const double smallest2 = half_extents2.minCoeff();
+  if (smallest1 == 0) return smallest2;
+  return smallest2 == 0 ? smallest1 : std::min(smallest1, smallest2);
+}
+
+}  // namespace
+
+GapFunction::GapFunction(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2)
+    : shape1_(&shape1),
+      shape2_(&shape2),
+      offset_(pose1.rotation.transpose() * (pose2.position - pose1.position)),
+      rotation_(pose1.rotation.transpose() * pose2.rotation),
+      has_curvature_(shape1.has_curvature() && shape2.has_curvature()) {
+  const Vector3 half1 = shape1.half_extents();
+  const Vector3 half2 = shape2.half_extents();
+  length_unit_ = smallest_half_extent(half1, half2);
+  rounding_ = kRoundingUnits * std::numeric_limits<double>::epsilon() * (offset_.norm() + half1.maxCoeff() + half2.maxCoeff());
+}
+
+void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
+  ++evaluations_;
+  jet.n = n;
+  jet.m.noalias() = -(rotation_.transpose() * n);
+  shape1_->evaluate(n, order, jet.jet1);
+  shape2_->evaluate(jet.m, order, jet.jet2);
+  jet.s = n.dot(offset_) - jet.jet1.h - jet.jet2.h;
+  if (order == Order::Value) return;
+  jet.d.noalias() = rotation_ * jet.jet2.r;
+  jet.d += offset_ - jet.jet1.r;
+  if (order == Order::Point) return;
+  jet.H.noalias() = rotation_ * jet.jet2.H * rotation_.transpose();
+  jet.H += jet.jet1.H;
+}
+
+bool GapFunction::is_finite() const { return offset_.allFinite() && rotation_.allFinite() && std::isfinite(length_unit_); }
+
+}  // namespace supernormal

@@ -1,0 +1,52 @@
+#include "contact/contact_point.hpp"
+#include "solvers/answer.hpp"
+#include "solvers/ascent.hpp"
+#include "solvers/first_guess.hpp"
+#include "solvers/global_search.hpp"
+#include "solvers/solvers.hpp"
+
+namespace supernormal {
+
+namespace {
+
+// A branch is followed without a look at others down to this depth, in units of the pair's length: between two steps of a
+// simulation that does not let bodies sink into one another, no other branch can become much better.
+constexpr double kUnquestionedDepth = 0.02;
+
+/// Whether a higher maximum than `best` is to be looked for.
+bool is_worth_searching(GapFunction& gap, CuttingPlanes& cuts, Branch branch, const GapJet& best, const SharpFeatures& features1,
+                        const SharpFeatures& features2) {
+  if (!may_have_other_maxima(features1, features2, -best.s)) return false;
+  if (branch == Branch::Highest) return true;
+  if (-best.s <= kUnquestionedDepth * gap.length_unit()) return false;
+  GapJet elsewhere;
+  gap.evaluate(first_guess(gap), Order::Point, elsewhere);
+  cuts.add(elsewhere.d);
+  return elsewhere.s > best.s;
+}
+
+}  // namespace
+
+// Steps: climb from the start; if the bodies overlap so deeply against their sharpest edges that there may be other maxima, look
+// for a higher one, but leave the branch of an earlier pose only when it has stopped being the best.
+Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
+  const double tolerance = absolute_tolerance(gap, settings);
+  CuttingPlanes cuts;
+  Ascent ascent(gap, cuts, settings, tolerance);
+  Status status = ascent.climb(start);
+  GapJet best = ascent.best();
+  double error = ascent.error();
+  // A maximum that is not negative is the only one: s is concave on the cone where it is positive.
+  if (best.s < -tolerance) {
+    const SharpFeatures features1 = gap.shape1().sharp_features();
+    const SharpFeatures features2 = gap.shape2().sharp_features();
+    if (is_worth_searching(gap, cuts, branch, best, features1, features2)) {
+      status = GlobalSearch(gap, cuts, ascent, settings).improve(features1, features2, status, best, error);
+    }
+  }
+  Proximity out = answer(gap, best, error, status);
+  out.contact = contact_point(gap, best);
+  return out;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,54 @@
+#include "supernormal/solvers/solve.hpp"
+
+#include <cmath>
+
+#include "shapes/validation.hpp"
+#include "solvers/first_guess.hpp"
+#include "solvers/solvers.hpp"
+
+namespace supernormal {
+namespace {
+
+constexpr double kMinTolerance = 1e-15;
+constexpr double kMaxTolerance = 1;
+constexpr double kMaxEvaluations = 1e6;
+
+void check(const Settings& settings) {
+  require_in("tolerance", settings.tolerance, kMinTolerance, kMaxTolerance);
+  require_in("max_evaluations", settings.max_evaluations, 1, kMaxEvaluations);
+}
+
+Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
+  switch (settings.solver) {
+    case Solver::Newton:
+      if (gap.has_curvature()) return solve_newton(gap, settings, start);
+      break;
+    case Solver::FixedPoint:
+      return solve_fixed_point(gap, settings, start);
+    case Solver::Hybrid:
+      break;
+  }
+  return solve_hybrid(gap, settings, start, branch);
+}
+
+bool is_usable(const Vector3& normal) { return std::abs(normal.squaredNorm() - 1) < 1e-6; }
+
+}  // namespace
+
+Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
+                         const Vector3* first_normal) {
+  check(settings);
+  GapFunction gap(shape1, pose1, shape2, pose2);
+  if (!gap.is_finite()) return {};
+  const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
+  Proximity out = is_warm ? solve(gap, settings, first_normal->normalized(), Branch::OfStart)
+                          : solve(gap, settings, first_guess(gap), Branch::Highest);
+  if (!std::isfinite(out.gap) || !out.normal.allFinite() || !out.point1.allFinite() || !out.point2.allFinite()) return {};
+  out.normal = (pose1.rotation * out.normal).normalized();
+  out.point1 = pose1.rotation * out.point1 + pose1.position;
+  out.point2 = pose1.rotation * out.point2 + pose1.position;
+  out.contact = pose1.rotation * out.contact + pose1.position;
+  return out;
+}
+
+}  // namespace supernormal

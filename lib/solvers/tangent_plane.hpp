@@ -1,0 +1,76 @@
+// Vectors and symmetric matrices in the plane perpendicular to a normal.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace supernormal {
+
+using Vector2 = Eigen::Vector2d;
+
+/// An orthonormal basis t1, t2 of the plane perpendicular to a unit normal. A direction near n is given by gnomonic coordinates u:
+/// it is the direction of n + u1 t1 + u2 t2, so that |u| is the tangent of the angle.
+struct TangentPlane {
+  Eigen::Vector3d n, t1, t2;
+
+  /// t1 is the projection of `direction`, which must not be parallel to the normal.
+  TangentPlane(const Eigen::Vector3d& normal, const Eigen::Vector3d& direction) : n(normal) {
+    t1 = (direction - n.dot(direction) * n).normalized();
+    t2 = n.cross(t1);
+  }
+
+  /// The same plane in another frame, x' = R x.
+  TangentPlane rotated(const Eigen::Matrix3d& R) const { return TangentPlane(R * n, R * t1, R * t2); }
+
+  Vector2 project(const Eigen::Vector3d& v) const { return {t1.dot(v), t2.dot(v)}; }
+  Eigen::Vector3d lift(const Vector2& u) const { return u.x() * t1 + u.y() * t2; }
+
+ private:
+  TangentPlane(const Eigen::Vector3d& normal, const Eigen::Vector3d& first, const Eigen::Vector3d& second)
+      : n(normal), t1(first), t2(second) {}
+};
+
+/// A symmetric matrix [xx xy; xy yy].
+struct Symmetric2 {
+  double xx = 0, xy = 0, yy = 0;
+
+  static Symmetric2 project(const TangentPlane& plane, const Eigen::Matrix3d& H) {
+    const Eigen::Vector3d H1 = H * plane.t1;
+    return {plane.t1.dot(H1), plane.t2.dot(H1), plane.t2.dot(H * plane.t2)};
+  }
+
+  Vector2 operator*(const Vector2& u) const { return {xx * u.x() + xy * u.y(), xy * u.x() + yy * u.y()}; }
+  Symmetric2 operator+(const Symmetric2& o) const { return {xx + o.xx, xy + o.xy, yy + o.yy}; }
+  Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
+
+  /// The vector that this matrix maps to b; not finite when it is singular. Scaled first, since radii of curvature go up to 1e120.
+  Vector2 solve(const Vector2& b) const {
+    const double scale = 1 / (std::abs(xx) + std::abs(yy));
+    const double sxx = xx * scale, sxy = xy * scale, syy = yy * scale;
+    const Vector2 sb = b * scale;
+    return Vector2(syy * sb.x() - sxy * sb.y(), sxx * sb.y() - sxy * sb.x()) / (sxx * syy - sxy * sxy);
+  }
+};
+
+/// Eigenvalues and vectors of a symmetric 2 x 2 matrix, low <= high.
+struct Eigen2 {
+  double low, high;
+  Vector2 low_vector, high_vector;
+
+  explicit Eigen2(const Symmetric2& A) {
+    const double mean = 0.5 * (A.xx + A.yy);
+    const double half_difference = 0.5 * (A.xx - A.yy);
+    const double radius = std::hypot(half_difference, A.xy);
+    high = mean + radius;
+    // Where one radius of curvature is huge the difference would leave nothing of the small one; the determinant does.
+    low = high > 0 ? A.xx * (A.yy / high) - A.xy * (A.xy / high) : mean - radius;
+    // Of the two ways to write the eigenvector take the one without cancellation.
+    const Vector2 v = half_difference >= 0 ? Vector2(radius + half_difference, A.xy) : Vector2(A.xy, radius - half_difference);
+    const double length = v.norm();
+    high_vector = length > 0 ? Vector2(v / length) : Vector2(1, 0);
+    low_vector = Vector2(-high_vector.y(), high_vector.x());
+  }
+};
+
+}  // namespace supernormal

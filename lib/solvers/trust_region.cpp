@@ -1,0 +1,58 @@
+#include "solvers/trust_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace supernormal {
+namespace {
+
+// A step to the rim may be this share of the radius off it: it is only a trial.
+constexpr double kRimTolerance = 1e-2;
+constexpr int kMaxSecularSteps = 20;  // Newton on the secular equation takes two to four
+
+}  // namespace
+
+double QuadraticModel::largest_gain() const {
+  const Eigen2 e(A);
+  if (!(e.low > 0)) return std::numeric_limits<double>::infinity();
+  const double low = e.low_vector.dot(g);
+  const double high = e.high_vector.dot(g);
+  return 0.5 * (low * (low / e.low) + high * (high / e.high));
+}
+
+Vector2 QuadraticModel::maximize(double radius) const {
+  const Eigen2 e(A);
+  const double low = e.low_vector.dot(g);
+  const double high = e.high_vector.dot(g);
+  const double slope = std::hypot(low, high);
+  // On a saddle the slope vanishes but the way along the negative eigenvector leads up.
+  if (slope == 0) return e.low < 0 ? Vector2(radius * e.low_vector) : Vector2(Vector2::Zero());
+  if (e.low > 0) {
+    const Vector2 newton(low / e.low, high / e.high);
+    if (newton.norm() <= radius) return newton.x() * e.low_vector + newton.y() * e.high_vector;
+  }
+  // |(A + shift I)^-1 g| = radius, for a shift that makes A + shift I positive definite; bracketed Newton on 1/|u|.
+  const double floor = std::max(0.0, -e.low);
+  double above = floor + slope / radius;
+  double below = std::max(floor, slope / radius - e.high);
+  double shift = std::max(below, floor + 1e-12 * slope / radius);
+  Vector2 u;
+  for (int step = 0; step < kMaxSecularSteps; ++step) {
+    const double low_sum = e.low + shift;
+    const double high_sum = e.high + shift;
+    u = Vector2(low / low_sum, high / high_sum);
+    const double length = u.norm();
+    if (std::abs(length - radius) <= kRimTolerance * radius) break;
+    (length > radius ? below : above) = shift;
+    const double fall = (u.x() * (u.x() / low_sum) + u.y() * (u.y() / high_sum)) / length;
+    double next = shift + (length / radius) * (length - radius) / fall;
+    if (!(next > below && next < above)) next = 0.5 * (below + above);
+    shift = next;
+  }
+  const double length = u.norm();
+  if (length > radius) u *= radius / length;
+  return u.x() * e.low_vector + u.y() * e.high_vector;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,23 @@
+// The quadratic model of an ascent and its maximum within a disc.
+#pragma once
+
+#include "solvers/tangent_plane.hpp"
+
+namespace supernormal {
+
+/// gain(u) = g.u - 1/2 u.A u, the second-order change of s over the tangent plane.
+struct QuadraticModel {
+  Vector2 g;     // m
+  Symmetric2 A;  // m
+
+  double gain(const Vector2& u) const { return g.dot(u) - 0.5 * u.dot(A * u); }
+
+  /// The largest gain over the whole plane; infinite unless A is positive definite.
+  double largest_gain() const;
+
+  /// The maximum over |u| <= radius: the Newton step if it fits, otherwise on the rim (More and Sorensen 1983, in the
+  /// eigenvectors of A).
+  Vector2 maximize(double radius) const;
+};
+
+}  // namespace supernormal
