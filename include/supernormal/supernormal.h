@@ -1,0 +1,132 @@
+/* Supernormal: smooth convex bodies for the Open Dynamics Engine. The C interface.
+ *
+ * Lengths in metres (or whatever unit the ODE world uses, consistently), directions as unit vectors. A body is an ordinary
+ * placeable dGeomID: dGeomSetBody, dGeomSetOffset…, dSpaceAdd, dCollide and dGeomDestroy work as for the built-in classes.
+ * The library may be used from several threads wherever ODE itself may; see README, "Threads".
+ */
+#ifndef SUPERNORMAL_SUPERNORMAL_H
+#define SUPERNORMAL_SUPERNORMAL_H
+
+#include <ode/ode.h>
+
+#include "supernormal/export.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- the library ------------------------------------------------------------------------------------------------------- */
+
+/* Takes a reference on ODE (dInitODE2) and registers the geometry class. Optional: every snCreate… does it; any thread may. Returns
+ * 1 on success; 0 when ODE cannot be initialised, has another precision than this library, or has none of its four user classes
+ * free (see snLastError). Other clients' balanced dInitODE2 and dCloseODE leave the class alone. */
+SUPERNORMAL_API int snInit(void);
+
+/* Gives the reference back; however often snInit was called. Destroy the geoms first: while one of ours is alive nothing happens
+ * but snLastError. A later snCreate… or snInit starts afresh. */
+SUPERNORMAL_API void snClose(void);
+
+/* The class number of all our geoms, as dGeomGetClass returns it; -1 before the first snInit or snCreate… */
+SUPERNORMAL_API int snGeomClass(void);
+
+/* Why the last refused call of this thread was refused: the parameter, its value and the valid range. "" if none was. */
+SUPERNORMAL_API const char* snLastError(void);
+
+/* --- bodies ------------------------------------------------------------------------------------------------------------ */
+/* Every create call adds the geom to `space` unless that is 0, and refuses bad parameters: it then returns 0 and sets
+ * snLastError. As with ODE's own geoms, create, set and destroy are not for near callbacks: ODE aborts when the space is locked.
+ *
+ * dCollide knows our geoms among themselves, with dPlane and with dSphere; inside spaces and dGeomTransform as everywhere. With the
+ * other classes of ODE it finds no contacts, and snLastError says so. With a user class of another program it asks that class. */
+
+/* (x/a)^2 + (y/b)^2 + (z/c)^2 = 1 with half-axes a, b, c in [1e-30, 1e30]. */
+SUPERNORMAL_API dGeomID snCreateEllipsoid(dSpaceID space, dReal a, dReal b, dReal c);
+
+/* (|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 with half-axes in [1e-30, 1e30], exponents in [1.01, 1000]. */
+SUPERNORMAL_API dGeomID snCreateSuperellipsoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
+
+/* A body that the program itself describes, by its support function and the boundary point of a normal. Directions are unit
+ * vectors in the body's frame. The callbacks must be pure; they are called from whatever thread collides. */
+typedef struct snShape {
+  dReal (*support)(const void* user, const dReal direction[3]);                  /* h(n), m */
+  void (*point)(const void* user, const dReal direction[3], dReal point[3]);     /* r(n), m */
+  void (*hessian)(const void* user, const dReal direction[3], dReal hessian[9]); /* m, row-major; may be NULL */
+  void* user;
+  void (*release)(void* user); /* called when the geom dies; may be NULL; not called when the create call refuses */
+} snShape;
+
+/* The callbacks are tried in 26 directions: results must be finite, with point(n).n = support(n) to 1e-6 of the size and
+ * support(n) + support(-n) > 0. */
+SUPERNORMAL_API dGeomID snCreateConvex(dSpaceID space, const snShape* shape);
+
+/* Set and get refuse (return 0, set snLastError) when the geom is not an ellipsoid or superellipsoid. Set keeps the rounding;
+ * on a refusal the geom stays as it was. */
+SUPERNORMAL_API int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
+SUPERNORMAL_API int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon);
+
+/* Sweeps the body by a sphere of `radius` in [0, 1e30]: the body grows by it and its edges become round. Replaces an earlier
+ * rounding; 0 takes it away. */
+SUPERNORMAL_API int snGeomSetRounding(dGeomID geom, dReal radius);
+
+/* --- questions about one body ------------------------------------------------------------------------------------------ */
+
+/* Distance of a point in world coordinates from the boundary, m, to the tolerance of the geom's solver settings: positive inside, 0
+ * on it, negative outside. NaN (and snLastError) when the point is not finite or the geom is not ours. */
+SUPERNORMAL_API dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z);
+
+/* The boundary point whose outward normal is `direction` (world frame, any length but 0); `point` in world coordinates. */
+SUPERNORMAL_API int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 point);
+
+/* Mass, centre of mass and inertia of the homogeneous body, in the geom's frame: exact for ellipsoids and superellipsoids,
+ * quadrature to 1e-9 with rounding or for a smooth user-defined body. density and total_mass in (0, inf). A user-defined body
+ * whose centre of mass is not its origin needs dMassTranslate and a geom offset before dBodySetMass, as ever in ODE. */
+SUPERNORMAL_API int snMassSet(dMass* mass, dReal density, dGeomID geom);
+SUPERNORMAL_API int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom);
+
+/* --- solver settings --------------------------------------------------------------------------------------------------- */
+
+typedef enum { SN_SOLVER_HYBRID, SN_SOLVER_NEWTON, SN_SOLVER_FIXED_POINT } snSolver;
+
+/* tolerance: the largest error of the gap that a query may leave, relative to the smallest half-extent of the two bodies, in
+ * [1e-15, 1]; default 1e-9. max_evaluations: of the gap function, in [1, 1000000]; default 1000. A pair uses the tighter
+ * tolerance and the larger limit of its two geoms, and the hybrid solver unless both ask for the same other one. */
+SUPERNORMAL_API int snGeomSetSolver(dGeomID geom, snSolver solver, dReal tolerance, int max_evaluations);
+
+/* For the geoms created from now on, in every thread. */
+SUPERNORMAL_API int snSetDefaultSolver(snSolver solver, dReal tolerance, int max_evaluations);
+
+/* Start each pair from its last normal in this thread (default on). Off: results are a pure function of the two poses. On: the same
+ * scene, built and run in the same order by one thread, gives the same digits in every run. */
+SUPERNORMAL_API void snSetWarmStart(int on);
+
+/* --- questions about two bodies ---------------------------------------------------------------------------------------- */
+
+typedef struct snProximity {
+  dReal gap;               /* m; < 0: overlap depth = -gap */
+  dReal error;             /* m; bound on |gap - local maximum of s|; 0 for closed forms */
+  dVector3 normal;         /* unit, from g1 to g2, world frame */
+  dVector3 point1, point2; /* m, world frame, on the two boundaries */
+  int evaluations;         /* of the gap function; 0 for closed forms */
+  int converged;           /* 1: the error is within the tolerance */
+} snProximity;
+
+/* Signed distance of two geoms, apart or overlapping; at least one is ours, the other ours, a dPlane or a dSphere. Returns 1;
+ * 0 (and snLastError) when the pair is not supported. */
+SUPERNORMAL_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
+
+/* Of this thread since the last reset: what the colliders and snGeomProximity did. */
+typedef struct snStatistics {
+  unsigned long long queries_cold, queries_warm;         /* pairs of two bodies solved without and with a remembered normal */
+  unsigned long long evaluations_cold, evaluations_warm; /* of the gap function, in those queries */
+  unsigned long long closed_forms;                       /* pairs settled without iteration, such as body and plane */
+  unsigned long long contacts;                           /* emitted */
+  unsigned long long not_converged;                      /* queries whose error bound exceeds the tolerance */
+} snStatistics;
+SUPERNORMAL_API void snGetStatistics(snStatistics* out);
+SUPERNORMAL_API void snResetStatistics(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,17 @@
+// ODE's table of user classes: taking a slot of it, and finding out whether ours is still ours.
+#pragma once
+
+#include <ode/ode.h>
+
+namespace supernormal::ode {
+
+/// dCreateGeomClass, but -1 instead of abort() when the process has no slot left. ODE must be initialised.
+int take_class_slot(const dGeomClass& geom_class);
+
+/// Leaves a mark in ODE that vanishes when ODE is closed for good, by its last dCloseODE, and with it all user classes.
+void mark_class_table();
+
+/// Whether the mark is still there: the classes registered before it are still registered.
+bool class_table_is_marked();
+
+}  // namespace supernormal::ode

@@ -1,0 +1,39 @@
+#include "ode/contact.hpp"
+
+#include <cmath>
+
+#include "ode/convert.hpp"
+#include "ode/statistics.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+constexpr int kContactLimitBits = 0xffff;
+
+// ODE's assertions abort on a normal that is not a unit vector or not a number, so nothing gets past this on trust.
+bool is_contact(const Proximity& proximity) {
+  if (proximity.status == Status::Apart || proximity.status == Status::InvalidInput) return false;
+  const bool overlap = proximity.gap <= 0 && std::isfinite(proximity.gap);
+  const bool unit_normal = std::abs(proximity.normal.squaredNorm() - 1) < 1e-6;
+  return overlap && unit_normal && proximity.contact.allFinite();
+}
+
+}  // namespace
+
+int write_contacts(const Proximity& proximity, const ContactArray& out) {
+  const int room = out.flags & kContactLimitBits;
+  if (room < 1 || !is_contact(proximity)) return 0;
+  dContactGeom& contact = *out.first;
+  from_vector(proximity.contact, contact.pos);
+  from_vector(-proximity.normal.normalized(), contact.normal);
+  contact.depth = static_cast<dReal>(-proximity.gap);
+  if (contact.depth == 0) contact.depth = 0;  // not -0
+  contact.g1 = out.o1;
+  contact.g2 = out.o2;
+  contact.side1 = -1;
+  contact.side2 = -1;
+  count_contact();
+  return 1;
+}
+
+}  // namespace supernormal::ode

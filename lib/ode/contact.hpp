@@ -1,0 +1,26 @@
+// From the answer of a query to dContactGeoms.
+#pragma once
+
+#include <ode/ode.h>
+
+#include "supernormal/shapes/shape.hpp"
+#include "supernormal/solvers/proximity.hpp"
+
+namespace supernormal::ode {
+
+/// What dCollide wants to have filled.
+struct ContactArray {
+  dGeomID o1, o2;  ///< as the collider got them
+  int flags;       ///< low 16 bits: room for so many contacts
+  dContactGeom* first;
+  int skip;  ///< bytes from one contact to the next
+};
+
+/// Writes one contact if the geoms touch or overlap, and returns how many were written. This is the one place where
+/// the normal changes from the core's direction (o1 to o2) to ODE's (into o1).
+///
+/// A query that ended without convergence gives a contact as well: whatever its normal n, moving the bodies apart by -s(n) along n
+/// does separate them, so that the depth errs on the safe side, and no contact at all would let them fall through each other.
+int write_contacts(const Proximity& proximity, const ContactArray& out);
+
+}  // namespace supernormal::ode

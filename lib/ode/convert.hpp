@@ -1,0 +1,31 @@
+// Between ODE's types and the core's: dReal may be float, the core is double throughout.
+#pragma once
+
+#include <ode/ode.h>
+
+#include "supernormal/shapes/shape.hpp"
+#include "supernormal/solvers/pose.hpp"
+
+namespace supernormal::ode {
+
+inline Vector3 to_vector(const dReal* v) { return Vector3(v[0], v[1], v[2]); }
+
+/// Writes the three coordinates; a fourth one (dVector3 has it) is left alone.
+inline void from_vector(const Vector3& v, dReal* out) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<dReal>(v[i]);
+}
+
+/// Row-major rows of four, as ODE keeps rotations.
+inline Matrix3 to_rotation(const dReal* R) {
+  Matrix3 rotation;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation(row, column) = R[4 * row + column];
+  }
+  return rotation;
+}
+
+/// Where a placeable geom is now. Asked anew in every call: inside a dGeomTransform ODE swaps the pose for the time of the call.
+/// The rotation is taken as it is; ODE keeps it orthonormal to rounding.
+inline Pose pose_of(dGeomID geom) { return {to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))}; }
+
+}  // namespace supernormal::ode

@@ -1,0 +1,57 @@
+// snGeomProximity.
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "ode/body.hpp"
+#include "ode/convert.hpp"
+#include "ode/last_error.hpp"
+#include "ode/partner.hpp"
+#include "ode/require.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+// The core's answer for two geoms, ours first.
+Proximity query(dGeomID ours, dGeomID partner) {
+  PairQuery* const pair_query = find_query(dGeomGetClass(partner));
+  if (pair_query == nullptr) {
+    throw std::invalid_argument("the partner is " + geom_class_name(partner) +
+                                ", but must be a body made by snCreate…, a dPlane or a dSphere");
+  }
+  Proximity result = pair_query(ours, partner, Goal::Distance);
+  if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {
+    throw std::invalid_argument("the pose of a geom, or what a user-defined body returned, is not finite");
+  }
+  return result;
+}
+
+void write(const Proximity& proximity, bool swapped, snProximity& out) {
+  out.gap = static_cast<dReal>(proximity.gap);
+  out.error = static_cast<dReal>(proximity.error);
+  from_vector(swapped ? Vector3(-proximity.normal) : proximity.normal, out.normal);
+  from_vector(swapped ? proximity.point2 : proximity.point1, out.point1);
+  from_vector(swapped ? proximity.point1 : proximity.point2, out.point2);
+  out.normal[3] = out.point1[3] = out.point2[3] = 0;
+  out.evaluations = proximity.evaluations;
+  out.converged = proximity.status == Status::Converged ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace supernormal::ode
+
+using namespace supernormal::ode;
+
+extern "C" int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out) {
+  return guarded("snGeomProximity", 0, [&] {
+    require_not_null("g1", g1);
+    require_not_null("g2", g2);
+    require_not_null("out", out);
+    if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
+    const bool swapped = find_body(g1) == nullptr;
+    write(swapped ? query(g2, g1) : query(g1, g2), swapped, *out);
+    return 1;
+  });
+}

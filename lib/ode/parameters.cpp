@@ -1,0 +1,55 @@
+// Reading and changing what a geom is.
+#include <stdexcept>
+
+#include "ode/body.hpp"
+#include "ode/last_error.hpp"
+#include "ode/require.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+const SuperellipsoidParameters& require_superellipsoid(const Body& body) {
+  if (body.superellipsoid() != nullptr) return *body.superellipsoid();
+  throw std::invalid_argument("geom is a user-defined body, but must be an ellipsoid or a superellipsoid");
+}
+
+}  // namespace
+}  // namespace supernormal::ode
+
+using namespace supernormal::ode;
+
+extern "C" int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon) {
+  return guarded("snGeomSuperellipsoidSetParams", 0, [&] {
+    Body& body = require_body(geom);
+    require_superellipsoid(body);
+    body.set_superellipsoid({{a, b, c}, delta, epsilon});
+    dGeomMoved(geom);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon) {
+  return guarded("snGeomSuperellipsoidGetParams", 0, [&] {
+    const SuperellipsoidParameters& parameters = require_superellipsoid(require_body(geom));
+    require_not_null("a", a);
+    require_not_null("b", b);
+    require_not_null("c", c);
+    require_not_null("delta", delta);
+    require_not_null("epsilon", epsilon);
+    *a = static_cast<dReal>(parameters.half_axes.x());
+    *b = static_cast<dReal>(parameters.half_axes.y());
+    *c = static_cast<dReal>(parameters.half_axes.z());
+    *delta = static_cast<dReal>(parameters.delta);
+    *epsilon = static_cast<dReal>(parameters.epsilon);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSetRounding(dGeomID geom, dReal radius) {
+  return guarded("snGeomSetRounding", 0, [&] {
+    require_body(geom).set_rounding(radius);
+    dGeomMoved(geom);
+    return 1;
+  });
+}

@@ -1,0 +1,39 @@
+// The kinds of geom that ours can meet. One file each: partner_body.cpp (our own), partner_plane.cpp, partner_sphere.cpp.
+// A new partner is such a file with two functions, and a line in the table of partner.cpp.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <string>
+
+#include "ode/solver_settings.hpp"
+#include "supernormal/solvers/proximity.hpp"
+
+namespace supernormal::ode {
+
+/// The proximity of a geom of ours and a partner, in the world frame, the normal from ours to the partner. Counts itself in the
+/// statistics. Throws what the core throws.
+using PairQuery = Proximity(dGeomID ours, dGeomID partner, Goal goal);
+
+PairQuery query_body;  // ours and ours
+PairQuery query_plane;
+PairQuery query_sphere;
+
+/// dColliderFn for a geom of ours and a partner, in this order: ODE turns the contacts around when it was asked the other way.
+dColliderFn collide_with_body;
+dColliderFn collide_with_plane;
+dColliderFn collide_with_sphere;
+
+/// dGetColliderFnFn of our class: 0 for classes that we know nothing about; ODE then asks the other class, if it is a user's.
+dColliderFn* find_collider(int partner_class);
+
+/// Null when partners of that class are not supported.
+PairQuery* find_query(int partner_class);
+
+/// Enters our colliders for all of ODE's own classes, and for ourselves, into ODE's table.
+void set_colliders(int our_class);
+
+/// "a dBox", "a body of this library", …: for messages.
+std::string geom_class_name(dGeomID geom);
+
+}  // namespace supernormal::ode

