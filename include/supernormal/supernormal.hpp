@@ -8,6 +8,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
+#include "supernormal/solvers/plane.hpp"
 #include "supernormal/solvers/pose.hpp"
 #include "supernormal/solvers/proximity.hpp"
 #include "supernormal/solvers/solve.hpp"

@@ -6,9 +6,10 @@
 namespace supernormal {
 
 /// The point halfway between the two tangent planes at which the contact acts, in body 1's frame. In the plane it is the mean of
-/// the witness points weighted by the other body's radius of curvature, (A1 + A2)^-1 (A2 p1 + A1 p2): on a flat face the boundary
-/// point of a normal is known to no digit, while the edge or corner that touches the face is exact (DESIGN section 3). Symmetric
-/// under swapping the bodies. The middle of the witness points where there is no curvature to weigh with.
+/// the witness points weighted by the other body's radius of curvature, p1 + A1 (A1 + A2)^-1 (p2 - p1): on a flat face the boundary
+/// point of a normal is known to no digit, while the edge or corner that touches the face is exact (DESIGN section 3). It is where
+/// the points meet when the normal turns: to first order it does not depend on the error of the normal. Symmetric under swapping
+/// the bodies. The middle of the witness points where there is no curvature to weigh with.
 Vector3 contact_point(const GapFunction& gap, const GapJet& jet);
 
 }  // namespace supernormal

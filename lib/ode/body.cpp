@@ -25,7 +25,11 @@ std::shared_ptr<const Shape> make_superellipsoid(const SuperellipsoidParameters&
 }  // namespace
 
 Body::Body(std::shared_ptr<const Shape> core)
-    : core_(std::move(core)), shape_(core_), settings_(default_settings()), serial_(++last_serial) {}
+    : core_(std::move(core)),
+      shape_(core_),
+      size_(shape_->half_extents().minCoeff()),
+      settings_(default_settings()),
+      serial_(++last_serial) {}
 
 Body::Body(const SuperellipsoidParameters& parameters) : Body(make_superellipsoid(parameters)) { superellipsoid_ = parameters; }
 
@@ -43,6 +47,7 @@ void Body::set_rounding(double radius) { set_shape(core_, radius); }
 void Body::set_shape(std::shared_ptr<const Shape> core, double rounding) {
   std::shared_ptr<const Shape> shape = core;
   if (rounding != 0) shape = std::make_shared<Rounded>(core, rounding);  // which refuses what is no radius
+  size_ = shape->half_extents().minCoeff();  // may throw, when it asks a user's callbacks: before anything else changes
   core_ = std::move(core);
   shape_ = std::move(shape);
   rounding_ = rounding;

@@ -33,6 +33,9 @@ class Body {
   /// With its rounding.
   const Shape& shape() const { return *shape_; }
 
+  /// The smallest half-extent of shape(), m.
+  double size() const { return size_; }
+
   /// Number 1, 2, … in the order of creation; never used again in this process (unless 2^32 bodies wrap it around).
   std::uint32_t serial() const { return serial_; }
 
@@ -58,6 +61,7 @@ class Body {
   std::shared_ptr<const Shape> core_;  // without rounding
   std::shared_ptr<const Shape> shape_;
   double rounding_ = 0;  // m
+  double size_;          // m
   std::optional<SuperellipsoidParameters> superellipsoid_;
   Settings settings_;
   std::uint32_t serial_;

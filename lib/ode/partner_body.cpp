@@ -1,4 +1,6 @@
 // Our bodies among themselves.
+#include <algorithm>
+
 #include "ode/body.hpp"
 #include "ode/contact.hpp"
 #include "ode/convert.hpp"
@@ -13,12 +15,13 @@ namespace {
 
 Proximity query_in_order(const Body& body1, const Pose& pose1, const Body& body2, const Pose& pose2, Goal goal) {
   const PairKey key = PairKey::of_bodies(body1.serial(), body2.serial());
+  const RelativePose relative_pose = RelativePose::of(pose1, pose2);
   Vector3 first_normal;
-  const bool warm = recall_normal(key, first_normal);
+  const bool warm = recall_normal(key, relative_pose, std::min(body1.size(), body2.size()), first_normal);
   const Settings settings = for_goal(combined(body1.settings(), body2.settings()), goal);
   const Proximity result = find_proximity(body1.shape(), pose1, body2.shape(), pose2, settings, warm ? &first_normal : nullptr);
   count_query(result, warm);
-  if (result.status != Status::InvalidInput) remember_normal(key, pose1.rotation.transpose() * result.normal);
+  if (result.status != Status::InvalidInput) remember_normal(key, relative_pose, pose1.rotation.transpose() * result.normal);
   return result;
 }
 

@@ -17,13 +17,15 @@ Proximity query_sphere(dGeomID ours, dGeomID partner, Goal goal) {
   const Sphere sphere(dGeomSphereGetRadius(partner));
   const Pose sphere_pose{to_vector(dGeomGetPosition(partner)), Matrix3::Identity()};  // however it is turned
 
-  const PairKey key = PairKey::of_direction(body.serial(), pose.rotation.transpose() * (sphere_pose.position - pose.position));
+  // The normals at which s has its maxima do not depend on the radius: any sphere that has come to this place will do.
+  const RelativePose relative_pose = {pose.rotation.transpose() * (sphere_pose.position - pose.position)};
+  const PairKey key = PairKey::of_direction(body.serial(), relative_pose.offset);
   Vector3 first_normal;
-  const bool warm = recall_normal(key, first_normal);
+  const bool warm = recall_normal(key, relative_pose, body.size(), first_normal);
   const Settings settings = for_goal(body.settings(), goal);
   const Proximity result = find_proximity(body.shape(), pose, sphere, sphere_pose, settings, warm ? &first_normal : nullptr);
   count_query(result, warm);
-  if (result.status != Status::InvalidInput) remember_normal(key, pose.rotation.transpose() * result.normal);
+  if (result.status != Status::InvalidInput) remember_normal(key, relative_pose, pose.rotation.transpose() * result.normal);
   return result;
 }
 

@@ -1,9 +1,11 @@
 // The last normal of each pair, where the next query of the pair starts.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 
 #include "supernormal/shapes/shape.hpp"
+#include "supernormal/solvers/pose.hpp"
 
 namespace supernormal::ode {
 
@@ -17,16 +19,28 @@ struct PairKey {
   static PairKey of_bodies(std::uint32_t serial1, std::uint32_t serial2) { return {serial1, serial2 - serial1}; }
 
   /// For a partner that has no serial number (ODE's own geoms): where it is seen from the body, `direction` in the body's frame,
-  /// of any length. What was there at the last step is most likely the same geom; if it is not, its normal is a guess as any.
+  /// of any length.
   static PairKey of_direction(std::uint32_t serial, const Vector3& direction);
+};
+
+/// Where the partner is, in the frame of the body.
+struct RelativePose {
+  Vector3 offset = Vector3::Zero();                              ///< m
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< unit; always the identity for a sphere
+
+  static RelativePose of(const Pose& body, const Pose& partner);
 };
 
 void set_warm_start(bool on) noexcept;
 
-/// Copies the remembered unit normal of the pair and returns true; false when there is none or warm start is off.
-bool recall_normal(const PairKey& key, Vector3& normal) noexcept;
+/// Copies the remembered unit normal of the pair and returns true; false when there is none, when warm start is off, or when the
+/// pair has moved too far since: by more than half of `size` (the smallest half-extent of the two, m) or half a radian. A deep
+/// overlap has several local maxima, and the solver stays on the one that a first normal leads to. That is continuity when the
+/// pair has just been there, and an arbitrary depth when a body was moved by the program, or another sphere is in the old one's
+/// place.
+bool recall_normal(const PairKey& key, const RelativePose& pose, double size, Vector3& normal) noexcept;
 
 /// Does nothing when warm start is off or there is no memory.
-void remember_normal(const PairKey& key, const Vector3& normal) noexcept;
+void remember_normal(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept;
 
 }  // namespace supernormal::ode

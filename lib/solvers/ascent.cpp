@@ -21,9 +21,13 @@ constexpr double kPoorShare = 0.1;
 // A step through the boundary point may leave the trust region of the step through the normal by this factor.
 constexpr double kFlatStepReach = 2;
 
+// A step through the boundary point that is shorter than the step through the normal by this factor, and promises a small share of
+// its gain only, creeps along an edge between two flat faces: the step through the normal is tried.
+constexpr double kCreep = 1e-2;
+
 // Where s rises like a power of the distance from the maximum, however high, the gain to come is less than twice that of the
-// quadratic model.
-constexpr double kGainSafety = 2;
+// quadratic model; sums of different powers take a little more.
+constexpr double kGainSafety = 3;
 
 // The gain to come is summed as a geometric series of the model's contraction; this is the slowest contraction that is believed,
 // and the one assumed before two steps have shown it.
@@ -31,17 +35,24 @@ constexpr double kSlowestContraction = 0.95;
 
 // Steps longer than this (radians) reach to where the curvature may be another (two vertices of exponent 1.02 change theirs within
 // 1/50): the contraction is not believed.
-constexpr double kAsymptoticStep = 5e-3;
+constexpr double kAsymptoticStep = 1e-3;
+
+// Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
+constexpr double kGrazing = 1e-15;
+
+// A secant estimate knows the curvature only in the directions that were walked. What it promises is not believed beyond this
+// distance (radians): the slope may go on that far.
+constexpr double kSecantReach = 0.05;
 
 /// Of the solutions u1, u2 that the two bodies propose, each counted by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2).
 Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
   return (A1 + A2).solve(A1 * u1 + A2 * u2);
 }
 
-/// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal.
+/// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal, or grazes the plane.
 bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
   const double height = direction.dot(plane.n);
-  if (!(height > 0)) return false;
+  if (!(height > kGrazing * direction.norm())) return false;
   u = plane.project(direction) / height;
   return true;
 }
@@ -62,13 +73,15 @@ Status Ascent::climb(const Vector3& start, double worth) {
   if (!gap_.has_curvature()) secant_.restart(current_);
   Status status = Status::Converged;
   while (true) {
+    if (!std::isfinite(current_.s)) return Status::InvalidInput;
+    if (settings_.stop_when_apart && current_.s > 0) return Status::Apart;
     const Step step = choose_step();
     if (finished(worth, status)) return status;
     evaluate(step.normal.normalized(), trial_);
     if (!gap_.has_curvature()) secant_.update(current_, trial_);
     const double actual_gain = trial_.s - current_.s;
     adapt_radius(step, actual_gain);
-    if (actual_gain > 0) {
+    if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
       std::swap(current_, trial_);
     } else {
       promised_gain_ = 0;
@@ -77,11 +90,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
 }
 
 bool Ascent::finished(double worth, Status& status) const {
-  if (!std::isfinite(current_.s)) {
-    status = Status::InvalidInput;
-  } else if (settings_.stop_when_apart && current_.s > 0) {
-    status = Status::Apart;
-  } else if (error_ <= tolerance_) {
+  if (error_ <= tolerance_) {
     status = Status::Converged;
   } else if (gap_.evaluations() >= settings_.max_evaluations) {
     status = Status::EvaluationLimit;
@@ -104,6 +113,7 @@ Ascent::Step Ascent::choose_step() {
   const double contraction = is_asymptotic ? std::min(whole_gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
   promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
   error_ = kGainSafety / (1 - contraction) * whole_gain;
+  if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * local.model.g.norm());
 
   Step step{current_.n + local.plane1.lift(newton), newton.norm(), newton_gain};
   if (has_flat_faces_) flat_step(local, newton, step);
@@ -111,7 +121,7 @@ Ascent::Step Ascent::choose_step() {
     const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
     step = {current_.n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current_.s, 0.0)};
     // The cuts bound s over the whole plane where their maximum is not on the rim.
-    if (top.is_interior) error_ = std::min(error_, kGainSafety * step.gain);
+    if (top.is_interior) error_ = std::min(error_, kGainSafety * step.gain + top.uncertainty);
   }
   return step;
 }
@@ -125,13 +135,21 @@ void Ascent::flat_step(const LocalModel& local, const Vector2& newton, Step& ste
   if (!u.allFinite() || !(rise > 0)) return;
   // s is concave where it matters: it gains at most the slope times the step, however flat the face.
   error_ = std::max(error_, rise);
-  const double shrink = std::min(1.0, kFlatStepReach * radius_ / u.norm());
+  const double length = std::hypot(u.x(), u.y());  // may be too small to square
+  const double reach = kFlatStepReach * radius_;
+  const double shrink = length > reach ? reach / length : 1;
+  if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return;
   u *= shrink;
   step = {current_.n + local.plane1.lift(u), u.norm(), std::min(step.gain, shrink * rise)};
 }
 
 bool Ascent::ruled_out(const Step& step) const {
   return cuts_.upper_bound(step.normal) <= (current_.s + kPoorShare * step.gain) * step.normal.norm();
+}
+
+bool Ascent::is_level_but_flatter(double actual_gain) const {
+  const auto slope = [](const GapJet& jet) { return (jet.d - jet.s * jet.n).squaredNorm(); };
+  return std::abs(actual_gain) <= gap_.rounding() && slope(trial_) < slope(current_);
 }
 
 void Ascent::evaluate(const Vector3& normal, GapJet& jet) {
@@ -143,7 +161,7 @@ void Ascent::adapt_radius(const Step& step, double actual_gain) {
   if (actual_gain > kGoodShare * step.gain) {
     radius_ = std::min(std::max(radius_, 2 * step.length), kMaxRadius);
   } else if (!(actual_gain > kPoorShare * step.gain)) {
-    radius_ = 0.5 * std::min(radius_, step.length);
+    radius_ = std::max(0.5 * std::min(radius_, step.length), 0.5 * kNoRadius);
   }
 }
 

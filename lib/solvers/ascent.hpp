@@ -42,6 +42,8 @@ class Ascent {
   Step choose_step();
   void flat_step(const LocalModel& local, const Vector2& newton, Step& step);
   bool ruled_out(const Step& step) const;
+  /// Near the maximum s is level to rounding while its slope still tells the way.
+  bool is_level_but_flatter(double actual_gain) const;
   void evaluate(const Vector3& normal, GapJet& jet);
   void adapt_radius(const Step& step, double actual_gain);
   bool finished(double worth, Status& status) const;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kLevelSlope = 1e-12;
 
 // Cuts whose values differ by less than this share of the largest value or slope meet at a point.
-constexpr double kTie = 1e-12;
+constexpr double kTie = 1e-13;
 
 /// One cut over the tangent plane: value + slope.u
 struct Cut {
@@ -33,12 +33,14 @@ using Cuts = std::array<Cut, CuttingPlanes::kCapacity>;
 
 /// Steepest ascent of the least of some cuts that are equal here: the element of least norm in the convex hull of their slopes,
 /// zero where their minimum has its maximum. It lies on a vertex or an edge of the hull, in front of which no slope lies, or the
-/// hull holds the origin.
+/// hull holds the origin. Slopes of very different length meet on flat faces: rounding is that of the steepest.
 Vector2 steepest_ascent(const Cuts& cuts, std::size_t count) {
+  double steepest = 0;
+  for (std::size_t i = 0; i < count; ++i) steepest = std::max(steepest, cuts[i].slope.norm());
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i; j < count; ++j) {
       const Vector2 nearest = nearest_on_segment(cuts[i].slope, cuts[j].slope);
-      const double least = nearest.squaredNorm() * (1 - kTie);
+      const double least = nearest.squaredNorm() - kTie * steepest * nearest.norm();
       const auto is_behind = [&](const Cut& cut) { return cut.slope.dot(nearest) >= least; };
       if (std::all_of(cuts.begin(), cuts.begin() + count, is_behind)) return nearest;
     }
@@ -66,7 +68,7 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
   const auto count = static_cast<std::size_t>(size());
   double steepest = 0;
   double scale = 0;
-  Maximum best{Vector2::Zero(), std::numeric_limits<double>::infinity(), false};
+  Maximum best{Vector2::Zero(), std::numeric_limits<double>::infinity(), 0, false};
   for (std::size_t k = 0; k < count; ++k) {
     cuts[k] = {plane.n.dot(d_[k]), plane.project(d_[k])};
     best.value = std::min(best.value, cuts[k].value);
@@ -74,6 +76,7 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
     scale = std::max(scale, std::abs(cuts[k].value));
   }
   scale = std::max(scale, steepest);
+  best.uncertainty = kTie * scale;
   for (std::size_t step = 0; step < 2 * count; ++step) {
     std::size_t met_count = 0;
     for (std::size_t k = 0; k < count; ++k) {

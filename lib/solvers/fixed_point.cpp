@@ -11,6 +11,9 @@ namespace {
 // The error is the geometric series of the iteration's contraction; this is the slowest contraction that is believed.
 constexpr double kSlowestContraction = 0.95;
 
+// The contraction seen last is not yet the one to come.
+constexpr double kGainSafety = 2;
+
 // Two normals closer than this (radians) do not tell a curvature: the boundary points differ by rounding only.
 constexpr double kSmallestTurn = 1e-9;
 
@@ -59,7 +62,7 @@ Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Ve
     // Slope times step bounds the gain of this step; the steps after it shrink by the contraction.
     const double gain = std::abs(jet.d.dot(next - n * next.dot(n)));
     const double contraction = previous_gain > 0 ? std::min(gain / previous_gain, kSlowestContraction) : kSlowestContraction;
-    const double error = gain / (1 - contraction);
+    const double error = kGainSafety * gain / (1 - contraction);
     if (error <= tolerance) return answer(gap, jet, error, Status::Converged);
     if (gap.evaluations() >= settings.max_evaluations) return answer(gap, jet, error, Status::EvaluationLimit);
     previous_gain = gain;

@@ -7,8 +7,12 @@
 namespace supernormal {
 namespace {
 
-// Blaschke's theorem with a factor: in random pairs of boxes (exponents 6...200) no second maximum won below this multiple.
-constexpr double kDepthPerRadius = 4;
+// Blaschke's theorem is certain up to a depth of one radius. In random pairs (exponents 6...200) no second maximum won below four
+// radii at overlaps of up to 10 %, so shallow queries are spared the search; at 30 % three radii miss 1.2 % of the boxes, two 0.15
+// %.
+constexpr double kShallowDepthPerRadius = 4;
+constexpr double kDeepDepthPerRadius = 2;
+constexpr double kDeep = 0.15;  // of the smallest half-extent
 
 // A candidate is worth a climb if it comes this near to the best, in shares of the depth and of the roundness of the bodies: the
 // maximum lies beside the polytope's separating axis, by as much as the boundary lies beside the polytope. From a sweep over the
@@ -27,8 +31,9 @@ constexpr double kParallel = 1e-6;
 
 }  // namespace
 
-bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth) {
-  return depth > kDepthPerRadius * (features1.radius + features2.radius);
+bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth, double length_unit) {
+  const double radii = depth > kDeep * length_unit ? kDeepDepthPerRadius : kShallowDepthPerRadius;
+  return depth > radii * (features1.radius + features2.radius);
 }
 
 GlobalSearch::GlobalSearch(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings)
@@ -77,6 +82,7 @@ Status GlobalSearch::improve(const SharpFeatures& features1, const SharpFeatures
   const double slack = kSlackPerDepth * std::abs(best.s) + kSlackPerRoundness * (features1.roundness + features2.roundness);
   collect(features1, features2);
   evaluate_candidates(best.s - slack);
+  if (gap_.evaluations() >= settings_.max_evaluations) return Status::EvaluationLimit;
   const auto end = candidates_.begin() + evaluated_;
   std::sort(candidates_.begin(), end, [](const Candidate& a, const Candidate& b) { return a.s > b.s; });
 
@@ -87,6 +93,7 @@ Status GlobalSearch::improve(const SharpFeatures& features1, const SharpFeatures
     if (cuts_.upper_bound(candidate->normal) <= best.s - slack) continue;
     const auto leads_up_same_hill = [&](const Vector3& n) { return n.dot(candidate->normal) > kSameHillCosine; };
     if (std::any_of(starts.begin(), starts.begin() + start_count, leads_up_same_hill)) continue;
+    if (gap_.evaluations() >= settings_.max_evaluations) return Status::EvaluationLimit;
     starts[start_count++] = candidate->normal;
     const Status climb_status = ascent_.climb(candidate->normal, best.s);
     if (climb_status == Status::EvaluationLimit) status = climb_status;

@@ -13,12 +13,12 @@ namespace {
 // simulation that does not let bodies sink into one another, no other branch can become much better.
 constexpr double kUnquestionedDepth = 0.02;
 
-/// Whether a higher maximum than `best` is to be looked for.
-bool is_worth_searching(GapFunction& gap, CuttingPlanes& cuts, Branch branch, const GapJet& best, const SharpFeatures& features1,
-                        const SharpFeatures& features2) {
-  if (!may_have_other_maxima(features1, features2, -best.s)) return false;
-  if (branch == Branch::Highest) return true;
-  if (-best.s <= kUnquestionedDepth * gap.length_unit()) return false;
+bool is_questioned(const GapFunction& gap, Branch branch, const GapJet& best) {
+  return branch == Branch::Highest || -best.s > kUnquestionedDepth * gap.length_unit();
+}
+
+/// Whether the normal that a query without history would start from is already higher than the branch followed.
+bool is_higher_at_first_guess(GapFunction& gap, CuttingPlanes& cuts, const GapJet& best) {
   GapJet elsewhere;
   gap.evaluate(first_guess(gap), Order::Point, elsewhere);
   cuts.add(elsewhere.d);
@@ -37,10 +37,13 @@ Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3
   GapJet best = ascent.best();
   double error = ascent.error();
   // A maximum that is not negative is the only one: s is concave on the cone where it is positive.
-  if (best.s < -tolerance) {
+  if (best.s < -tolerance && is_questioned(gap, branch, best)) {
     const SharpFeatures features1 = gap.shape1().sharp_features();
     const SharpFeatures features2 = gap.shape2().sharp_features();
-    if (is_worth_searching(gap, cuts, branch, best, features1, features2)) {
+    const bool in_doubt = may_have_other_maxima(features1, features2, -best.s, gap.length_unit());
+    if (in_doubt && gap.evaluations() >= settings.max_evaluations) {
+      status = Status::EvaluationLimit;
+    } else if (in_doubt && (branch == Branch::Highest || is_higher_at_first_guess(gap, cuts, best))) {
       status = GlobalSearch(gap, cuts, ascent, settings).improve(features1, features2, status, best, error);
     }
   }

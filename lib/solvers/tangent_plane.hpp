@@ -61,10 +61,13 @@ struct Eigen2 {
   explicit Eigen2(const Symmetric2& A) {
     const double mean = 0.5 * (A.xx + A.yy);
     const double half_difference = 0.5 * (A.xx - A.yy);
-    const double radius = std::hypot(half_difference, A.xy);
-    high = mean + radius;
-    // Where one radius of curvature is huge the difference would leave nothing of the small one; the determinant does.
-    low = high > 0 ? A.xx * (A.yy / high) - A.xy * (A.xy / high) : mean - radius;
+    const double radius = std::sqrt(half_difference * half_difference + A.xy * A.xy);
+    // The eigenvalue of larger size by the sum; the other by the determinant, since the difference would cancel: where one radius
+    // of curvature is huge it would leave nothing of the small one.
+    const double large = mean >= 0 ? mean + radius : mean - radius;
+    const double small = large != 0 ? A.xx * (A.yy / large) - A.xy * (A.xy / large) : 0;
+    low = mean >= 0 ? small : large;
+    high = mean >= 0 ? large : small;
     // Of the two ways to write the eigenvector take the one without cancellation.
     const Vector2 v = half_difference >= 0 ? Vector2(radius + half_difference, A.xy) : Vector2(A.xy, radius - half_difference);
     const double length = v.norm();

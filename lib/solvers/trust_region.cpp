@@ -9,6 +9,9 @@ namespace {
 
 // A step to the rim may be this share of the radius off it: it is only a trial.
 constexpr double kRimTolerance = 1e-2;
+
+// The shift cannot come nearer to minus the negative eigenvalue than this share of it.
+constexpr double kShiftRounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kMaxSecularSteps = 20;  // Newton on the secular equation takes two to four
 
 }  // namespace
@@ -25,18 +28,25 @@ Vector2 QuadraticModel::maximize(double radius) const {
   const Eigen2 e(A);
   const double low = e.low_vector.dot(g);
   const double high = e.high_vector.dot(g);
-  const double slope = std::hypot(low, high);
-  // On a saddle the slope vanishes but the way along the negative eigenvector leads up.
-  if (slope == 0) return e.low < 0 ? Vector2(radius * e.low_vector) : Vector2(Vector2::Zero());
+  const double slope = std::sqrt(low * low + high * high);
+  if (slope == 0 && !(e.low < 0)) return Vector2::Zero();
   if (e.low > 0) {
     const Vector2 newton(low / e.low, high / e.high);
     if (newton.norm() <= radius) return newton.x() * e.low_vector + newton.y() * e.high_vector;
   }
-  // |(A + shift I)^-1 g| = radius, for a shift that makes A + shift I positive definite; bracketed Newton on 1/|u|.
   const double floor = std::max(0.0, -e.low);
+  const double least_shift = kShiftRounding * floor;
+  // The hard case, as on a saddle: hardly a slope along the negative curvature, but that way, to either side, leads up.
+  if (e.low < 0 && std::abs(low) <= least_shift * radius) {
+    const double across = slope <= least_shift * radius ? 0 : high / (e.high - e.low + least_shift);
+    if (std::abs(across) < radius) {
+      return std::copysign(std::sqrt(radius * radius - across * across), low) * e.low_vector + across * e.high_vector;
+    }
+  }
+  // |(A + shift I)^-1 g| = radius, for a shift that makes A + shift I positive definite; bracketed Newton on 1/|u|.
   double above = floor + slope / radius;
   double below = std::max(floor, slope / radius - e.high);
-  double shift = std::max(below, floor + 1e-12 * slope / radius);
+  double shift = std::max(below, floor + std::max(least_shift, 1e-12 * slope / radius));
   Vector2 u;
   for (int step = 0; step < kMaxSecularSteps; ++step) {
     const double low_sum = e.low + shift;
