@@ -1,0 +1,86 @@
+// Colliders do not allocate. An executable of its own, because it replaces operator new for everybody in it.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* const memory = alignment <= alignof(std::max_align_t)
+                           ? std::malloc(size)
+                           : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size, 1); }
+void* operator new[](std::size_t size) { return allocate(size, 1); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+TEST_CASE("no allocation in a collider, a box or a query after the first") {
+  OdeSession session;
+  {
+    const long before = allocations;
+    const Geom counted(snCreateEllipsoid(nullptr, 1, 1, 1));
+    REQUIRE(allocations > before);  // the counter sees what the library does
+  }
+  Random random(26);
+  std::vector<Geom> bodies;
+  for (int i = 0; i < 40; ++i) {
+    bodies.emplace_back(i % 2 == 0 ? random_body(random)
+                                   : snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), i % 3 == 0 ? 20 : dReal(1.3), 8));
+    if (i % 5 == 0) snGeomSetRounding(bodies.back(), dReal(0.1));
+    place(bodies.back(), random.uniform(0, 4) * random.direction());
+  }
+  const Geom sphere(dCreateSphere(nullptr, 1));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+
+  long contacts_seen = 0;
+  const auto everything = [&] {
+    dContactGeom contact;
+    snProximity answer;
+    dReal aabb[6];
+    for (const Geom& g1 : bodies) {
+      for (const Geom& g2 : bodies) {
+        contacts_seen += dCollide(g1, g2, 1, &contact, sizeof contact);
+        if (dGeomID(g1) != dGeomID(g2)) snGeomProximity(g1, g2, &answer);
+      }
+      contacts_seen += dCollide(g1, sphere, 1, &contact, sizeof contact);
+      contacts_seen += dCollide(g1, plane, 1, &contact, sizeof contact);
+      snGeomPointDepth(g1, 1, 2, 3);
+      dGeomMoved(g1);
+      dGeomGetAABB(g1, aabb);
+    }
+  };
+  everything();
+  for (const int warm_start : {1, 0}) {
+    snSetWarmStart(warm_start);
+    for (const Geom& body : bodies) move(body, 0.01 * random.direction());
+    const long before = allocations;
+    everything();
+    CHECK(allocations == before);
+  }
+  CHECK(contacts_seen > 1000);
+}

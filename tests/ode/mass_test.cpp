@@ -1,0 +1,122 @@
+// Mass properties, in ODE's conventions.
+#include <doctest/doctest.h>
+
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+// Principal moments per mass from the second moments, and nothing off the diagonal.
+void check_inertia(const dMass& mass, const Vec& squares) {
+  const double m = mass.mass;
+  CHECK(mass.I[0] == doctest::Approx(m * (squares[1] + squares[2])).epsilon(1e-12));
+  CHECK(mass.I[5] == doctest::Approx(m * (squares[0] + squares[2])).epsilon(1e-12));
+  CHECK(mass.I[10] == doctest::Approx(m * (squares[0] + squares[1])).epsilon(1e-12));
+  for (const int off_diagonal : {1, 2, 4, 6, 8, 9}) CHECK(std::abs(mass.I[off_diagonal]) < 1e-14 * m);
+}
+
+// A ball of radius 1 that does not have its centre at the origin: h(n) = 1 + offset.n.
+constexpr Vec kOffset = {0.2, -0.1, 0.3};
+dReal ball_support(const void* /*user*/, const dReal n[3]) { return dReal(1 + dot(kOffset, to_vec(n))); }
+void ball_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
+  for (std::size_t i = 0; i < 3; ++i) point[i] = dReal(n[i] + kOffset[i]);
+}
+
+}  // namespace
+
+TEST_CASE("ellipsoid: the textbook") {
+  OdeSession session;
+  const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
+  dMass mass;
+  REQUIRE(snMassSet(&mass, 1000, geom) == 1);
+  CHECK(mass.mass == doctest::Approx(1000 * 4.0 / 3 * std::acos(-1.0) * 6).epsilon(1e-14));
+  check_inertia(mass, {9.0 / 5, 4.0 / 5, 1.0 / 5});
+  CHECK(dMassCheck(&mass) == 1);
+
+  const Geom sphere(snCreateEllipsoid(nullptr, 2, 2, 2));
+  dMass reference;
+  dMassSetSphere(&reference, 7, 2);
+  REQUIRE(snMassSet(&mass, 7, sphere) == 1);
+  CHECK(mass.mass == doctest::Approx(reference.mass).epsilon(1e-14));
+  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == doctest::Approx(reference.I[i]).epsilon(1e-14));
+}
+
+TEST_CASE("superellipsoids: the values of shared/reference/README.md, 'Volume and inertia (closed form)'") {
+  OdeSession session;
+  dMass mass;
+  {
+    const Geom geom(
+        snCreateSuperellipsoid(nullptr, 3, 2, 1, 4, 4));  // "(3,2,1; 4,4): V = 38.8919241107183, <x^2> = 2.4675115376401"
+    REQUIRE(snMassSet(&mass, 2, geom) == 1);
+    CHECK(mass.mass == doctest::Approx(2 * 38.8919241107183).epsilon(1e-13));
+    const double xx = (mass.I[5] + mass.I[10] - mass.I[0]) / (2 * mass.mass);
+    CHECK(xx == doctest::Approx(2.4675115376401).epsilon(1e-13));
+  }
+  {
+    // "(1,0.8,0.6; delta 1.3, epsilon 5): V = 2.18581004266971, <x^2>, <y^2>, <z^2> = 0.189146356547047, 0.12105366819011,
+    // 0.104342869785707"
+    const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), dReal(1.3), 5));
+    REQUIRE(snMassSet(&mass, 1, geom) == 1);
+    CHECK(mass.mass == doctest::Approx(2.18581004266971).epsilon(1e-13));
+    check_inertia(mass, {0.189146356547047, 0.12105366819011, 0.104342869785707});
+  }
+}
+
+TEST_CASE("total mass: the same body, scaled") {
+  OdeSession session;
+  const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 5));
+  dMass by_density, by_total;
+  REQUIRE(snMassSet(&by_density, 1, geom) == 1);
+  REQUIRE(snMassSetTotal(&by_total, 42, geom) == 1);
+  CHECK(by_total.mass == doctest::Approx(42).epsilon(1e-14));
+  for (const int i : {0, 5, 10})
+    CHECK(by_total.I[i] / by_total.mass == doctest::Approx(by_density.I[i] / by_density.mass).epsilon(1e-14));
+}
+
+TEST_CASE("rounding: a swept sphere is a larger sphere") {
+  OdeSession session;
+  const Geom geom(snCreateSuperellipsoid(nullptr, 1, 1, 1, 2, 2));
+  REQUIRE(snGeomSetRounding(geom, dReal(0.5)) == 1);
+  dMass mass, reference;
+  dMassSetSphere(&reference, 3, dReal(1.5));
+  REQUIRE(snMassSet(&mass, 3, geom) == 1);
+  CHECK(mass.mass == doctest::Approx(reference.mass).epsilon(1e-9));
+  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == doctest::Approx(reference.I[i]).epsilon(1e-9));
+}
+
+TEST_CASE("a centre of mass off the origin: what dMassTranslate gives for a sphere") {
+  OdeSession session;
+  const snShape shape = {ball_support, ball_point, nullptr, nullptr, nullptr};
+  const Geom geom(snCreateConvex(nullptr, &shape));
+  REQUIRE(dGeomID(geom) != nullptr);
+  dMass mass, reference;
+  dMassSetSphere(&reference, 5, 1);
+  dMassTranslate(&reference, dReal(kOffset[0]), dReal(kOffset[1]), dReal(kOffset[2]));
+  REQUIRE(snMassSet(&mass, 5, geom) == 1);
+  CHECK(mass.mass == doctest::Approx(reference.mass).epsilon(1e-9));
+  for (std::size_t i = 0; i < 3; ++i) CHECK(mass.c[i] == doctest::Approx(kOffset[i]).epsilon(1e-9));
+  for (int i = 0; i < 12; ++i) {
+    if (i % 4 == 3) continue;  // padding
+    CHECK(mass.I[i] == doctest::Approx(reference.I[i]).epsilon(1e-8));
+  }
+  CHECK(dMassCheck(&mass) == 1);
+}
+
+TEST_CASE("ODE accepts the mass of every body that it can hold") {
+  OdeSession session;
+  const dWorldID world = dWorldCreate();
+  Random random(17);
+  for (int i = 0; i < 200; ++i) {
+    const double scale = std::pow(10.0, random.uniform(-4, 4));
+    const auto axis = [&] { return dReal(scale * std::pow(10.0, random.uniform(-1, 1))); };
+    const auto exponent = [&] { return dReal(std::pow(10.0, random.uniform(0.01, 2.5))); };
+    const Geom geom(snCreateSuperellipsoid(nullptr, axis(), axis(), axis(), exponent(), exponent()));
+    REQUIRE(dGeomID(geom) != nullptr);
+    dMass mass;
+    REQUIRE(snMassSet(&mass, 1000, geom) == 1);
+    CHECK(dMassCheck(&mass) == 1);
+    dBodySetMass(dBodyCreate(world), &mass);  // asserts
+  }
+  dWorldDestroy(world);
+}

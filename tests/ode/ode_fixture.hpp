@@ -1,0 +1,113 @@
+// What the tests of the ODE layer share: ODE for the time of a test case, poses, contacts.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "supernormal/supernormal.h"
+
+namespace supernormal::test {
+
+/// A program that uses ODE and us, from its beginning to its end: nothing is left for the next test case.
+class OdeSession {
+ public:
+  OdeSession() {
+    dInitODE2(0);
+    dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
+    snResetStatistics();
+  }
+  ~OdeSession() {
+    snSetWarmStart(1);
+    snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-9), 1000);
+    snClose();
+    dCloseODE();
+  }
+  OdeSession(const OdeSession&) = delete;
+  OdeSession(OdeSession&&) = delete;
+  OdeSession& operator=(const OdeSession&) = delete;
+  OdeSession& operator=(OdeSession&&) = delete;
+};
+
+/// A geom that is destroyed at the end of its scope.
+class Geom {
+ public:
+  explicit Geom(dGeomID id) : id_(id) {}
+  ~Geom() {
+    if (id_ != nullptr) dGeomDestroy(id_);
+  }
+  Geom(const Geom&) = delete;
+  Geom(Geom&& other) noexcept : id_(other.id_) { other.id_ = nullptr; }
+  Geom& operator=(const Geom&) = delete;
+  Geom& operator=(Geom&&) = delete;
+  operator dGeomID() const { return id_; }  // NOLINT(google-explicit-constructor): as ODE's own dGeom
+
+ private:
+  dGeomID id_;
+};
+
+using Vec = std::array<double, 3>;
+
+inline Vec to_vec(const dReal* v) { return {v[0], v[1], v[2]}; }
+inline double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double norm(const Vec& a) { return std::sqrt(dot(a, a)); }
+inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
+
+/// The same numbers in every run.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+
+  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53); }
+
+  Vec direction() {
+    while (true) {
+      const Vec v = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+      const double length = norm(v);
+      if (length > 0.1 && length < 1) return (1 / length) * v;
+    }
+  }
+
+  void turn(dGeomID geom) {
+    dQuaternion q = {dReal(uniform(-1, 1)), dReal(uniform(-1, 1)), dReal(uniform(-1, 1)), dReal(uniform(-1, 1))};
+    dNormalize4(q);
+    dGeomSetQuaternion(geom, q);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+inline void place(dGeomID geom, const Vec& p) { dGeomSetPosition(geom, dReal(p[0]), dReal(p[1]), dReal(p[2])); }
+
+inline void move(dGeomID geom, const Vec& by) { place(geom, to_vec(dGeomGetPosition(geom)) + by); }
+
+/// All contacts of a pair, at most `room`.
+inline std::vector<dContactGeom> collide(dGeomID g1, dGeomID g2, int room = 8) {
+  std::vector<dContactGeom> contacts(static_cast<std::size_t>(room));
+  const int count = dCollide(g1, g2, room, contacts.data(), sizeof(dContactGeom));
+  contacts.resize(static_cast<std::size_t>(count));
+  return contacts;
+}
+
+/// An ellipsoid or a superellipsoid with half-axes in 0.5…1.5.
+inline dGeomID random_body(Random& random, dSpaceID space = nullptr) {
+  const auto a = dReal(random.uniform(0.5, 1.5));
+  const auto b = dReal(random.uniform(0.5, 1.5));
+  const auto c = dReal(random.uniform(0.5, 1.5));
+  dGeomID geom = nullptr;
+  if (random.uniform(0, 1) < 0.5) {
+    geom = snCreateEllipsoid(space, a, b, c);
+  } else {
+    geom = snCreateSuperellipsoid(space, a, b, c, dReal(random.uniform(1.5, 6)), dReal(random.uniform(1.5, 6)));
+  }
+  random.turn(geom);
+  return geom;
+}
+
+}  // namespace supernormal::test

@@ -1,0 +1,109 @@
+// snGeomPointDepth as a true distance, and snGeomSupport.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+// A point at signed distance `depth` inside the boundary point with a given normal. Inwards it is exact up to the smallest
+// radius of curvature, beyond which another boundary point is nearer.
+Vec point_at_depth(dGeomID geom, const Vec& direction, double depth) {
+  const dVector3 n = {dReal(direction[0]), dReal(direction[1]), dReal(direction[2]), 0};
+  dVector3 boundary;
+  REQUIRE(snGeomSupport(geom, n, boundary) == 1);
+  return to_vec(boundary) - depth * direction;
+}
+
+double depth_of(dGeomID geom, const Vec& p) { return snGeomPointDepth(geom, dReal(p[0]), dReal(p[1]), dReal(p[2])); }
+
+}  // namespace
+
+TEST_CASE("a sphere: radius minus distance") {
+  OdeSession session;
+  Random random(13);
+  const Geom geom(snCreateEllipsoid(nullptr, 2, 2, 2));
+  const Geom reference(dCreateSphere(nullptr, 2));
+  const Vec centre = {1, -2, 3};
+  place(geom, centre);
+  place(reference, centre);
+  for (int i = 0; i < 300; ++i) {
+    const Vec p = centre + random.uniform(0, 10) * random.direction();
+    const double expected = dGeomSpherePointDepth(reference, dReal(p[0]), dReal(p[1]), dReal(p[2]));
+    CHECK(std::abs(depth_of(geom, p) - expected) < 1e-12);
+  }
+  CHECK(depth_of(geom, centre) == doctest::Approx(2).epsilon(1e-14));
+}
+
+TEST_CASE("an ellipsoid: centre, axes, focal points, far away") {
+  OdeSession session;
+  const double a = 3, b = 2, c = 1;
+  const Geom geom(snCreateEllipsoid(nullptr, dReal(a), dReal(b), dReal(c)));
+  CHECK(std::abs(depth_of(geom, {0, 0, 0}) - c) < 1e-9);
+  CHECK(std::abs(depth_of(geom, {0, 0, 1})) < 1e-9);
+  CHECK(std::abs(depth_of(geom, {3, 0, 0})) < 1e-9);
+  for (const double outside : {1e-6, 0.1, 1.0, 100.0}) {
+    CHECK(depth_of(geom, {a + outside, 0, 0}) == doctest::Approx(-outside).epsilon(1e-8));
+    CHECK(depth_of(geom, {0, -b - outside, 0}) == doctest::Approx(-outside).epsilon(1e-8));
+    CHECK(depth_of(geom, {0, 0, c + outside}) == doctest::Approx(-outside).epsilon(1e-8));
+  }
+  // Inside on the x axis the nearest point is the end of the axis only beyond the centre of curvature a - c^2/a; between the
+  // centres, by symmetry in the xz-plane: distance^2 = c^2 (1 - x^2 / (a^2 - c^2)).
+  CHECK(std::abs(depth_of(geom, {2.8, 0, 0}) - 0.2) < 1e-9);
+  for (const double x : {0.3, 1.0, 2.0}) {
+    CHECK(std::abs(depth_of(geom, {x, 0, 0}) - c * std::sqrt(1 - x * x / (a * a - c * c))) < 1e-9);
+  }
+  // Far away, along a line normal to the surface (the answer has the digits of the point's coordinates).
+  const Vec n = {0.48, 0.6, 0.64};
+  for (const double distance : {1e3, 1e6, 1e9}) {
+    CHECK(depth_of(geom, point_at_depth(geom, n, -distance)) == doctest::Approx(-distance).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("superellipsoids in any pose: along the normal lines") {
+  OdeSession session;
+  Random random(14);
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    const Geom geom(random_body(random));
+    place(geom, {random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)});
+    const Vec n = random.direction();
+    const double distance = random.uniform(0, 5);
+    CHECK(std::abs(depth_of(geom, point_at_depth(geom, n, -distance)) + distance) < 2e-9);
+    CHECK(std::abs(depth_of(geom, point_at_depth(geom, n, 0))) < 2e-9);
+  }
+}
+
+TEST_CASE("with rounding the distance is that of the core less the radius") {
+  OdeSession session;
+  Random random(15);
+  const Geom rounded(snCreateSuperellipsoid(nullptr, 1, 1, 1, 5, 5));
+  const Geom core(snCreateSuperellipsoid(nullptr, 1, 1, 1, 5, 5));
+  REQUIRE(snGeomSetRounding(rounded, dReal(0.3)) == 1);
+  for (int i = 0; i < 100; ++i) {
+    const Vec p = random.uniform(1.8, 4) * random.direction();
+    CHECK(std::abs(depth_of(rounded, p) - (depth_of(core, p) + 0.3)) < 2e-9);
+  }
+}
+
+TEST_CASE("support: the farthest boundary point, whatever the length of the direction") {
+  OdeSession session;
+  Random random(16);
+  for (int i = 0; i < 100; ++i) {
+    const Geom geom(random_body(random));
+    place(geom, {4, 5, 6});
+    const Vec n = random.direction();
+    const Vec farthest = point_at_depth(geom, n, 0);
+    for (int k = 0; k < 50; ++k) CHECK(dot(n, point_at_depth(geom, random.direction(), 0)) <= dot(n, farthest) + 1e-13);
+    for (const double length : {1e-200, 0.1, 7.0, 1e200}) {
+      if (length < double{std::numeric_limits<dReal>::min()} || length > double{std::numeric_limits<dReal>::max()}) continue;
+      const dVector3 scaled = {dReal(length * n[0]), dReal(length * n[1]), dReal(length * n[2]), 0};
+      dVector3 point;
+      REQUIRE(snGeomSupport(geom, scaled, point) == 1);
+      CHECK(norm(to_vec(point) - farthest) < 1e-13);
+    }
+  }
+}

@@ -1,0 +1,223 @@
+// snGeomProximity, the solver settings and the statistics.
+#include <doctest/doctest.h>
+
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+snProximity proximity(dGeomID g1, dGeomID g2) {
+  snProximity answer;
+  REQUIRE(snGeomProximity(g1, g2, &answer) == 1);
+  return answer;
+}
+
+// What every answer must satisfy by itself.
+void check_consistent(const snProximity& p, double rounding) {
+  CHECK(norm(to_vec(p.normal)) == doctest::Approx(1).epsilon(1e-14));
+  const Vec d = to_vec(p.point2) - to_vec(p.point1);
+  CHECK(std::abs(dot(d, to_vec(p.normal)) - p.gap) < rounding);
+  CHECK(p.error >= 0);
+}
+
+snStatistics statistics() {
+  snStatistics out;
+  snGetStatistics(&out);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("the published pair R1 of shared/reference/README.md") {
+  OdeSession session;
+  const Geom g1(snCreateSuperellipsoid(nullptr, 15, 10, 5, dReal(2 / 0.7), dReal(2 / 0.5)));
+  const Geom g2(snCreateSuperellipsoid(nullptr, 5, 3, 2, dReal(2 / 0.2), dReal(2 / 1.25)));
+  const dQuaternion q = {0, 1, 0, 0};
+  dGeomSetQuaternion(g1, q);
+  dGeomSetQuaternion(g2, q);
+  place(g1, {2.82, -16.4, 7.52});
+  place(g2, {-0.47, 8.44, 0.8});
+  const Vec normal = {-0.0018948754308, 0.9516017981184, -0.3073278823422};
+  const Vec point1 = {2.1781654632855, -6.6089213379082, 4.8540806508774};
+  const Vec point2 = {2.1541109401146, 5.4712012549538, 0.9527024670205};
+  for (const bool swapped : {false, true}) {
+    const snProximity p = swapped ? proximity(g2, g1) : proximity(g1, g2);
+    CHECK(p.converged == 1);
+    CHECK(p.gap == doctest::Approx(12.6945142566438972).epsilon(1e-9));
+    CHECK(std::abs(p.gap - 12.6945142566438972) <= p.error + 1e-13);
+    CHECK(norm(to_vec(p.normal) - (swapped ? -1.0 : 1.0) * normal) < 1e-4);
+    CHECK(norm(to_vec(p.point1) - (swapped ? point2 : point1)) < 1e-3);
+    CHECK(norm(to_vec(p.point2) - (swapped ? point1 : point2)) < 1e-3);
+    check_consistent(p, 1e-12);
+  }
+}
+
+TEST_CASE("with spheres: the gap to a point less the radius, in both orders, apart and overlapping") {
+  OdeSession session;
+  Random random(18);
+  for (int i = 0; i < 200; ++i) {
+    const Geom body(random_body(random));
+    const double radius = random.uniform(0.1, 1);
+    const Geom sphere(dCreateSphere(nullptr, dReal(radius)));
+    const Vec centre = random.uniform(1.6, 6) * random.direction();
+    place(sphere, centre);
+    const double expected = -double{snGeomPointDepth(body, dReal(centre[0]), dReal(centre[1]), dReal(centre[2]))} - radius;
+    const snProximity forth = proximity(body, sphere);
+    const snProximity back = proximity(sphere, body);
+    for (const snProximity& p : {forth, back}) {
+      CHECK(std::abs(p.gap - expected) < 4e-9);
+      check_consistent(p, 1e-12);
+    }
+    CHECK(norm(to_vec(forth.normal) + to_vec(back.normal)) < 1e-4);
+    // The point on the sphere is on the sphere, and the normal leaves its centre for the body.
+    CHECK(norm(to_vec(forth.point2) - (centre - radius * to_vec(forth.normal))) < 1e-12);
+    CHECK(norm(to_vec(back.point1) - (centre + radius * to_vec(back.normal))) < 1e-12);
+  }
+}
+
+TEST_CASE("with planes: explicit, in both orders") {
+  OdeSession session;
+  Random random(19);
+  for (int i = 0; i < 100; ++i) {
+    const Geom body(random_body(random));
+    place(body, {1, 2, 3});
+    const Vec n = random.direction();
+    const double offset = random.uniform(-5, 5);
+    const Geom plane(dCreatePlane(nullptr, dReal(n[0]), dReal(n[1]), dReal(n[2]), dReal(offset)));
+    const dVector3 down = {dReal(-n[0]), dReal(-n[1]), dReal(-n[2]), 0};
+    dVector3 deepest;
+    REQUIRE(snGeomSupport(body, down, deepest) == 1);
+    const snProximity forth = proximity(body, plane);
+    const snProximity back = proximity(plane, body);
+    CHECK(forth.gap == doctest::Approx(dot(n, to_vec(deepest)) - offset).epsilon(1e-12));
+    CHECK(back.gap == forth.gap);
+    CHECK(forth.evaluations == 0);
+    CHECK(forth.error == 0);
+    CHECK(forth.converged == 1);
+    CHECK(norm(to_vec(forth.normal) + n) < 1e-14);
+    CHECK(norm(to_vec(back.normal) - n) < 1e-14);
+    CHECK(norm(to_vec(forth.point1) - to_vec(deepest)) < 1e-13);
+    CHECK(norm(to_vec(back.point2) - to_vec(deepest)) < 1e-13);
+    CHECK(std::abs(dot(n, to_vec(forth.point2)) - offset) < 1e-13);
+    check_consistent(forth, 1e-13);
+    check_consistent(back, 1e-13);
+  }
+}
+
+TEST_CASE("the gap of the query and the depth of the contact agree") {
+  OdeSession session;
+  Random random(20);
+  int overlapping = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Geom g1(random_body(random));
+    const Geom g2(random_body(random));
+    place(g2, random.uniform(1.2, 2.6) * random.direction());
+    const snProximity p = proximity(g1, g2);
+    const auto contacts = collide(g1, g2);
+    CHECK(contacts.empty() == (p.gap > 0));
+    if (contacts.empty()) continue;
+    ++overlapping;
+    CHECK(std::abs(contacts[0].depth + p.gap) < 3e-9);
+    CHECK(norm(to_vec(contacts[0].normal) + to_vec(p.normal)) < 1e-4);
+  }
+  CHECK(overlapping > 50);
+}
+
+TEST_CASE("a pair uses the tighter tolerance and the larger limit; the limit ends a query that says so") {
+  OdeSession session;
+  snSetWarmStart(0);
+  const Geom g1(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.4), 5, 3));
+  const Geom g2(snCreateSuperellipsoid(nullptr, 1, dReal(0.6), dReal(0.5), 3, 5));
+  place(g2, {1.5, 0.7, 0.6});
+  Random random(21);
+  random.turn(g1);
+  random.turn(g2);
+  const snProximity fine = proximity(g1, g2);
+  REQUIRE(fine.converged == 1);
+  REQUIRE(fine.evaluations > 2);
+
+  snResetStatistics();
+  REQUIRE(snGeomSetSolver(g1, SN_SOLVER_HYBRID, dReal(1e-9), 1) == 1);
+  REQUIRE(snGeomSetSolver(g2, SN_SOLVER_HYBRID, dReal(1e-9), 1) == 1);
+  const snProximity cut = proximity(g1, g2);
+  CHECK(cut.evaluations == 1);
+  CHECK(cut.converged == 0);
+  CHECK(cut.gap <= fine.gap);  // every normal gives a lower bound
+  CHECK(fine.gap - cut.gap <= cut.error);
+  CHECK(statistics().not_converged == 1);
+
+  REQUIRE(snGeomSetSolver(g2, SN_SOLVER_HYBRID, 1, 1000) == 1);  // g1: limit 1, tolerance 1e-9
+  CHECK(proximity(g1, g2).evaluations == fine.evaluations);
+  REQUIRE(snGeomSetSolver(g1, SN_SOLVER_HYBRID, 1, 1) == 1);
+  CHECK(proximity(g1, g2).evaluations < fine.evaluations);
+}
+
+TEST_CASE("the solver of a pair: what both ask for, the hybrid if they differ") {
+  OdeSession session;
+  snSetWarmStart(0);
+  const auto make = [](snSolver solver) {
+    REQUIRE(snSetDefaultSolver(solver, dReal(1e-9), 1000) == 1);
+    return snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6));
+  };
+  const auto evaluations = [&](snSolver solver1, snSolver solver2) {
+    const Geom g1(make(solver1));
+    const Geom g2(make(solver2));
+    place(g2, {1.5, 1.1, 0.9});
+    const snProximity p = proximity(g1, g2);
+    CHECK(p.converged == 1);
+    return p.evaluations;
+  };
+  const int hybrid = evaluations(SN_SOLVER_HYBRID, SN_SOLVER_HYBRID);
+  const int fixed_point = evaluations(SN_SOLVER_FIXED_POINT, SN_SOLVER_FIXED_POINT);
+  CHECK(fixed_point > hybrid);  // linear against quadratic convergence
+  CHECK(evaluations(SN_SOLVER_FIXED_POINT, SN_SOLVER_NEWTON) == hybrid);
+  CHECK(evaluations(SN_SOLVER_HYBRID, SN_SOLVER_FIXED_POINT) == hybrid);
+}
+
+TEST_CASE("a query without convergence that overlaps still gives a contact that separates") {
+  OdeSession session;
+  snSetWarmStart(0);
+  Random random(22);
+  int contacts_seen = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Geom g1(random_body(random));
+    const Geom g2(random_body(random));
+    for (const dGeomID g : {dGeomID(g1), dGeomID(g2)}) REQUIRE(snGeomSetSolver(g, SN_SOLVER_HYBRID, dReal(1e-15), 1) == 1);
+    place(g2, random.uniform(0.8, 1.2) * random.direction());
+    const auto contacts = collide(g1, g2);
+    if (contacts.empty()) continue;
+    ++contacts_seen;
+    CHECK(norm(to_vec(contacts[0].normal)) == doctest::Approx(1).epsilon(1e-14));
+    move(g1, (1 + 1e-9) * double{contacts[0].depth} * to_vec(contacts[0].normal));
+    REQUIRE(snGeomSetSolver(g1, SN_SOLVER_HYBRID, dReal(1e-9), 1000) == 1);
+    CHECK(collide(g1, g2).empty());
+  }
+  CHECK(contacts_seen > 50);
+}
+
+TEST_CASE("statistics count what happened, in this thread") {
+  OdeSession session;
+  const Geom g1(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
+  const Geom g2(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
+  const Geom sphere(dCreateSphere(nullptr, 1));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  place(g2, {1.2, 0.4, 0.3});
+  place(sphere, {-1.2, 0.5, 0.2});
+  for (int i = 0; i < 3; ++i) {
+    collide(g1, g2);
+    collide(g1, sphere);
+    collide(g1, plane);
+  }
+  const snStatistics s = statistics();
+  CHECK(s.queries_cold == 2);
+  CHECK(s.queries_warm == 4);
+  CHECK(s.closed_forms == 3);
+  CHECK(s.contacts == 9);
+  CHECK(s.not_converged == 0);
+  CHECK(s.evaluations_cold >= 2 * s.queries_cold);
+  CHECK(s.evaluations_warm >= s.queries_warm);
+  snResetStatistics();
+  CHECK(statistics().queries_cold == 0);
+  CHECK(statistics().contacts == 0);
+}

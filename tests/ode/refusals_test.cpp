@@ -1,0 +1,179 @@
+// Bad parameters: refused with the parameter, its value and the range; nothing changes.
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr dReal kNan = std::numeric_limits<dReal>::quiet_NaN();
+constexpr dReal kInf = std::numeric_limits<dReal>::infinity();
+
+void check_error(const std::string& function, const std::string& value, const std::string& range) {
+  const std::string text = snLastError();
+  CAPTURE(text);
+  CHECK(text.find(function + ": ") == 0);
+  CHECK(text.find(value) != std::string::npos);
+  CHECK(text.find(range) != std::string::npos);
+}
+
+struct Parameters {
+  dReal a = 0, b = 0, c = 0, delta = 0, epsilon = 0;
+  explicit Parameters(dGeomID geom) { REQUIRE(snGeomSuperellipsoidGetParams(geom, &a, &b, &c, &delta, &epsilon) == 1); }
+  bool operator==(const Parameters&) const = default;
+};
+
+}  // namespace
+
+TEST_CASE("half-axes and exponents, at creation") {
+  OdeSession session;
+  struct Case {
+    dReal a, b, c, delta, epsilon;
+    const char *value, *range;
+  };
+  const Case cases[] = {{-1, 1, 1, 2, 2, "half-axis a = -1 m", "[1e-30, 1e+30] m"},
+                        {1, 0, 1, 2, 2, "half-axis b = 0 m", "[1e-30, 1e+30] m"},
+                        {1, 1, kInf, 2, 2, "half-axis c = inf m", "[1e-30, 1e+30] m"},
+                        {1, kNan, 1, 2, 2, "half-axis b = nan m", "[1e-30, 1e+30] m"},
+                        {1, 1, 1, 1, 2, "delta = 1", "[1.01, 1000]"},
+                        {1, 1, 1, 2, 1001, "epsilon = 1001", "[1.01, 1000]"},
+                        {1, 1, 1, kNan, 2, "delta = nan", "[1.01, 1000]"},
+                        {1, 1, 1, 2, -kInf, "epsilon = -inf", "[1.01, 1000]"}};
+  for (const Case& c : cases) {
+    CHECK(snCreateSuperellipsoid(nullptr, c.a, c.b, c.c, c.delta, c.epsilon) == nullptr);
+    check_error("snCreateSuperellipsoid", c.value, c.range);
+  }
+  CHECK(snCreateEllipsoid(nullptr, 1, 1, -2) == nullptr);
+  check_error("snCreateEllipsoid", "half-axis c = -2 m", "[1e-30, 1e+30] m");
+  snClose();
+  CHECK(snGeomClass() == -1);  // no refused geom is alive
+}
+
+TEST_CASE("a refused change leaves the geom as it was") {
+  OdeSession session;
+  const Geom geom(snCreateSuperellipsoid(nullptr, 1, 2, 3, 4, 5));
+  REQUIRE(snGeomSetRounding(geom, dReal(0.25)) == 1);
+  const Parameters before(geom);
+  dReal box_before[6], box_after[6];
+  dGeomGetAABB(geom, box_before);
+
+  CHECK(snGeomSuperellipsoidSetParams(geom, 1, 1, kNan, 2, 2) == 0);
+  check_error("snGeomSuperellipsoidSetParams", "half-axis c = nan m", "[1e-30, 1e+30] m");
+  CHECK(snGeomSuperellipsoidSetParams(geom, 1, 1, 1, dReal(0.5), 2) == 0);
+  check_error("snGeomSuperellipsoidSetParams", "delta = 0.5", "[1.01, 1000]");
+  for (const dReal radius : {dReal(-0.5), kInf, kNan}) {
+    CHECK(snGeomSetRounding(geom, radius) == 0);
+    check_error("snGeomSetRounding", "radius = ", "[0, 1e+30] m");
+  }
+  CHECK(Parameters(geom) == before);
+  dGeomSetPosition(geom, 0, 0, 0);  // has the box computed again
+  dGeomGetAABB(geom, box_after);
+  for (int i = 0; i < 6; ++i) CHECK(box_before[i] == box_after[i]);
+}
+
+TEST_CASE("geoms that are not ours, or not the kind asked for") {
+  OdeSession session;
+  const Geom sphere(dCreateSphere(nullptr, 1));
+  dMass mass;
+  dReal value = 7;
+  for (const dGeomID wrong : {dGeomID(nullptr), dGeomID(sphere)}) {
+    const std::string what = wrong == nullptr ? "geom = 0" : "geom is a dSphere";
+    CHECK(snGeomSuperellipsoidSetParams(wrong, 1, 1, 1, 2, 2) == 0);
+    check_error("snGeomSuperellipsoidSetParams", what, "must be a body made by snCreate");
+    CHECK(snGeomSuperellipsoidGetParams(wrong, &value, &value, &value, &value, &value) == 0);
+    check_error("snGeomSuperellipsoidGetParams", what, "must be");
+    CHECK(snGeomSetRounding(wrong, 1) == 0);
+    check_error("snGeomSetRounding", what, "must be");
+    CHECK(std::isnan(snGeomPointDepth(wrong, 0, 0, 0)));
+    check_error("snGeomPointDepth", what, "must be");
+    CHECK(snMassSet(&mass, 1, wrong) == 0);
+    check_error("snMassSet", what, "must be");
+    CHECK(snMassSetTotal(&mass, 1, wrong) == 0);
+    check_error("snMassSetTotal", what, "must be");
+    CHECK(snGeomSetSolver(wrong, SN_SOLVER_HYBRID, dReal(1e-9), 10) == 0);
+    check_error("snGeomSetSolver", what, "must be");
+  }
+  CHECK(value == 7);
+}
+
+TEST_CASE("solver settings") {
+  OdeSession session;
+  const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
+  const auto check_both = [&](snSolver solver, dReal tolerance, int limit, const char* value, const char* range) {
+    CHECK(snGeomSetSolver(geom, solver, tolerance, limit) == 0);
+    check_error("snGeomSetSolver", value, range);
+    CHECK(snSetDefaultSolver(solver, tolerance, limit) == 0);
+    check_error("snSetDefaultSolver", value, range);
+  };
+  check_both(SN_SOLVER_HYBRID, 0, 10, "tolerance = 0", "[1e-15, 1]");
+  check_both(SN_SOLVER_HYBRID, 2, 10, "tolerance = 2", "[1e-15, 1]");
+  check_both(SN_SOLVER_HYBRID, kNan, 10, "tolerance = nan", "[1e-15, 1]");
+  check_both(SN_SOLVER_HYBRID, dReal(1e-9), 0, "max_evaluations = 0", "[1, 1000000]");
+  check_both(SN_SOLVER_HYBRID, dReal(1e-9), 1000001, "max_evaluations = 1000001", "[1, 1000000]");
+  check_both(static_cast<snSolver>(3), dReal(1e-9), 10, "solver = 3", "SN_SOLVER_FIXED_POINT (2)");
+}
+
+TEST_CASE("mass, support, point, proximity") {
+  OdeSession session;
+  const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
+  const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
+  dMass mass;
+  dMassSetSphereTotal(&mass, 3, 1);
+  for (const dReal bad : {dReal(0), dReal(-1), kInf, kNan}) {
+    CHECK(snMassSet(&mass, bad, geom) == 0);
+    check_error("snMassSet", "density = ", "(0, inf) kg/m^3");
+    CHECK(snMassSetTotal(&mass, bad, geom) == 0);
+    check_error("snMassSetTotal", "total_mass = ", "(0, inf) kg");
+  }
+  CHECK(mass.mass == 3);
+  CHECK(snMassSet(nullptr, 1, geom) == 0);
+  check_error("snMassSet", "mass = NULL", "must point");
+
+  dVector3 point = {7, 7, 7, 7};
+  const dVector3 zero = {0, 0, 0, 0};
+  CHECK(snGeomSupport(geom, zero, point) == 0);
+  check_error("snGeomSupport", "direction = (0, 0, 0)", "must have a length");
+  const dVector3 broken = {1, kNan, 0, 0};
+  CHECK(snGeomSupport(geom, broken, point) == 0);
+  check_error("snGeomSupport", "direction = (1, nan, 0)", "not finite");
+  CHECK(point[0] == 7);
+
+  CHECK(std::isnan(snGeomPointDepth(geom, 0, kInf, 0)));
+  check_error("snGeomPointDepth", "point = (0, inf, 0)", "not finite");
+
+  snProximity answer;
+  answer.gap = 7;
+  CHECK(snGeomProximity(geom, geom, &answer) == 0);
+  check_error("snGeomProximity", "the same geom", "must be two");
+  CHECK(snGeomProximity(geom, nullptr, &answer) == 0);
+  check_error("snGeomProximity", "g2 = NULL", "must point");
+  CHECK(snGeomProximity(geom, other, nullptr) == 0);
+  check_error("snGeomProximity", "out = NULL", "must point");
+  const Geom sphere(dCreateSphere(nullptr, 1));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  CHECK(snGeomProximity(sphere, plane, &answer) == 0);
+  check_error("snGeomProximity", "geom is a dPlane", "must be");
+  dGeomSetPosition(other, kNan, 0, 0);
+  CHECK(snGeomProximity(geom, other, &answer) == 0);
+  check_error("snGeomProximity", "pose", "not finite");
+  CHECK(answer.gap == 7);
+}
+
+TEST_CASE("the text belongs to the thread") {
+  OdeSession session;
+  CHECK(snCreateEllipsoid(nullptr, -1, 1, 1) == nullptr);
+  std::string before, after;
+  std::thread([&] {
+    before = snLastError();
+    snCreateEllipsoid(nullptr, 1, -1, 1);
+    after = snLastError();
+  }).join();
+  CHECK(before.empty());
+  CHECK(after.find("half-axis b") != std::string::npos);
+  CHECK(std::string(snLastError()).find("half-axis a") != std::string::npos);
+}

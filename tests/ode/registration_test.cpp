@@ -1,0 +1,174 @@
+// One class, registered once, whoever else opens and closes ODE.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdarg>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+int register_foreign_class() {
+  dGeomClass description{};
+  description.collider = [](int) -> dColliderFn* { return nullptr; };
+  description.aabb = [](dGeomID, dReal aabb[6]) { std::fill(aabb, aabb + 6, dReal(0)); };
+  return dCreateGeomClass(&description);
+}
+
+void own_debug_handler(int /*number*/, const char* /*message*/, va_list /*arguments*/) {}
+
+bool works() {
+  const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
+  const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, dReal(-0.5)));
+  dGeomSetPosition(other, dReal(1.5), 0, 0);
+  return collide(body, plane).size() == 1 && collide(body, other).size() == 1;
+}
+
+}  // namespace
+
+TEST_CASE("the class comes with the first creation and goes with snClose") {
+  CHECK(snGeomClass() == -1);  // ODE is not even initialised
+  const dGeomID geom = snCreateEllipsoid(nullptr, 1, 1, 1);
+  REQUIRE(geom != nullptr);
+  CHECK(snGeomClass() >= dFirstUserClass);
+  CHECK(dGeomGetClass(geom) == snGeomClass());
+  dGeomDestroy(geom);
+  snClose();
+  CHECK(snGeomClass() == -1);
+  snClose();  // twice does no harm
+}
+
+TEST_CASE("snInit again and again is one registration") {
+  OdeSession session;
+  REQUIRE(snInit() == 1);
+  const int number = snGeomClass();
+  for (int i = 0; i < 20; ++i) CHECK(snInit() == 1);
+  CHECK(snGeomClass() == number);
+  CHECK(register_foreign_class() == number + 1);
+}
+
+TEST_CASE("another client's dInitODE2 and dCloseODE leave us alone") {
+  SUBCASE("inside our time") {
+    REQUIRE(snInit() == 1);
+    dInitODE2(0);
+    dCloseODE();
+    CHECK(works());
+    dInitODE();
+    dCloseODE();
+    CHECK(works());
+    snClose();
+  }
+  SUBCASE("the client that was first closes first") {
+    dInitODE2(0);
+    REQUIRE(snInit() == 1);
+    dCloseODE();
+    CHECK(works());
+    dInitODE2(0);
+    CHECK(works());
+    snClose();
+    dCloseODE();
+  }
+}
+
+TEST_CASE("afresh after snClose") {
+  SUBCASE("ODE really closed, and another class has our number now") {
+    REQUIRE(works());
+    const int before = snGeomClass();
+    snClose();
+    dInitODE2(0);
+    REQUIRE(register_foreign_class() == before);
+    CHECK(works());
+    CHECK(snGeomClass() == before + 1);
+    snClose();
+    dCloseODE();
+  }
+  SUBCASE("ODE kept open by others: the same class again, no other of the four is used up") {
+    OdeSession session;
+    REQUIRE(works());
+    const int before = snGeomClass();
+    for (int i = 0; i < 10; ++i) {
+      snClose();
+      CHECK(snGeomClass() == -1);
+      CHECK(works());
+      CHECK(snGeomClass() == before);
+    }
+  }
+}
+
+TEST_CASE("snClose refuses while geoms are alive") {
+  OdeSession session;
+  const dGeomID geom = snCreateEllipsoid(nullptr, 1, 1, 1);
+  snClose();
+  CHECK(std::string(snLastError()).find("snClose: live geoms = 1") == 0);
+  CHECK(snGeomClass() == dGeomGetClass(geom));
+  dGeomDestroy(geom);
+  snClose();
+  CHECK(snGeomClass() == -1);
+}
+
+TEST_CASE("no free class is a refusal, not an abort") {
+  dInitODE2(0);
+  for (int i = 0; i < dMaxUserClasses; ++i) register_foreign_class();
+  dSetDebugHandler(own_debug_handler);
+
+  CHECK(snInit() == 0);
+  CHECK(std::string(snLastError()).find("snInit: ODE has no free geometry class: a process has 4") == 0);
+  CHECK(snCreateEllipsoid(nullptr, 1, 1, 1) == nullptr);
+  CHECK(snGeomClass() == -1);
+  const bool handler_is_back = dGetDebugHandler() == own_debug_handler;
+  dSetDebugHandler(nullptr);
+  CHECK(handler_is_back);
+
+  dCloseODE();  // ours was given back: this one really closes
+  CHECK(works());
+  snClose();
+}
+
+TEST_CASE("a geom without a body, made behind our back, is harmless") {
+  OdeSession session;
+  REQUIRE(snInit() == 1);
+  const Geom empty(dCreateGeom(snGeomClass()));
+  const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 1));
+  const Geom sphere(dCreateSphere(nullptr, 1));
+  for (const dGeomID other : {dGeomID(body), dGeomID(plane), dGeomID(sphere)}) CHECK(collide(empty, other).empty());
+  dReal aabb[6];
+  dGeomGetAABB(empty, aabb);
+  CHECK(aabb[0] == -dInfinity);
+  CHECK(aabb[5] == dInfinity);
+  CHECK(snGeomSetRounding(empty, 1) == 0);
+}
+
+TEST_CASE("many threads at once register once") {
+  OdeSession session;
+  std::array<int, 8> numbers{};
+  std::vector<std::thread> threads;
+  threads.reserve(numbers.size());
+  for (int& number : numbers) {
+    threads.emplace_back([&number] {
+      snInit();
+      number = snGeomClass();
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const int number : numbers) CHECK(number == snGeomClass());
+  CHECK(register_foreign_class() == snGeomClass() + 1);
+}
+
+TEST_CASE("class data: the destructor runs with the geom, also with its space") {
+  OdeSession session;
+  const dSpaceID space = dHashSpaceCreate(nullptr);
+  for (int i = 0; i < 10; ++i) snCreateSuperellipsoid(space, 1, 1, 1, 3, 3);
+  snClose();
+  CHECK(snGeomClass() >= 0);  // ten alive
+  dSpaceDestroy(space);
+  snClose();
+  CHECK(snGeomClass() == -1);
+}

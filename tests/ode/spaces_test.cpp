@@ -1,0 +1,218 @@
+// In every kind of space, inside a dGeomTransform, with an offset: what collides is the same.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ode/ode_fixture.hpp"
+
+// dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+
+using namespace supernormal::test;
+
+namespace {
+
+struct SpaceKind {
+  std::string name;
+  std::function<dSpaceID()> create;
+};
+
+std::vector<SpaceKind> space_kinds() {
+  std::vector<SpaceKind> kinds = {{"simple", [] { return dSimpleSpaceCreate(nullptr); }},
+                                  {"hash", [] { return dHashSpaceCreate(nullptr); }},
+                                  {"quadtree", [] {
+                                     const dVector3 centre = {0, 0, 0};
+                                     const dVector3 extents = {20, 20, 20};
+                                     return dQuadTreeSpaceCreate(nullptr, centre, extents, 5);
+                                   }}};
+  const std::vector<std::pair<std::string, int>> orders = {{"XYZ", dSAP_AXES_XYZ}, {"XZY", dSAP_AXES_XZY}, {"YXZ", dSAP_AXES_YXZ},
+                                                           {"YZX", dSAP_AXES_YZX}, {"ZXY", dSAP_AXES_ZXY}, {"ZYX", dSAP_AXES_ZYX}};
+  for (const auto& [name, order] : orders) {
+    kinds.push_back({"SAP " + name, [axes = order] { return dSweepAndPruneSpaceCreate(nullptr, axes); }});
+  }
+  return kinds;
+}
+
+using Pairs = std::set<std::pair<dGeomID, dGeomID>>;  // smaller address first
+
+struct Found {
+  Pairs near_pairs, touching;
+};
+
+void near_callback(void* data, dGeomID o1, dGeomID o2) {
+  auto& found = *static_cast<Found*>(data);
+  const auto pair = std::minmax(o1, o2);
+  found.near_pairs.insert(pair);
+  if (!collide(o1, o2).empty()) found.touching.insert(pair);
+}
+
+// 60 bodies, 10 spheres and two planes, crowded.
+std::vector<dGeomID> fill(dSpaceID space) {
+  Random random(3);
+  std::vector<dGeomID> geoms;
+  geoms.reserve(72);
+  for (int i = 0; i < 60; ++i) geoms.push_back(random_body(random, space));
+  for (int i = 0; i < 10; ++i) geoms.push_back(dCreateSphere(space, dReal(random.uniform(0.3, 1))));
+  for (const dGeomID geom : geoms) place(geom, {random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)});
+  geoms.push_back(dCreatePlane(space, 0, 0, 1, -4));
+  geoms.push_back(dCreatePlane(space, dReal(0.6), dReal(0.48), dReal(0.64), -5));
+  return geoms;
+}
+
+Pairs touching_without_space(const std::vector<dGeomID>& geoms) {
+  Pairs touching;
+  for (std::size_t i = 0; i < geoms.size(); ++i) {
+    for (std::size_t j = i + 1; j < geoms.size(); ++j) {
+      if (!collide(geoms[i], geoms[j]).empty()) touching.insert(std::minmax(geoms[i], geoms[j]));
+    }
+  }
+  return touching;
+}
+
+}  // namespace
+
+TEST_CASE("every space finds exactly the pairs that touch") {
+  OdeSession session;
+  for (const SpaceKind& kind : space_kinds()) {
+    CAPTURE(kind.name);
+    const dSpaceID space = kind.create();
+    const auto geoms = fill(space);
+    const Pairs expected = touching_without_space(geoms);
+    REQUIRE(expected.size() > 60);
+    Found found;
+    dSpaceCollide(space, &found, near_callback);
+    CHECK(found.touching == expected);
+    dSpaceDestroy(space);
+  }
+}
+
+TEST_CASE("a plane that no body touches calls nobody") {
+  OdeSession session;
+  const std::vector<std::array<dReal, 4>> planes = {
+      {0, 0, 1, -8}, {1, 0, 0, -8}, {0, -1, 0, -8}, {dReal(0.6), dReal(0.48), dReal(0.64), -12}};
+  for (const SpaceKind& kind : space_kinds()) {
+    CAPTURE(kind.name);
+    const dSpaceID space = kind.create();
+    Random random(4);
+    for (int i = 0; i < 100; ++i)
+      place(random_body(random, space), {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)});
+    for (const auto& p : planes) {
+      const dGeomID plane = dCreatePlane(space, p[0], p[1], p[2], p[3]);
+      Found found;
+      dSpaceCollide(space, &found, near_callback);
+      const auto calls = std::count_if(found.near_pairs.begin(), found.near_pairs.end(),
+                                       [&](const auto& pair) { return pair.first == plane || pair.second == plane; });
+      CHECK(calls == 0);
+      dGeomDestroy(plane);
+    }
+    dSpaceDestroy(space);
+  }
+}
+
+TEST_CASE("a box whose corner is in the bounding box but not near the body is pruned; one that is near is not") {
+  OdeSession session;
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  snCreateEllipsoid(space, 1, 1, 1);
+  const dGeomID box = dCreateBox(space, 1, 1, 1);
+  const auto calls = [&] {
+    int count = 0;
+    dSpaceCollide(space, &count, [](void* n, dGeomID, dGeomID) { ++*static_cast<int*>(n); });
+    return count;
+  };
+  const double touching = 0.5 + 1 / std::sqrt(3.0);  // corner on the unit sphere
+  place(box, {touching - 1e-9, touching - 1e-9, touching - 1e-9});
+  CHECK(calls() == 1);
+  place(box, {touching + 1e-9, touching + 1e-9, touching + 1e-9});
+  CHECK(calls() == 0);
+  dSpaceDestroy(space);
+}
+
+TEST_CASE("inside a dGeomTransform") {
+  OdeSession session;
+  Random random(5);
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  const Geom sphere(dCreateSphere(nullptr, 1));
+  int touching = 0;
+  for (int i = 0; i < 100; ++i) {
+    // The same pose, once composed by the transform and once set.
+    const auto a = dReal(random.uniform(0.5, 1.5));
+    const Geom transform(dCreateGeomTransform(nullptr));
+    const dGeomID inner = snCreateSuperellipsoid(nullptr, a, 1, dReal(0.7), 3, dReal(2.5));
+    const Geom direct(snCreateSuperellipsoid(nullptr, a, 1, dReal(0.7), 3, dReal(2.5)));
+    random.turn(inner);
+    place(inner, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+    random.turn(transform);
+    place(transform, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.5, 1.5)});
+    dGeomTransformSetCleanup(transform, 1);
+    dGeomTransformSetGeom(transform, inner);
+
+    const dReal* const R1 = dGeomGetRotation(transform);
+    const dReal* const R2 = dGeomGetRotation(inner);
+    dMatrix3 R;
+    dMultiply0(R, R1, R2, 3, 3, 3);
+    dVector3 p;
+    dMultiply0(p, R1, dGeomGetPosition(inner), 3, 3, 1);
+    dGeomSetRotation(direct, R);
+    place(direct, to_vec(p) + to_vec(dGeomGetPosition(transform)));
+
+    dReal box1[6], box2[6];
+    dGeomGetAABB(transform, box1);
+    dGeomGetAABB(direct, box2);
+    for (int k = 0; k < 6; ++k) CHECK(box1[k] == doctest::Approx(box2[k]).epsilon(1e-13));
+
+    for (const dGeomID other : {dGeomID(plane), dGeomID(sphere)}) {
+      const auto by_transform = collide(transform, other);
+      const auto by_hand = collide(direct, other);
+      REQUIRE(by_transform.size() == by_hand.size());
+      if (by_hand.empty()) continue;
+      ++touching;
+      CHECK(by_transform[0].depth == doctest::Approx(by_hand[0].depth).epsilon(1e-9));
+      CHECK(norm(to_vec(by_transform[0].normal) - to_vec(by_hand[0].normal)) < 1e-5);
+      CHECK(norm(to_vec(by_transform[0].pos) - to_vec(by_hand[0].pos)) < 1e-5);
+    }
+  }
+  CHECK(touching > 50);
+}
+
+TEST_CASE("a geom offset moves the geom, not the body") {
+  OdeSession session;
+  const dWorldID world = dWorldCreate();
+  Random random(6);
+  {
+    const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+    for (int i = 0; i < 50; ++i) {
+      const dBodyID body = dBodyCreate(world);
+      dBodySetPosition(body, 1, 2, dReal(random.uniform(-0.5, 1)));
+      dQuaternion q = {dReal(random.uniform(-1, 1)), dReal(random.uniform(-1, 1)), dReal(random.uniform(-1, 1)), 1};
+      dNormalize4(q);
+      dBodySetQuaternion(body, q);
+      const Geom with_offset(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 4));
+      dGeomSetBody(with_offset, body);
+      dGeomSetOffsetPosition(with_offset, dReal(0.3), dReal(-0.2), dReal(0.5));
+      dMatrix3 turned;
+      dRFromAxisAndAngle(turned, 1, 2, 3, dReal(0.8));
+      dGeomSetOffsetRotation(with_offset, turned);
+
+      const Geom direct(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 4));
+      dVector3 p;
+      dBodyGetRelPointPos(body, dReal(0.3), dReal(-0.2), dReal(0.5), p);
+      dMatrix3 R;
+      dMultiply0(R, dBodyGetRotation(body), turned, 3, 3, 3);
+      dGeomSetPosition(direct, p[0], p[1], p[2]);
+      dGeomSetRotation(direct, R);
+
+      const auto offset_contacts = collide(with_offset, plane);
+      const auto direct_contacts = collide(direct, plane);
+      REQUIRE(offset_contacts.size() == direct_contacts.size());
+      if (direct_contacts.empty()) continue;
+      CHECK(offset_contacts[0].depth == doctest::Approx(direct_contacts[0].depth).epsilon(1e-12));
+      CHECK(norm(to_vec(offset_contacts[0].pos) - to_vec(direct_contacts[0].pos)) < 1e-12);
+    }
+  }
+  dWorldDestroy(world);
+}

@@ -1,0 +1,137 @@
+// A body given by functions: passed on unchanged, and refused with a clear message when they cannot be a convex body's.
+#include "supernormal/shapes/callback_shape.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "shape_samples.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+const Ellipsoid reference(Vector3(3, 2, 1));
+const CallbackShape::Support good_support = [](const Vector3& n) { return reference.support(n); };
+const CallbackShape::Point good_point = [](const Vector3& n) { return reference.point(n); };
+const CallbackShape::Hessian good_hessian = [](const Vector3& n) { return reference.jet(n).H; };
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::string refusal(const CallbackShape::Support& support, const CallbackShape::Point& point,
+                    const CallbackShape::Hessian& hessian = {}) {
+  try {
+    CallbackShape(support, point, hessian);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void check_contains(const std::string& message, const std::string& part) {
+  if (message.find(part) == std::string::npos) FAIL_CHECK("\"", message, "\" does not contain \"", part, "\"");
+}
+
+}  // namespace
+
+TEST_CASE("callbacks are passed on unchanged") {
+  const CallbackShape with(good_support, good_point, good_hessian), without(good_support, good_point);
+  CHECK(with.has_curvature());
+  CHECK_FALSE(without.has_curvature());
+  CHECK_FALSE(with.has_flat_faces());
+  CHECK(with.half_extents() == Vector3(3, 2, 1));
+  for (const Vector3& n : random_normals(20, 41)) {
+    const Jet expected = reference.jet(n), jet = with.jet(n);
+    CHECK(jet.h == expected.h);
+    CHECK(jet.r == expected.r);
+    CHECK(jet.H == expected.H);
+    Jet points_only;
+    without.evaluate(n, Order::Point, points_only);
+    CHECK(points_only.h == expected.h);
+    CHECK(points_only.r == expected.r);
+  }
+}
+
+TEST_CASE("an order calls no function that it does not need") {
+  int points = 0, hessians = 0;
+  const CallbackShape shape(
+      good_support, [&](const Vector3& n) { return ++points, good_point(n); },
+      [&](const Vector3& n) { return ++hessians, good_hessian(n); });
+  points = hessians = 0;
+  shape.support(Vector3::UnitX());
+  CHECK(points == 0);
+  shape.point(Vector3::UnitX());
+  CHECK(points == 1);
+  CHECK(hessians == 0);
+  shape.jet(Vector3::UnitX());
+  CHECK(hessians == 1);
+}
+
+TEST_CASE("missing functions are refused") {
+  CHECK(refusal({}, good_point) == "the support function is missing");
+  CHECK(refusal(good_support, {}) == "the point function is missing");
+}
+
+TEST_CASE("values that are not finite are refused, with the direction") {
+  const auto only_up = [](const Vector3& n) { return n == Vector3::UnitZ(); };
+  const std::string support = refusal([&](const Vector3& n) { return only_up(n) ? kNan : good_support(n); }, good_point);
+  CHECK(support == "support = nan is not finite in the direction n = (0, 0, 1)");
+  const std::string point =
+      refusal(good_support, [&](const Vector3& n) { return only_up(n) ? Vector3(0, HUGE_VAL, 1) : Vector3(good_point(n)); });
+  CHECK(point == "point = (0, inf, 1) is not finite in the direction n = (0, 0, 1)");
+  const std::string hessian = refusal(
+      good_support, good_point, [&](const Vector3& n) { return only_up(n) ? Matrix3::Constant(kNan) : Matrix3(good_hessian(n)); });
+  CHECK(hessian == "hessian is not finite in the direction n = (0, 0, 1)");
+}
+
+TEST_CASE("a point off its supporting plane is refused; single precision is accepted") {
+  const std::string message = refusal([](const Vector3& n) { return 1.25 * good_support(n); }, good_point);
+  check_contains(message, "differs from support = ");
+  check_contains(message, "by more than 1e-6 of the size 3.75 m in the direction n = (");
+  CHECK(refusal([](const Vector3& n) { return static_cast<float>(good_support(n)); },
+                [](const Vector3& n) { return Vector3(good_point(n).cast<float>().cast<double>()); }) == "accepted");
+}
+
+TEST_CASE("a body without width is refused, one beside its origin is not") {
+  const auto segment = [](const Vector3& n) { return std::abs(n.x()); };
+  const auto end = [](const Vector3& n) { return Vector3(std::copysign(1.0, n.x()), 0, 0); };
+  check_contains(refusal(segment, end), "the width support(n) + support(-n) = 0 m is not above 0 in the direction n = (");
+  check_contains(refusal([](const Vector3&) { return 0.0; }, [](const Vector3&) { return Vector3(0, 0, 0); }),
+                 "size of the body = 0 m is outside [1e-30, 1e+30] m");
+  const Vector3 offset(100, 0, 0);
+  CHECK(refusal([&](const Vector3& n) { return good_support(n) + n.dot(offset); },
+                [&](const Vector3& n) { return Vector3(good_point(n) + offset); }) == "accepted");
+}
+
+TEST_CASE("a body that is not convex is refused") {
+  // h = 1 + 0.3 cos(4 angle about z): n.r = h holds, but the contour crosses itself.
+  const auto h = [](const Vector3& n) { return 1 + 0.3 * std::cos(4 * std::atan2(n.y(), n.x())); };
+  const auto r = [&](const Vector3& n) {
+    const double angle = std::atan2(n.y(), n.x());
+    const double across = std::hypot(n.x(), n.y());
+    const Vector3 around(-std::sin(angle), std::cos(angle), 0);
+    return Vector3(h(n) * n - (across > 0 ? 1.2 * std::sin(4 * angle) / across : 0) * around);
+  };
+  check_contains(refusal(h, r), "the body is not convex: point(");
+}
+
+TEST_CASE("a Hessian that cannot be one is refused") {
+  const auto with = [](const std::function<Matrix3(const Vector3&)>& hessian) {
+    return refusal(good_support, good_point, hessian);
+  };
+  check_contains(with([](const Vector3& n) {
+                   Matrix3 H = good_hessian(n);
+                   H(0, 1) += 0.1;
+                   return H;
+                 }),
+                 "hessian is not symmetric");
+  check_contains(with([](const Vector3& n) { return Matrix3(good_hessian(n) + Matrix3::Identity()); }),
+                 "hessian times n is not zero");
+  check_contains(with([](const Vector3& n) { return Matrix3(-good_hessian(n)); }), "hessian has a negative principal radius");
+  CHECK(with(good_hessian) == "accepted");
+  CHECK(with([](const Vector3&) { return Matrix3::Zero(); }) == "accepted");  // as on the vertices of a polytope
+}

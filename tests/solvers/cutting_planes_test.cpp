@@ -1,0 +1,124 @@
+// Cuts bound the gap function, and maximize() finds the top of their minimum.
+#include "solvers/cutting_planes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "reference_pairs.hpp"
+#include "shapes/shape_samples.hpp"
+#include "supernormal/solvers/gap_function.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+constexpr double kRadius = 0.8;
+
+double model(const CuttingPlanes& cuts, const TangentPlane& plane, const Vector2& u) {
+  return cuts.upper_bound(plane.n + plane.lift(u));
+}
+
+/// The largest value on a grid in polar coordinates around `centre`, in the disc of kRadius.
+double largest_sampled(const CuttingPlanes& cuts, const TangentPlane& plane, const Vector2& centre, double reach) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (int ring = 0; ring <= 60; ++ring) {
+    for (int spoke = 0; spoke < 120; ++spoke) {
+      const double angle = 2 * std::numbers::pi * spoke / 120;
+      const Vector2 u = centre + reach * ring / 60.0 * Vector2(std::cos(angle), std::sin(angle));
+      if (u.norm() <= kRadius) largest = std::max(largest, model(cuts, plane, u));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("no gap is larger than the cuts of other normals allow") {
+  const std::vector<Vector3> normals = random_normals(CuttingPlanes::kCapacity, 51);
+  for (const ReferencePair& pair : reference_pairs()) {
+    GapFunction gap(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
+    CuttingPlanes cuts;
+    GapJet jet;
+    for (std::size_t k = 0; k < 8; ++k) {
+      gap.evaluate(normals[k], Order::Point, jet);
+      cuts.add(jet.d);
+    }
+    for (const Vector3& n : normals) {
+      gap.evaluate(n, Order::Value, jet);
+      const double bound = cuts.upper_bound(n);
+      if (!(jet.s <= bound + gap.rounding())) FAIL_CHECK(pair.name, " s ", jet.s, " above ", bound);
+      // Homogeneous: half the vector, half the bound.
+      CHECK(cuts.upper_bound(0.5 * n) == 0.5 * bound);
+    }
+    // Where a cut was made it is exact.
+    gap.evaluate(normals[3], Order::Value, jet);
+    CHECK(std::abs(cuts.upper_bound(normals[3]) - jet.s) <= 2 * gap.rounding());
+  }
+}
+
+TEST_CASE("the oldest cut gives way to the newest") {
+  CuttingPlanes cuts;
+  CHECK(cuts.size() == 0);
+  CHECK(cuts.upper_bound(Vector3::UnitX()) == std::numeric_limits<double>::infinity());
+  for (int k = 0; k < CuttingPlanes::kCapacity; ++k) cuts.add(Vector3::Constant(k));
+  CHECK(cuts.size() == CuttingPlanes::kCapacity);
+  CHECK(cuts.upper_bound(Vector3::UnitX()) == 0);
+  cuts.add(Vector3::Constant(7));
+  CHECK(cuts.size() == CuttingPlanes::kCapacity);
+  CHECK(cuts.upper_bound(Vector3::UnitX()) == 1);
+  cuts.clear();
+  CHECK(cuts.size() == 0);
+}
+
+TEST_CASE("maximize finds the top of random cuts") {
+  std::mt19937_64 engine(52);
+  std::normal_distribution<double> gauss;
+  int interior = 0, rim = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    CuttingPlanes cuts;
+    const int count = 1 + trial % 12;
+    for (int k = 0; k < count; ++k) cuts.add({gauss(engine), gauss(engine), gauss(engine)});
+    const TangentPlane plane(Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized(), Vector3(1, 2, -1));
+    const CuttingPlanes::Maximum top = cuts.maximize(plane, kRadius);
+    CHECK(top.u.norm() <= kRadius * (1 + 1e-12));
+    CHECK(std::abs(top.value - model(cuts, plane, top.u)) <= 1e-10);
+    (top.is_interior ? interior : rim) += 1;
+    // The ascent stops where it meets the rim: a better place along the rim is allowed there, but the way up never led down.
+    CHECK(top.value >= model(cuts, plane, Vector2::Zero()) - 1e-12);
+    if (!top.is_interior) {
+      CHECK(top.u.norm() >= kRadius * (1 - 1e-12));
+      continue;
+    }
+    CHECK(top.value >= largest_sampled(cuts, plane, Vector2::Zero(), kRadius) - 1e-10);
+    CHECK(top.value >= largest_sampled(cuts, plane, top.u, 1e-3) - 1e-10);
+  }
+  CHECK(interior > 50);
+  CHECK(rim > 50);
+}
+
+TEST_CASE("cuts of a flat face, steep one way and gentle the other, are climbed along the gentle one") {
+  // Two cuts meet at u = 0 in a ridge with a slope of 1e-3 along it; rounding is that of the steep slopes.
+  const TangentPlane plane(Vector3(2, -1, 0.5).normalized(), Vector3(1, 1, 1));
+  for (const double slope : {1e-1, 1e-3, 1e-6, 1e-9}) {
+    CuttingPlanes cuts;
+    cuts.add(plane.lift({2.27, slope}));
+    cuts.add(plane.lift({-2.09, slope}));
+    const CuttingPlanes::Maximum top = cuts.maximize(plane, kRadius);
+    CHECK_FALSE(top.is_interior);
+    CHECK(std::abs(top.value - slope * kRadius) <= 1e-6 * slope * kRadius + 1e-15);
+  }
+}
+
+TEST_CASE("one level cut has its maximum where it stands") {
+  const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
+  CuttingPlanes cuts;
+  cuts.add(3 * Vector3::UnitZ());
+  const CuttingPlanes::Maximum top = cuts.maximize(plane, kRadius);
+  CHECK(top.is_interior);
+  CHECK(top.value == 3);
+  CHECK(top.u == Vector2::Zero());
+}

@@ -1,0 +1,138 @@
+// The maximum of a quadratic model in a disc, against sampling.
+#include "solvers/trust_region.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+using namespace supernormal;
+
+namespace {
+
+/// The largest gain in the disc: at the stationary point if that is a maximum inside, or on the rim.
+double largest_sampled(const QuadraticModel& model, double radius) {
+  double largest = 0;
+  for (int spoke = 0; spoke < 20000; ++spoke) {
+    const double angle = 2 * std::numbers::pi * spoke / 20000;
+    const Vector2 direction(std::cos(angle), std::sin(angle));
+    largest = std::max(largest, model.gain(radius * direction));
+    // Along a ray: the vertex of the parabola if it lies inside.
+    const double bend = direction.dot(model.A * direction);
+    const double slope = model.g.dot(direction);
+    if (bend > 0 && slope > 0 && slope / bend < radius) largest = std::max(largest, 0.5 * slope * (slope / bend));
+  }
+  return largest;
+}
+
+Symmetric2 with_eigenvalues(double low, double high, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {high * c * c + low * s * s, (high - low) * c * s, high * s * s + low * c * c};
+}
+
+/// A step to the rim is only a trial: the solver lets it miss the rim by a hundredth.
+constexpr double kShare = 0.97;
+
+void check(const QuadraticModel& model, double radius) {
+  const Vector2 u = model.maximize(radius);
+  const double largest = largest_sampled(model, radius);
+  CHECK(u.allFinite());
+  CHECK(u.norm() <= radius * (1 + 1e-2));
+  const double gain = model.gain(u);
+  if (!(gain >= kShare * largest - 1e-15)) {
+    FAIL_CHECK("g ", model.g.x(), " ", model.g.y(), " A ", model.A.xx, " ", model.A.xy, " ", model.A.yy, " radius ", radius,
+               " gain ", gain, " of ", largest);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("random models: definite, indefinite and negative") {
+  std::mt19937_64 engine(61);
+  std::normal_distribution<double> gauss;
+  for (int trial = 0; trial < 300; ++trial) {
+    const QuadraticModel model{{gauss(engine), gauss(engine)}, {2 * gauss(engine), gauss(engine), 2 * gauss(engine)}};
+    for (const double radius : {1e-3, 0.3, 1.0, 4.0}) check(model, radius);
+  }
+}
+
+TEST_CASE("the Newton step where it fits") {
+  const QuadraticModel model{{0.3, -0.2}, {2, 0.5, 1}};
+  const Vector2 u = model.maximize(1);
+  CHECK((model.A * u - model.g).norm() <= 1e-15);
+  CHECK(std::abs(model.gain(u) - model.largest_gain()) <= 1e-16);
+}
+
+TEST_CASE("the hard case: no slope along the negative curvature") {
+  for (const double low : {-1e-6, -1.0, -1e3}) {
+    for (const double slope : {0.0, 1e-300, 1e-17, 1e-9, 0.1, 10.0}) {
+      for (const double angle : {0.0, 0.3, 1.2}) {
+        for (const double noise : {0.0, 1e-300, -1e-20, 1e-17}) {
+          const Symmetric2 A = with_eigenvalues(low, 1.25, angle);
+          const Vector2 up(std::cos(angle), std::sin(angle)), across(-up.y(), up.x());
+          for (const double radius : {1e-6, 1e-2, 1.0}) check({slope * up + noise * across, A}, radius);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("both curvatures negative and equal") {
+  for (const Vector2& g : {Vector2(0, 0), Vector2(1e-17, 0), Vector2(1e-300, 1e-300), Vector2(0.1, -0.4)}) {
+    for (const double radius : {1e-8, 1.0, 4.0}) check({g, {-1.25, 0, -1.25}}, radius);
+  }
+}
+
+TEST_CASE("nothing to gain: no step") {
+  CHECK(QuadraticModel{{0, 0}, {1, 0, 2}}.maximize(1) == Vector2::Zero());
+  CHECK(QuadraticModel{{0, 0}, {1, 0, 2}}.largest_gain() == 0);
+}
+
+TEST_CASE("the largest gain is infinite where some way leads up for ever") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CHECK(QuadraticModel{{0.1, 0}, {1, 0, -1e-9}}.largest_gain() == kInfinity);
+  CHECK(QuadraticModel{{0.1, 0}, {1, 0, 0}}.largest_gain() == kInfinity);
+  CHECK(QuadraticModel{{0.1, 0}, {1, 0, 1e-9}}.largest_gain() < 1);
+}
+
+TEST_CASE("one radius of curvature beyond all measure leaves the other its digits") {
+  for (const double huge : {1e20, 1e60, 1e120}) {
+    const QuadraticModel model{{0.3, 0.2}, {huge, 0, 2}};
+    std::feclearexcept(FE_ALL_EXCEPT);
+    const Vector2 u = model.maximize(1);
+    CHECK(std::abs(u.y() - 0.1) <= 1e-15);
+    CHECK(std::abs(u.x()) <= 0.3 / huge * (1 + 1e-12));
+    CHECK(std::abs(model.largest_gain() - 0.01) <= 1e-15);
+    const Eigen2 e(model.A);
+    CHECK(e.low == 2);
+    CHECK(e.high == huge);
+    // And with the rim in the way.
+    const Vector2 rim = model.maximize(0.01);
+    CHECK(std::abs(rim.y() - 0.01) <= 1e-4);
+    CHECK(std::abs(rim.x()) <= 1e-10);
+    CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
+  }
+}
+
+TEST_CASE("eigenvalues and vectors") {
+  std::mt19937_64 engine(62);
+  std::normal_distribution<double> gauss;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Symmetric2 A{gauss(engine), gauss(engine), gauss(engine)};
+    const Eigen2 e(A);
+    CHECK(e.low <= e.high);
+    CHECK((A * e.low_vector - e.low * e.low_vector).norm() <= 4e-15);
+    CHECK((A * e.high_vector - e.high * e.high_vector).norm() <= 4e-15);
+    CHECK(std::abs(e.low_vector.dot(e.high_vector)) <= 1e-15);
+    CHECK(std::abs(e.high_vector.norm() - 1) <= 1e-15);
+    const Vector2 b(gauss(engine), gauss(engine));
+    CHECK((A * A.solve(b) - b).norm() <= 1e-11 * (1 + A.solve(b).norm()));
+  }
+  const Eigen2 zero(Symmetric2{});
+  CHECK(zero.low == 0);
+  CHECK(zero.high == 0);
+  CHECK(zero.high_vector.norm() == 1);
+}
