@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grain.hpp"
+
+namespace falling_particles {
+
+/// The grains of a catalogue file, one table a grain, in the order of the file. Throws InputError.
+std::vector<Grain> load_catalogue(const std::string& path);
+
+}  // namespace falling_particles

@@ -1,0 +1,42 @@
+#include "energy.hpp"
+
+#include <cmath>
+
+namespace falling_particles {
+namespace {
+
+double kinetic_energy(const Body& body) {
+  const dReal* v = dBodyGetLinearVel(body.body);
+  const dReal* w = dBodyGetAngularVel(body.body);
+  dVector3 spin;  // in the body's frame, where the inertia is constant
+  dBodyVectorFromWorld(body.body, w[0], w[1], w[2], spin);
+  double twice_rotation = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) twice_rotation += spin[i] * body.mass.I[4 * i + j] * spin[j];
+  }
+  return 0.5 * (body.mass.mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + twice_rotation);
+}
+
+}  // namespace
+
+Energy measure_energy(const World& world, const Scene& scene) {
+  Energy energy{0, 0};
+  for (const Body& body : world.bodies()) {
+    energy.kinetic += kinetic_energy(body);
+    if (!scene.gravity) continue;
+    const dReal* position = dBodyGetPosition(body.body);
+    for (std::size_t i = 0; i < 3; ++i) energy.potential -= body.mass.mass * scene.gravity->acceleration[i] * position[i];
+  }
+  return energy;
+}
+
+double kinetic_height(const World& world, const Scene& scene) {
+  if (!scene.gravity) return 0;
+  const auto [x, y, z] = scene.gravity->acceleration;
+  double mass = 0;
+  for (const Body& body : world.bodies()) mass += body.mass.mass;
+  const double weight = mass * std::hypot(x, y, z);
+  return weight > 0 ? measure_energy(world, scene).kinetic / weight : 0;
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,27 @@
+#include "grain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace falling_particles {
+namespace {
+
+/// Distance of the farthest point of |x/a|^n + |y/b|^n = 1 from the centre: on an axis for n <= 2; by Hoelder's inequality the norm
+/// of (a, b) with exponent 2 n / (n - 2) beyond. Nesting it gives the superellipsoid's.
+double farthest(double a, double b, double exponent) {
+  if (exponent <= 2) return std::max(a, b);
+  const double dual = 2 * exponent / (exponent - 2);
+  const double larger = std::max(a, b);
+  return larger * std::pow(1 + std::pow(std::min(a, b) / larger, dual), 1 / dual);
+}
+
+}  // namespace
+
+double Grain::smallest_half_axis() const { return *std::ranges::min_element(half_axes); }
+
+double Grain::bounding_radius() const {
+  const auto [a, b, c] = half_axes;
+  return farthest(farthest(a - rounding, b - rounding, delta), c - rounding, epsilon) + rounding;
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace falling_particles {
+
+/// A kind of grain: a superellipsoid of the given outer size, its edges rounded by a sphere that rolls inside.
+struct Grain {
+  std::string name;
+  std::array<double, 3> half_axes;  ///< m, along the body's x, y, z; rounding included
+  double delta;                     ///< exponent of the xy-section
+  double epsilon;                   ///< exponent along z
+  double rounding;                  ///< m, radius; 0: none
+  double density;                   ///< kg/m^3
+  std::string source;               ///< of the dimensions; "typical" when there is no published one
+
+  double smallest_half_axis() const;
+  /// m; of the smallest sphere about the centre that holds the grain.
+  double bounding_radius() const;
+};
+
+}  // namespace falling_particles

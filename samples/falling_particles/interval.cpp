@@ -1,0 +1,30 @@
+#include "interval.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace falling_particles {
+
+bool Interval::contains(double value) const {
+  const bool above = includes_lower ? value >= lower : value > lower;
+  const bool below = includes_upper ? value <= upper : value < upper;
+  return std::isfinite(value) && above && below;
+}
+
+std::string Interval::describe() const {
+  std::string text = "a number in ";
+  text += includes_lower ? '[' : '(';
+  text += shortest(lower) + ", " + shortest(upper);
+  text += includes_upper ? ']' : ')';
+  if (*unit != '\0') text += std::string(" ") + unit;
+  return text;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> buffer{};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end};
+}
+
+}  // namespace falling_particles

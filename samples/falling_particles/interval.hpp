@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace falling_particles {
+
+/// A range of real numbers for input checks. No bound, open or closed, ever admits infinity or NaN.
+struct Interval {
+  double lower;
+  double upper;
+  bool includes_lower;
+  bool includes_upper;
+  const char* unit;  ///< "" for pure numbers
+
+  static Interval positive(double upper, const char* unit) { return {0, upper, false, true, unit}; }
+  static Interval closed(double lower, double upper, const char* unit) { return {lower, upper, true, true, unit}; }
+
+  bool contains(double value) const;
+  std::string describe() const;  ///< "a number in (0, 1] m"
+};
+
+/// Shortest text that reads back as the same number.
+std::string shortest(double value);
+
+}  // namespace falling_particles

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "catalogue.hpp"
+#include "input_error.hpp"
+#include "nearest_word.hpp"
+#include "scene.hpp"
+#include "toml_input.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr std::int64_t kMostBodies = 1'000'000;
+constexpr std::int64_t kMostSteps = 1'000'000'000;
+
+/// The catalogue that the scene names, relative to the scene's folder.
+std::vector<Grain> read_catalogue(const TomlTable& root, const std::string& scene_path) {
+  const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
+  if (!std::filesystem::is_regular_file(path)) {
+    root.fail("catalogue", "catalogue: there is no file \"" + path.string() +
+                               "\"; allowed: a grain catalogue, its path relative to " + "the scene file");
+  }
+  return load_catalogue(path.string());
+}
+
+const Grain& find_grain(const std::vector<Grain>& catalogue, const TomlTable& entry) {
+  const std::string name = entry.text("name");
+  const auto found = std::ranges::find(catalogue, name, &Grain::name);
+  if (found != catalogue.end()) return *found;
+  std::vector<std::string> names;
+  names.reserve(catalogue.size());
+  for (const Grain& grain : catalogue) names.push_back(grain.name);
+  entry.fail("name", "unknown grain \"" + name + "\"" + did_you_mean(name, names) + "; allowed (the catalogue's): " + join(names));
+}
+
+/// Whole numbers in the ratio of `fractions` that sum to `total`: rounded down, then the largest remainders up.
+std::vector<int> apportion(const std::vector<double>& fractions, int total) {
+  std::vector<int> counts;
+  std::vector<std::pair<double, std::size_t>> remainders;
+  int given = 0;
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    const double exact = fractions[i] * total;
+    counts.push_back(static_cast<int>(exact));
+    remainders.emplace_back(static_cast<double>(counts.back()) - exact, i);
+    given += counts.back();
+  }
+  std::ranges::sort(remainders);
+  for (std::size_t k = 0; given < total; ++k, ++given) ++counts[remainders[k % remainders.size()].second];
+  return counts;
+}
+
+std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const TomlTable& drop) {
+  if (!drop.has("total")) drop.fail("total", "drop.total is missing; needed where grains are given by fraction");
+  const int total = static_cast<int>(drop.integer("total", 1, kMostBodies));
+  std::vector<double> fractions;
+  double sum = 0;
+  for (const TomlTable& entry : entries) {
+    fractions.push_back(entry.number("fraction", Interval::positive(1, "")));
+    sum += fractions.back();
+  }
+  // As typed in by hand: 0.333 three times is one.
+  if (std::abs(sum - 1) > 0.005) {
+    entries.front().fail("fraction", "the fractions of the grains sum to " + shortest(sum) + "; allowed: a sum of 1");
+  }
+  for (double& fraction : fractions) fraction /= sum;
+  return apportion(fractions, total);
+}
+
+std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTable& drop) {
+  if (drop.has("total")) drop.fail("total", "drop.total is given besides counts; allowed: with fractions only");
+  std::vector<int> counts;
+  counts.reserve(entries.size());
+  for (const TomlTable& entry : entries) counts.push_back(static_cast<int>(entry.integer("count", 1, kMostBodies)));
+  return counts;
+}
+
+std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop, const std::string& scene_path) {
+  const std::vector<Grain> catalogue = read_catalogue(root, scene_path);
+  const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction"});
+  const bool by_fraction = entries.front().has("fraction");
+  std::vector<GrainCount> grains;
+  std::set<std::string> seen;
+  for (const TomlTable& entry : entries) {
+    grains.push_back({find_grain(catalogue, entry), 0});
+    const std::string& name = grains.back().grain.name;
+    if (!seen.insert(name).second) entry.fail("name", "grain \"" + name + "\" is listed twice; allowed: once, with the sum");
+    const char* other = by_fraction ? "count" : "fraction";
+    if (entry.has(other)) {
+      entry.fail(other, entry.full_name(other) + " is mixed with " + (by_fraction ? "fraction" : "count") +
+                            "; allowed: count for all grains or fraction for all grains");
+    }
+  }
+  const std::vector<int> counts = by_fraction ? read_fractions(entries, drop) : read_counts(entries, drop);
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) sum += grains[i].count = counts[i];
+  if (sum > kMostBodies)
+    root.fail("grain", "the scene has " + std::to_string(sum) + " grains; allowed: up to " + std::to_string(kMostBodies));
+  return grains;
+}
+
+Time read_time(const TomlTable& table) {
+  Time time{};
+  time.duration = table.number("duration", Interval::positive(3600, "s"));
+  time.step = table.number("step", Interval::positive(time.duration, "s (up to time.duration)"));
+  time.frame = table.number("frame", Interval::closed(time.step, time.duration, "s (from time.step to time.duration)"));
+  if (time.duration / time.step > static_cast<double>(kMostSteps)) {
+    table.fail("step", "time.duration / time.step is above " + std::to_string(kMostSteps) + " steps; allowed: a larger step");
+  }
+  return time;
+}
+
+Solver read_solver(const TomlTable& table) {
+  return {static_cast<int>(table.integer("iterations", 1, 100000)), table.number("erp", Interval::closed(0, 1, "")),
+          table.number("cfm", Interval::closed(0, 1, "s/kg"))};
+}
+
+Contact read_contact(const TomlTable& table) {
+  return {table.number("surface_layer", Interval::closed(0, 0.1, "(relative to the smallest half-axis)")),
+          table.number("max_correcting_velocity", Interval::positive(100, "m/s"))};
+}
+
+void read_effects(const TomlTable& root, Scene& scene) {
+  if (const auto table = root.find_table("gravity", {"acceleration"})) {
+    const std::vector<double> g = table->numbers("acceleration", 3, Interval::closed(-1000, 1000, "m/s^2"));
+    scene.gravity = Gravity{{g[0], g[1], g[2]}};
+  }
+  if (const auto table = root.find_table("friction", {"coefficient"})) {
+    // 0 is no friction: leave the section out, so that nobody pays for rows that do nothing.
+    scene.friction = Friction{table->number("coefficient", Interval::positive(100, ""))};
+  }
+}
+
+/// The lattice needs room for one cell at least, whatever the attitude of the largest grain.
+void check_fit(const TomlTable& box, const Scene& scene) {
+  const double cell = 2 * scene.largest_bounding_radius() * (1 + scene.drop.gap);
+  const double narrowest = std::min(scene.box.width[0], scene.box.width[1]);
+  if (narrowest >= cell) return;
+  box.fail("width", "box.width is " + shortest(narrowest) + " at its narrowest; allowed: at least " + shortest(cell) +
+                        " m, so that the largest grain fits in any attitude");
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& path) {
+  const TomlTable root =
+      TomlFile(path, "scene file")
+          .root({"seed", "catalogue", "box", "drop", "grain", "time", "solver", "contact", "gravity", "friction"});
+  Scene scene{};
+  scene.name = std::filesystem::path(path).stem().string();
+  scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  const TomlTable box = root.table("box", {"width"});
+  const std::vector<double> width = box.numbers("width", 2, Interval::positive(1000, "m"));
+  scene.box = {{width[0], width[1]}};
+  const TomlTable drop = root.table("drop", {"height", "gap", "total"});
+  scene.drop = {drop.number("height", Interval::closed(0, 1000, "m")), drop.number("gap", Interval::closed(0, 10, ""))};
+  scene.grains = read_grains(root, drop, path);
+  scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
+  scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
+  scene.contact = read_contact(root.table("contact", {"surface_layer", "max_correcting_velocity"}));
+  read_effects(root, scene);
+  check_fit(box, scene);
+  return scene;
+}
+
+}  // namespace falling_particles

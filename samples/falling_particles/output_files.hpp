@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "energy.hpp"
+#include "world.hpp"
+
+namespace falling_particles {
+
+inline constexpr std::string_view kTrajectoryFile = "trajectory.csv";
+inline constexpr std::string_view kEnergiesFile = "energies.csv";
+inline constexpr std::string_view kSummaryFile = "summary.toml";
+inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile, kSummaryFile};
+
+/// trajectory.csv: a line per frame and body. Numbers are the shortest text that reads back exactly.
+class Trajectory {
+ public:
+  explicit Trajectory(const std::filesystem::path& path);
+  void write(double time, const World& world);
+  void close();  ///< throws when anything could not be written
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream stream_;
+};
+
+/// energies.csv: a line per frame.
+class Energies {
+ public:
+  explicit Energies(const std::filesystem::path& path);
+  void write(double time, const Energy& energy, std::size_t contacts);
+  void close();  ///< throws when anything could not be written
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream stream_;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,50 @@
+#include "overlap.hpp"
+
+#include <supernormal/supernormal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace falling_particles {
+namespace {
+
+using Pairs = std::vector<std::pair<dGeomID, dGeomID>>;
+
+void append(void* pairs, dGeomID g1, dGeomID g2) { static_cast<Pairs*>(pairs)->emplace_back(g1, g2); }
+
+double smallest_half_axis(dGeomID geom) {
+  const Body* body = body_of(geom);
+  return body == nullptr ? INFINITY : body->grain->smallest_half_axis();
+}
+
+}  // namespace
+
+Overlap measure_overlap(const World& world) {
+  Pairs pairs;
+  dSpaceCollide(world.space(), &pairs, append);
+  Overlap overlap;
+  for (const auto& [g1, g2] : pairs) {
+    snProximity proximity;
+    if (snGeomProximity(g1, g2, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
+    if (!(proximity.gap < 0)) continue;
+    const double depth = -proximity.gap;
+    ++overlap.pairs;
+    overlap.depth = std::max(overlap.depth, depth);
+    overlap.relative_to_pair = std::max(overlap.relative_to_pair, depth / std::min(smallest_half_axis(g1), smallest_half_axis(g2)));
+  }
+  return overlap;
+}
+
+std::size_t count_outside(const World& world, const Box& box) {
+  const auto inside = [&box](const Body& body) {
+    const dReal* p = dBodyGetPosition(body.body);
+    return p[0] > 0 && p[0] < box.width[0] && p[1] > 0 && p[1] < box.width[1] && p[2] > 0 && p[2] < INFINITY;
+  };
+  return world.bodies().size() - static_cast<std::size_t>(std::ranges::count_if(world.bodies(), inside));
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+
+namespace falling_particles {
+
+/// Progress of a run on a stream: one bar that is redrawn on a terminal, a plain line every tenth elsewhere.
+class Progress {
+ public:
+  Progress(std::FILE* stream, int steps);
+
+  /// After step `step` of `steps`: simulated seconds, contacts of the step.
+  void update(int step, double simulated, std::size_t contacts);
+  /// Ends the bar's line. Called once, also when the run stops early.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw(int step, double simulated, std::size_t contacts);
+  double seconds_left(int step) const;
+
+  std::FILE* stream_;
+  bool terminal_;
+  int steps_;
+  Clock::time_point start_;
+  Clock::time_point last_draw_;
+  int tenths_ = 0;
+};
+
+}  // namespace falling_particles

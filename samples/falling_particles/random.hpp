@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+
+namespace falling_particles {
+
+/// Random numbers that are the same everywhere: the standard fixes the engine bit for bit but leaves its distributions to each
+/// library, so the distributions are written out here.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform();                        ///< in [0, 1)
+  std::uint64_t below(std::uint64_t end);  ///< in [0, end), each equally likely
+  std::array<double, 4> rotation();        ///< unit quaternion w, x, y, z; uniform over all rotations
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace falling_particles

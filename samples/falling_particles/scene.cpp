@@ -1,0 +1,29 @@
+#include "scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace falling_particles {
+
+int Time::steps() const { return static_cast<int>(std::lround(duration / step)); }
+int Time::steps_per_frame() const { return static_cast<int>(std::lround(frame / step)); }
+
+int Scene::bodies() const {
+  int sum = 0;
+  for (const GrainCount& kind : grains) sum += kind.count;
+  return sum;
+}
+
+double Scene::smallest_half_axis() const {
+  double smallest = INFINITY;
+  for (const GrainCount& kind : grains) smallest = std::min(smallest, kind.grain.smallest_half_axis());
+  return smallest;
+}
+
+double Scene::largest_bounding_radius() const {
+  double largest = 0;
+  for (const GrainCount& kind : grains) largest = std::max(largest, kind.grain.bounding_radius());
+  return largest;
+}
+
+}  // namespace falling_particles

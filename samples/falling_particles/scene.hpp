@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grain.hpp"
+
+namespace falling_particles {
+
+/// The container: a floor at z = 0 and four walls without upper end, at x = 0, x = width[0], y = 0 and y = width[1].
+struct Box {
+  std::array<double, 2> width;  ///< m
+};
+
+struct GrainCount {
+  Grain grain;
+  int count;
+};
+
+/// How the grains start: on a lattice whose cells hold the largest grain in any attitude.
+struct Drop {
+  double height;  ///< m, of the lowest cells above the floor
+  double gap;     ///< free part of a cell, relative to the largest grain; the grains are placed at random within it
+};
+
+struct Time {
+  double duration;  ///< s
+  double step;      ///< s
+  double frame;     ///< s, between two lines of output
+  int steps() const;
+  int steps_per_frame() const;
+};
+
+struct Solver {
+  int iterations;  ///< of quickstep
+  double erp;      ///< share of an overlap that a step removes
+  double cfm;      ///< s/kg: softness of all constraints
+};
+
+struct Contact {
+  double surface_layer;            ///< depth left alone, relative to the scene's smallest half-axis
+  double max_correcting_velocity;  ///< m/s, with which overlaps may be pushed out
+};
+
+/// Effects: a scene without the section runs without the effect.
+struct Gravity {
+  std::array<double, 3> acceleration;  ///< m/s^2
+};
+struct Friction {
+  double coefficient;  ///< Coulomb's, between all surfaces
+};
+
+struct Scene {
+  std::string name;  ///< of the file, without folder and extension
+  std::uint64_t seed;
+  Box box;
+  std::vector<GrainCount> grains;
+  Drop drop;
+  Time time;
+  Solver solver;
+  Contact contact;
+  std::optional<Gravity> gravity;
+  std::optional<Friction> friction;
+
+  int bodies() const;
+  double smallest_half_axis() const;       ///< m, of all grains
+  double largest_bounding_radius() const;  ///< m, of all grains
+};
+
+/// Throws InputError.
+Scene load_scene(const std::string& path);
+
+}  // namespace falling_particles

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+
+namespace falling_particles {
+
+/// Sums up wall-clock time over many intervals. Reading the clock costs about 25 ns (vDSO), a hundredth of a pair query.
+class Stopwatch {
+  using Clock = std::chrono::steady_clock;
+
+ public:
+  /// Times its own life.
+  class Lap {
+   public:
+    explicit Lap(Stopwatch& watch) : watch_(watch), start_(Clock::now()) {}
+    ~Lap() { watch_.total_ += Clock::now() - start_; }
+    Lap(const Lap&) = delete;
+    Lap& operator=(const Lap&) = delete;
+
+   private:
+    Stopwatch& watch_;
+    Clock::time_point start_;
+  };
+
+  double seconds() const { return std::chrono::duration<double>(total_).count(); }
+
+ private:
+  Clock::duration total_{};
+};
+
+}  // namespace falling_particles

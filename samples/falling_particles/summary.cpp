@@ -1,0 +1,115 @@
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace falling_particles {
+namespace {
+
+/// key = value with the values of all lines in one column and the comments in another.
+class Lines {
+ public:
+  void section(const char* name) { text_ += (text_.empty() ? "[" : "\n[") + std::string(name) + "]\n"; }
+  void add(const char* key, const std::string& value, const char* comment = "") {
+    text_ += padded(key, 32) + "= " + (*comment == '\0' ? value : padded(value, 12) + "# " + comment) + '\n';
+  }
+  void add(const char* key, unsigned long long value, const char* comment = "") { add(key, std::to_string(value), comment); }
+  void add(const char* key, bool value, const char* comment) { add(key, std::string(value ? "true" : "false"), comment); }
+  void add(const char* key, double value, const char* comment = "") {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.6g", value);
+    std::string number = buffer;
+    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float, whatever the value
+    add(key, number, comment);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size() + 1, width), ' ');
+    return text;
+  }
+  std::string text_;
+};
+
+double ratio(unsigned long long part, unsigned long long whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void add_run(Lines& lines, const Summary& s) {
+  lines.section("run");
+  lines.add("scene", '"' + s.scene.name + '"');
+  lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
+  lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()));
+  for (const GrainCount& kind : s.scene.grains) {
+    lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));
+  }
+  lines.add("steps", static_cast<unsigned long long>(s.steps));
+  lines.add("simulated", s.simulated_seconds, "s");
+  lines.add("interrupted", s.interrupted, "stopped by Ctrl-C before the end");
+}
+
+void add_queries(Lines& lines, const Summary& s) {
+  const snStatistics& n = s.statistics;
+  const auto steps = static_cast<unsigned long long>(s.steps);
+  lines.section("collision");
+  lines.add("pairs_tested", s.costs.pairs_tested, "whose bounding boxes met, in all steps");
+  lines.add("queries_cold", n.queries_cold, "pairs of two bodies without a remembered normal");
+  lines.add("queries_warm", n.queries_warm, "with one");
+  lines.add("evaluations_per_cold_query", ratio(n.evaluations_cold, n.queries_cold), "of the gap function, mean");
+  lines.add("evaluations_per_warm_query", ratio(n.evaluations_warm, n.queries_warm));
+  lines.add("closed_forms", n.closed_forms, "pairs settled without iteration: grain and wall");
+  lines.add("not_converged", n.not_converged, "queries whose error bound exceeds the tolerance");
+  lines.add("contacts", s.costs.contacts, "in all steps");
+  lines.add("contacts_per_step", ratio(s.costs.contacts, steps), "mean");
+  lines.add("contacts_at_end", static_cast<unsigned long long>(s.contacts_at_end), "in the last step");
+  lines.add("deepest_contact", s.deepest_contact, "m, of all steps: grains hit one another in flight");
+}
+
+void add_end_state(Lines& lines, const Summary& s) {
+  const double size = s.scene.smallest_half_axis();
+  lines.section("end");
+  lines.add("smallest_half_axis", size, "m, of all grains");
+  lines.add("deepest_overlap", s.overlap.depth, "m, over all pairs of grains and walls");
+  lines.add("deepest_overlap_relative", s.overlap.depth / size, "to smallest_half_axis");
+  lines.add("deepest_overlap_of_pair", s.overlap.relative_to_pair, "largest of depth / smallest half-axis of the pair itself");
+  lines.add("overlapping_pairs", static_cast<unsigned long long>(s.overlap.pairs));
+  lines.add("bodies_outside", static_cast<unsigned long long>(s.outside), "centre beyond a wall or the floor");
+  if (s.scene.gravity) {
+    lines.add("kinetic_height", s.kinetic_height, "m, to which the kinetic energy would lift all grains");
+    lines.add("settled", s.kinetic_height < kSettledHeight * size, "kinetic_height below 0.1 % of smallest_half_axis");
+  }
+  lines.add("bed_height", s.bed.height, "m, twice the mean height of the grains' volume");
+  lines.add("volume_fraction", s.bed.volume_fraction,
+            "of the slab from 5 % to 80 % of bed_height, from wall to wall; overlaps count once");
+  lines.add("volume_fraction_standard_error", s.bed.standard_error, "of the sampling (stratified points, snGeomPointDepth)");
+}
+
+void add_costs(Lines& lines, const Summary& s) {
+  const StepCosts& c = s.costs;
+  const double total = s.real_seconds;
+  const double narrow = c.narrow_phase.seconds();
+  const double solver = c.solver.seconds();
+  lines.section("cost");
+  lines.add("real", total, "s, steps and output, one thread");
+  lines.add("real_per_step", total / s.steps, "s");
+  lines.add("share_broad_phase", c.broad_phase_seconds() / total, "dSpaceCollide without dCollide: bounding boxes and hash space");
+  lines.add("share_narrow_phase", narrow / total, "dCollide");
+  lines.add("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
+  lines.add("share_solver", solver / total, "dWorldQuickStep");
+  lines.add("share_output", (total - c.collision.seconds() - c.contact_setup.seconds() - solver) / total, "the rest");
+  lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, dCollide");
+}
+
+}  // namespace
+
+std::string to_toml(const Summary& summary) {
+  Lines lines;
+  add_run(lines, summary);
+  add_queries(lines, summary);
+  add_end_state(lines, summary);
+  add_costs(lines, summary);
+  return lines.text();
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <supernormal/supernormal.h>
+
+#include <string>
+
+#include "bed.hpp"
+#include "overlap.hpp"
+#include "scene.hpp"
+#include "stepper.hpp"
+
+namespace falling_particles {
+
+/// The bed counts as settled when its kinetic energy would lift it by less than this share of the smallest half-axis.
+constexpr double kSettledHeight = 1e-3;
+
+/// What a run has done and how it ended.
+struct Summary {
+  const Scene& scene;
+  bool interrupted;
+  int steps;
+  double simulated_seconds;
+  double real_seconds;  ///< of the steps and their output; not of the measurements at the end
+  const StepCosts& costs;
+  snStatistics statistics;  ///< of the steps
+  std::size_t contacts_at_end;
+  double deepest_contact;  ///< m, of all steps
+  double kinetic_height;   ///< m
+  Overlap overlap;
+  std::size_t outside;
+  Bed bed;
+};
+
+/// As TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.
+std::string to_toml(const Summary& summary);
+
+}  // namespace falling_particles

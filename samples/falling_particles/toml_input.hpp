@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interval.hpp"
+
+namespace falling_particles {
+
+/// A table of a TOML file whose keys are known in advance. Every way of asking for a value checks it and throws InputError
+/// with file, line and what is allowed; so whoever has a value has a valid one. Valid as long as its TomlFile.
+class TomlTable {
+ public:
+  std::optional<std::string> find_text(std::string_view key) const;
+  std::string text(std::string_view key) const;
+  double number(std::string_view key, const Interval& allowed) const;
+  std::vector<double> numbers(std::string_view key, std::size_t count, const Interval& allowed) const;
+  std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest) const;
+
+  bool has(std::string_view key) const;
+
+  /// The table under `key`, which may hold `keys` and nothing else.
+  TomlTable table(std::string_view key, std::vector<std::string> keys) const;
+  std::optional<TomlTable> find_table(std::string_view key, std::vector<std::string> keys) const;
+
+  /// The array of tables ([[key]]), not empty.
+  std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& keys) const;
+
+  /// All keys, for tables whose keys are names that the user chooses; in the order of the file.
+  std::vector<std::string> names() const;
+
+  /// Throws InputError at the line of `key` (at the line of the table when it has no such key).
+  [[noreturn]] void fail(std::string_view key, const std::string& text) const;
+
+  /// "box.width": how messages call the key.
+  std::string full_name(std::string_view key) const;
+
+ private:
+  friend class TomlFile;
+  struct Node;
+  explicit TomlTable(std::shared_ptr<const Node> node);
+  void refuse_unknown_keys(const std::vector<std::string>& keys) const;
+  [[noreturn]] void fail_missing(std::string_view key, const std::string& allowed) const;
+  [[noreturn]] void fail_value(std::string_view key, const std::string& allowed) const;
+
+  std::shared_ptr<const Node> node_;
+};
+
+/// A TOML file, parsed.
+class TomlFile {
+ public:
+  /// Throws InputError when `path` is not a readable file (`what` says what it should be: "scene file") or is not valid TOML.
+  TomlFile(const std::string& path, const std::string& what);
+
+  /// The top of the file with the given keys and nothing else.
+  TomlTable root(const std::vector<std::string>& keys) const;
+  /// The top of the file with keys of the user's choice.
+  TomlTable root() const;
+
+ private:
+  std::shared_ptr<const TomlTable::Node> node_;
+};
+
+}  // namespace falling_particles

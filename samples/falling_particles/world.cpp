@@ -1,0 +1,98 @@
+#include "world.hpp"
+
+#include <supernormal/supernormal.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace falling_particles {
+namespace {
+
+constexpr unsigned long kPlaneBit = 1;
+constexpr unsigned long kGrainBit = 2;
+
+/// Hash space: its cost grows as the number of grains, where sweep and prune sorts along one axis on which a settled bed overlaps
+/// throughout. One level per power of two from the smallest to the largest bounding box, so that every grain sits in a cell of its
+/// own size; ODE's default range is for metres. The planes, infinite, are tested against everybody in any space.
+dSpaceID create_space(const Scene& scene) {
+  dSpaceID space = dHashSpaceCreate(nullptr);
+  const int finest = static_cast<int>(std::ceil(std::log2(2 * scene.smallest_half_axis())));
+  const int coarsest = static_cast<int>(std::ceil(std::log2(2 * scene.largest_bounding_radius())));
+  dHashSpaceSetLevels(space, finest, coarsest);
+  return space;
+}
+
+dGeomID create_geom(dSpaceID space, const Grain& grain) {
+  const double r = grain.rounding;
+  const auto [a, b, c] = grain.half_axes;
+  dGeomID geom = grain.delta == 2 && grain.epsilon == 2
+                     ? snCreateEllipsoid(space, a - r, b - r, c - r)
+                     : snCreateSuperellipsoid(space, a - r, b - r, c - r, grain.delta, grain.epsilon);
+  if (geom == nullptr || (r > 0 && snGeomSetRounding(geom, r) == 0)) {
+    throw std::runtime_error("grain \"" + grain.name + "\" was refused: " + snLastError());
+  }
+  return geom;
+}
+
+}  // namespace
+
+World::World(const Scene& scene, const std::vector<Placement>& placements) {
+  dInitODE2(0);
+  dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
+  world_ = dWorldCreate();
+  space_ = create_space(scene);
+  // Quickstep shuffles its constraints with ODE's global generator.
+  dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
+  set_parameters(scene);
+  add_planes(scene.box);
+  bodies_.reserve(placements.size());
+  for (const Placement& placement : placements) add_body(scene.grains[placement.kind].grain, placement);
+}
+
+World::~World() {
+  dSpaceDestroy(space_);
+  dWorldDestroy(world_);
+  snClose();
+  dCloseODE();
+}
+
+void World::set_parameters(const Scene& scene) {
+  dWorldSetQuickStepNumIterations(world_, scene.solver.iterations);
+  dWorldSetERP(world_, scene.solver.erp);
+  dWorldSetCFM(world_, scene.solver.cfm);
+  dWorldSetContactSurfaceLayer(world_, scene.contact.surface_layer * scene.smallest_half_axis());
+  dWorldSetContactMaxCorrectingVel(world_, scene.contact.max_correcting_velocity);
+  if (scene.gravity) {
+    const auto [x, y, z] = scene.gravity->acceleration;
+    dWorldSetGravity(world_, x, y, z);
+  }
+}
+
+void World::add_planes(const Box& box) {
+  // A plane's solid side is where its normal points away from: a x + b y + c z < d.
+  planes_ = {dCreatePlane(space_, 0, 0, 1, 0), dCreatePlane(space_, 1, 0, 0, 0), dCreatePlane(space_, -1, 0, 0, -box.width[0]),
+             dCreatePlane(space_, 0, 1, 0, 0), dCreatePlane(space_, 0, -1, 0, -box.width[1])};
+  for (dGeomID plane : planes_) {  // the planes overlap one another, which is no business of the near callback
+    dGeomSetCategoryBits(plane, kPlaneBit);
+    dGeomSetCollideBits(plane, kGrainBit);
+  }
+}
+
+void World::add_body(const Grain& grain, const Placement& placement) {
+  Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), create_geom(space_, grain), &grain, {}});
+  if (snMassSet(&entry.mass, grain.density, entry.geom) == 0) {
+    throw std::runtime_error("mass of grain \"" + grain.name + "\" was refused: " + snLastError());
+  }
+  dBodySetMass(entry.body, &entry.mass);
+  dGeomSetBody(entry.geom, entry.body);
+  dGeomSetData(entry.geom, &entry);  // bodies_ is reserved: entries stay where they are
+  dGeomSetCategoryBits(entry.geom, kGrainBit);
+  dGeomSetCollideBits(entry.geom, kGrainBit | kPlaneBit);
+  const auto [x, y, z] = placement.position;
+  dBodySetPosition(entry.body, x, y, z);
+  const dQuaternion q = {placement.quaternion[0], placement.quaternion[1], placement.quaternion[2], placement.quaternion[3]};
+  dBodySetQuaternion(entry.body, q);
+}
+
+}  // namespace falling_particles

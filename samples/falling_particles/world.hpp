@@ -1,0 +1,51 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <vector>
+
+#include "placement.hpp"
+#include "scene.hpp"
+
+namespace falling_particles {
+
+struct Body {
+  dBodyID body;
+  dGeomID geom;
+  const Grain* grain;
+  dMass mass;
+
+  double volume() const { return mass.mass / grain->density; }  ///< m^3
+};
+
+/// The body of a geom in a World; null for a wall.
+inline const Body* body_of(dGeomID geom) { return static_cast<const Body*>(dGeomGetData(geom)); }
+
+/// The ODE world of a scene, which must outlive it.
+class World {
+ public:
+  /// Throws std::runtime_error when the library refuses a body.
+  World(const Scene& scene, const std::vector<Placement>& placements);
+  World(const Scene&& scene, const std::vector<Placement>& placements) = delete;  // would be gone at once
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  dWorldID id() const { return world_; }
+  dSpaceID space() const { return space_; }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const std::array<dGeomID, 5>& planes() const { return planes_; }
+
+ private:
+  void set_parameters(const Scene& scene);
+  void add_planes(const Box& box);
+  void add_body(const Grain& grain, const Placement& placement);
+
+  dWorldID world_;
+  dSpaceID space_;
+  std::vector<Body> bodies_;
+  std::array<dGeomID, 5> planes_{};
+};
+
+}  // namespace falling_particles

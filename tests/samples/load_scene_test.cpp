@@ -1,0 +1,166 @@
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "catalogue.hpp"
+#include "input_error.hpp"
+#include "scene.hpp"
+#include "scene_text.hpp"
+#include "temporary_folder.hpp"
+
+using namespace falling_particles;
+
+namespace {
+
+/// What loading the scene says, with the temporary folder's name taken out; "" when it is accepted.
+std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText) {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", catalogue);
+  const std::string path = folder.write("scene.toml", scene);
+  try {
+    load_scene(path);
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    const std::string prefix = folder.path().string() + "/";
+    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
+    return text;
+  }
+  return "";
+}
+
+struct Mistake {
+  const char* from;
+  const char* to;
+  std::vector<const char*> says;  // where, what, and what is allowed
+};
+
+void check_says(const std::string& text, const std::vector<const char*>& says) {
+  CAPTURE(text);
+  CHECK(text.find('\n') == std::string::npos);
+  for (const std::string part : says) {
+    CAPTURE(part);
+    CHECK(text.find(part) != std::string::npos);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a scene file is read as it is written") {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  const Scene scene = load_scene(folder.write("my.scene.toml", kSceneText));
+  CHECK(scene.name == "my.scene");
+  CHECK(scene.seed == 7);
+  CHECK(scene.box.width == std::array<double, 2>{0.05, 0.06});
+  CHECK(scene.bodies() == 7);
+  REQUIRE(scene.grains.size() == 2);
+  CHECK(scene.grains[1].grain.name == "die");
+  CHECK(scene.grains[1].grain.rounding == 1e-3);
+  CHECK(scene.grains[1].count == 2);
+  CHECK(scene.time.steps() == 200);
+  CHECK(scene.time.steps_per_frame() == 20);
+  CHECK(scene.smallest_half_axis() == 3e-3);
+  REQUIRE(scene.gravity);
+  CHECK(scene.gravity->acceleration == std::array<double, 3>{0, 0, -9.81});
+  REQUIRE(scene.friction);
+  CHECK(scene.friction->coefficient == 0.4);
+}
+
+TEST_CASE("an effect without a section is absent") {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  const std::string text = std::string(kSceneText, std::strstr(kSceneText, "[gravity]"));
+  const Scene scene = load_scene(folder.write("scene.toml", text));
+  CHECK_FALSE(scene.gravity);
+  CHECK_FALSE(scene.friction);
+}
+
+TEST_CASE("fractions become counts that sum to the total") {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  std::string text = replaced(kSceneText, "count = 5", "fraction = 0.335");
+  text = replaced(text, "count = 2", "fraction = 0.665");
+  text = replaced(text, "gap = 0.1", "gap = 0.1\ntotal = 10");
+  const Scene scene = load_scene(folder.write("scene.toml", text));
+  CHECK(scene.grains[0].count == 3);
+  CHECK(scene.grains[1].count == 7);
+}
+
+TEST_CASE("every mistake in a scene file ends with one line: file, line, what is allowed") {
+  const std::vector<Mistake> mistakes = {
+      {"width = [0.05, 0.06]",
+       "widht = [0.05, 0.06]",
+       {"scene.toml:4: unknown key \"widht\" in [box]", "did you mean \"width\"?", "allowed: width"}},
+      {"[friction]", "[frction]", {"scene.toml:27: unknown key \"frction\" at the top", "did you mean \"friction\"?"}},
+      {"width = [0.05, 0.06]", "width = [0.05, -0.06]", {"scene.toml:4: box.width[1] is -0.06", "(0, 1000] m"}},
+      {"width = [0.05, 0.06]", "width = [0.05]", {"scene.toml:4: box.width is an array of 1", "an array of 2"}},
+      {"width = [0.05, 0.06]", "width = [0.05, 0.015]", {"scene.toml:4: box.width is 0.015", "at least 0.018", "largest grain"}},
+      {"width = [0.05, 0.06]", "", {"scene.toml:3: box.width is missing"}},
+      {"step = 0.0005", "step = 0", {"scene.toml:16: time.step is 0;", "(0, 0.1] s"}},
+      {"step = 0.0005", "step = nan", {"scene.toml:16: time.step is nan"}},
+      {"step = 0.0005", "step = \"fast\"", {"scene.toml:16: time.step is the string \"fast\"; allowed: a number"}},
+      {"step = 0.0005", "step = true", {"scene.toml:16: time.step is true"}},
+      {"duration = 0.1", "duration = inf", {"scene.toml:15: time.duration is inf"}},
+      {"frame = 0.01", "frame = 0.0001", {"scene.toml:17: time.frame is 1e-04", "[5e-04, 0.1]"}},
+      {"iterations = 20", "iterations = 2.5", {"scene.toml:19: solver.iterations is 2.5; allowed: a whole number"}},
+      {"coefficient = 0.4", "coefficient = 0", {"scene.toml:28: friction.coefficient is 0", "(0, 100]"}},
+      {"seed = 7", "seed = -1", {"scene.toml:1: seed is -1"}},
+      {"seed = 7", "seed = 7\nseed = 8", {"scene.toml:2: ", "seed"}},
+      {"seed = 7", "seed = ", {"scene.toml:1: ", "valid TOML"}},
+      {"name = \"pea\"", "name = \"pae\"", {"scene.toml:9: unknown grain \"pae\"", "did you mean \"pea\"?", "pea, die"}},
+      {"name = \"pea\"", "name = \"die\"", {"scene.toml:12: grain \"die\" is listed twice"}},
+      {"count = 2", "fraction = 0.5", {"scene.toml:13: grain.fraction is mixed with count"}},
+      {"count = 2", "count = 0", {"scene.toml:13: grain.count is 0; allowed: a whole number from 1"}},
+      {"catalogue = \"grains.toml\"", "catalogue = \"grain.toml\"", {"scene.toml:2: catalogue: there is no file", "grain.toml"}},
+  };
+  for (const Mistake& mistake : mistakes) check_says(complaint(replaced(kSceneText, mistake.from, mistake.to)), mistake.says);
+}
+
+TEST_CASE("fractions that do not sum to one are refused") {
+  std::string text = replaced(kSceneText, "count = 5", "fraction = 0.5");
+  text = replaced(text, "count = 2", "fraction = 0.4");
+  check_says(complaint(replaced(text, "gap = 0.1", "gap = 0.1\ntotal = 10")),
+             {"scene.toml:11: ", "sum to 0.9", "allowed: a sum of 1"});
+  check_says(complaint(text), {"scene.toml:5: drop.total is missing"});
+}
+
+TEST_CASE("every mistake in a catalogue ends with one line too") {
+  const std::vector<Mistake> mistakes = {
+      {"delta = 8", "delta = 1", {"grains.toml:10: die.delta is 1;", "[1.01, 1000]"}},
+      {"epsilon = 8", "epsilon = 0.5", {"grains.toml:11: die.epsilon is 0.5;", "[1.01, 1000]"}},
+      {"half_axes = [3e-3, 3e-3, 3e-3]",
+       "half_axes = [3e-3, -3e-3, 3e-3]",
+       {"grains.toml:2: pea.half_axes[1] is -0.003", "(0, 1] m"}},
+      {"half_axes = [3e-3, 3e-3, 3e-3]", "half_axes = [3e-3, 3e-3, 0]", {"grains.toml:2: pea.half_axes[2] is 0"}},
+      {"rounding = 1e-3", "rounding = 6e-3", {"grains.toml:12: die.rounding is 0.006", "[0, 0.006)"}},
+      {"density = 1200", "densty = 1200", {"grains.toml:5: unknown key \"densty\" in [pea]", "did you mean \"density\"?"}},
+      {"density = 1200", "density = 0", {"grains.toml:5: pea.density is 0", "kg/m^3"}},
+      {"density = 1200", "", {"grains.toml:1: pea.density is missing"}},
+      {"[pea]", "[die]", {"grains.toml:8: ", "die"}},
+      {"[pea]", "[\"a,b\"]", {"grains.toml:1: grain name \"a,b\"", "allowed: letters"}},
+      {"[pea]", "colour = 3\n[pea]", {"grains.toml:1: colour is 3; allowed: a table"}},
+  };
+  for (const Mistake& mistake : mistakes) {
+    check_says(complaint(kSceneText, replaced(kCatalogueText, mistake.from, mistake.to)), mistake.says);
+  }
+}
+
+TEST_CASE("files that cannot be read") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(load_scene("/nowhere/scene.toml"),
+                       "cannot read scene file \"/nowhere/scene.toml\": No such file or directory", InputError);
+  CHECK_THROWS_AS(load_scene(folder.path().string()), InputError);
+}
+
+TEST_CASE("the catalogue of real grains is valid and names its sources") {
+  const std::vector<Grain> grains = load_catalogue(SUPERNORMAL_SAMPLES "/data/grains.toml");
+  CHECK(grains.size() >= 8);
+  for (const Grain& grain : grains) {
+    CAPTURE(grain.name);
+    CHECK_FALSE(grain.source.empty());
+    CHECK(grain.bounding_radius() < 0.05);
+  }
+  for (const char* scene : {"mixture", "short"}) load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
+}

@@ -1,0 +1,119 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bed.hpp"
+#include "energy.hpp"
+#include "overlap.hpp"
+#include "stepper.hpp"
+#include "world.hpp"
+
+using namespace falling_particles;
+
+namespace {
+
+Grain ellipsoid() { return {"ellipsoid", {0.02, 0.03, 0.01}, 2, 2, 0, 1000, "typical"}; }
+
+Scene scene_of(const Grain& grain, int count) {
+  return {"test", 1, {{0.2, 0.2}}, {{grain, count}}, {0, 0}, {1, 1e-3, 0.1}, {50, 0.2, 1e-10}, {1e-3, 1}, Gravity{{0, 0, -10}}, {}};
+}
+
+Placement upright(double x, double y, double z) { return {0, {x, y, z}, {1, 0, 0, 0}}; }
+
+}  // namespace
+
+TEST_CASE("energy of a moving ellipsoid") {
+  const Scene scene = scene_of(ellipsoid(), 1);
+  const World world(scene, {upright(0.1, 0.1, 0.05)});
+  const Body& body = world.bodies().front();
+  const double mass = 1000 * 4.0 / 3 * std::numbers::pi * 0.02 * 0.03 * 0.01;
+  dBodySetLinearVel(body.body, 1, 2, 2);
+  dBodySetAngularVel(body.body, 0, 0, 7);
+  const double inertia = mass / 5 * (0.02 * 0.02 + 0.03 * 0.03);
+  const Energy energy = measure_energy(world, scene);
+  CHECK(energy.kinetic == doctest::Approx(0.5 * mass * 9 + 0.5 * inertia * 49).epsilon(1e-12));
+  CHECK(energy.potential == doctest::Approx(mass * 10 * 0.05).epsilon(1e-12));
+  CHECK(kinetic_height(world, scene) == doctest::Approx(energy.kinetic / (mass * 10)).epsilon(1e-12));
+}
+
+TEST_CASE("the deepest overlap is found, between grains and with walls") {
+  const Scene scene = scene_of(ellipsoid(), 3);
+  // Half-axis 0.02 along x: the first two overlap by 1 mm, the third is 3 mm deep in the wall x = 0.2.
+  const World world(scene, {upright(0.05, 0.1, 0.1), upright(0.089, 0.1, 0.1), upright(0.183, 0.1, 0.1)});
+  const Overlap overlap = measure_overlap(world);
+  CHECK(overlap.pairs == 2);
+  CHECK(overlap.depth == doctest::Approx(3e-3).epsilon(1e-9));
+  CHECK(overlap.relative_to_pair == doctest::Approx(0.3).epsilon(1e-9));
+  CHECK(count_outside(world, scene.box) == 0);
+  dBodySetPosition(world.bodies()[0].body, 0.05, 0.1, -0.001);
+  CHECK(count_outside(world, scene.box) == 1);
+}
+
+TEST_CASE("nothing overlaps when all are apart") {
+  const Scene scene = scene_of(ellipsoid(), 2);
+  const World world(scene, {upright(0.05, 0.1, 0.1), upright(0.0901, 0.1, 0.1)});
+  const Overlap overlap = measure_overlap(world);
+  CHECK(overlap.pairs == 0);
+  CHECK(overlap.depth == 0);
+}
+
+TEST_CASE("the volume fraction is that of a known bed") {
+  // One layer of four bodies that are boxes but for their edges: from z = 0.02 to 0.08 it fills 4 * 0.08^2 / 0.2^2 of the area.
+  const Grain box{"box", {0.04, 0.04, 0.04}, 200, 200, 0, 1000, "typical"};
+  const Scene scene = scene_of(box, 4);
+  const World world(scene,
+                    {upright(0.05, 0.05, 0.05), upright(0.15, 0.05, 0.05), upright(0.05, 0.15, 0.05), upright(0.15, 0.15, 0.05)});
+  Random random(1);
+  const Bed bed = measure_bed(world, scene.box, random);
+  CHECK(bed.height == doctest::Approx(0.1).epsilon(1e-12));  // twice the height of the centres
+  // The slab reaches from 0.005 to 0.08, the boxes from 0.01 to 0.09: 14/15 of it.
+  const double expected = 0.64 * 14 / 15;
+  CHECK(std::abs(bed.volume_fraction - expected) < 4 * bed.standard_error + 0.02 * expected);  // edges: exponent 200
+  CHECK(bed.standard_error < 0.002);
+}
+
+TEST_CASE("a grain that overlaps another counts once") {
+  const Scene scene = scene_of(ellipsoid(), 2);
+  const World once(scene, {upright(0.1, 0.1, 0.05)});
+  const World twice(scene, {upright(0.1, 0.1, 0.05), upright(0.1, 0.1, 0.05)});
+  Random first(1);
+  Random second(1);
+  CHECK(measure_bed(once, scene.box, first).volume_fraction == measure_bed(twice, scene.box, second).volume_fraction);
+}
+
+TEST_CASE("a dropped grain falls freely, comes to rest on the floor and touches it in one contact") {
+  const Scene scene = scene_of(ellipsoid(), 1);
+  const World world(scene, {upright(0.1, 0.1, 0.06)});
+  Stepper stepper(world, scene);
+  const dReal* position = dBodyGetPosition(world.bodies()[0].body);
+  constexpr int kFree = 90;  // of the 100 ms that 0.05 m take
+  for (int i = 0; i < kFree; ++i) stepper.step();
+  CHECK(stepper.contacts() == 0);
+  // Semi-implicit Euler: z = -g dt^2 n (n + 1) / 2.
+  CHECK(position[2] == doctest::Approx(0.06 - 10 * 1e-6 * kFree * (kFree + 1) / 2).epsilon(1e-9));
+  for (int i = 0; i < 1000; ++i) stepper.step();
+  CHECK(stepper.contacts() == 1);
+  CHECK(std::abs(position[2] - 0.01) < 1e-3 * 0.01 + 1e-5);
+  CHECK(kinetic_height(world, scene) < 1e-9);
+  CHECK(stepper.costs().pairs_tested >= stepper.costs().contacts);
+}
+
+TEST_CASE("friction stops a sliding grain and without friction it slides on") {
+  for (const bool rough : {true, false}) {
+    CAPTURE(rough);
+    Scene scene = scene_of(Grain{"puck", {0.02, 0.02, 0.002}, 2, 2, 0, 1000, "typical"}, 1);
+    if (rough) scene.friction = Friction{0.5};
+    const World world(scene, {upright(0.06, 0.1, 0.002)});
+    Stepper stepper(world, scene);
+    dBodySetLinearVel(world.bodies()[0].body, 0.2, 0, 0);
+    for (int i = 0; i < 200; ++i) stepper.step();
+    const double x = dBodyGetPosition(world.bodies()[0].body)[0];
+    if (rough) {
+      CHECK(x - 0.06 < 0.2 * 0.2);  // stopped; v^2 / (2 mu g) is 4 mm without rocking
+    } else {
+      CHECK(x - 0.06 == doctest::Approx(0.2 * 0.2).epsilon(1e-6));
+    }
+  }
+}

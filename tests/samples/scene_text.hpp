@@ -1,0 +1,61 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+// A valid catalogue and a valid scene, to be spoilt one line at a time.
+
+inline constexpr const char* kCatalogueText = R"([pea]
+half_axes = [3e-3, 3e-3, 3e-3]
+delta = 2
+epsilon = 2
+density = 1200
+source = "typical"
+
+[die]
+half_axes = [6e-3, 6e-3, 6e-3]
+delta = 8
+epsilon = 8
+rounding = 1e-3
+density = 1190
+source = "typical"
+)";
+
+inline constexpr const char* kSceneText = R"(seed = 7
+catalogue = "grains.toml"
+[box]
+width = [0.05, 0.06]
+[drop]
+height = 0.01
+gap = 0.1
+[[grain]]
+name = "pea"
+count = 5
+[[grain]]
+name = "die"
+count = 2
+[time]
+duration = 0.1
+step = 0.0005
+frame = 0.01
+[solver]
+iterations = 20
+erp = 0.2
+cfm = 1e-10
+[contact]
+surface_layer = 0.002
+max_correcting_velocity = 0.05
+[gravity]
+acceleration = [0, 0, -9.81]
+[friction]
+coefficient = 0.4
+)";
+
+/// `text` with the only occurrence of `from` replaced.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {
+    throw std::logic_error("\"" + from + "\" does not occur exactly once");
+  }
+  return text.replace(at, from.size(), to);
+}
