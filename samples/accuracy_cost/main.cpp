@@ -1,0 +1,67 @@
+// What an answer costs: our solvers and libccd on the same pairs of bodies, with the same support function, in the same run.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "measurement.hpp"
+#include "report.hpp"
+
+namespace {
+
+using namespace accuracy_cost;
+
+struct Options {
+  std::size_t pairs = 6000;
+  std::uint64_t seed = 1;
+  int rounds = Effort{}.rounds;
+  double batch_us = Effort{}.batch * 1e6;
+  std::string csv;
+};
+
+void run(const Options& options) {
+  std::vector<Pair> pairs = draw_pairs(options.pairs, options.seed);
+  Methods methods = supernormal_methods();
+  for (Methods more = libccd_methods(); auto& method : more) methods.push_back(std::move(method));
+  methods.push_back(evaluation_cost(supernormal::Order::Point));
+  methods.push_back(evaluation_cost(supernormal::Order::Curvature));
+
+  const auto samples = measure(methods, pairs, {options.rounds, options.batch_us * 1e-6});
+  // Wherever anybody's answer leads higher, the reference was not the highest maximum.
+  for (const auto& of_method : samples) {
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      if (of_method[p].answer.kind == Answer::Kind::Gap) improve_reference(pairs[p], of_method[p].answer.normal);
+    }
+  }
+  const Results results{pairs, methods, samples};
+  write_markdown(results, std::cout);
+  if (!options.csv.empty()) write_csv(results, options.csv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    CLI::App app("Measures what a query of two smooth bodies costs and how accurate its answer is.", "accuracy_cost");
+    Options options;
+    app.add_option("--pairs", options.pairs, "pairs of bodies, over all classes and poses")
+        ->check(CLI::Range(12, 10000000))
+        ->capture_default_str();
+    app.add_option("--seed", options.seed, "of the draw")->capture_default_str();
+    app.add_option("--rounds", options.rounds, "timings of each pair and method")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    app.add_option("--batch", options.batch_us, "microseconds for which each timing repeats its query; 0: asked once")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    app.add_option("--csv", options.csv, "file for the results");
+    CLI11_PARSE(app, argc, argv);
+    run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "accuracy_cost: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

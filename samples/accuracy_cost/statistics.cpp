@@ -1,0 +1,56 @@
+#include "statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace accuracy_cost {
+namespace {
+
+// A thousand times the default tolerance: beyond it the answer belongs to another maximum, or to another kind of method.
+constexpr double kInexact = 1e-6;
+
+bool is_failure(const Answer& answer, const Pair& pair) {
+  const bool is_apart = pair.gap > 0;
+  switch (answer.kind) {
+    case Answer::Kind::Apart:
+      return !is_apart;
+    case Answer::Kind::Gap:
+      return (answer.gap > 0) != is_apart || !(std::abs(answer.gap - pair.gap) <= 0.1 * std::abs(pair.gap) + 0.001 * pair.size);
+    case Answer::Kind::None:
+      break;
+  }
+  return true;
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Statistics statistics(const std::vector<Sample>& samples, const std::vector<Pair>& pairs,
+                      const std::function<bool(const Pair&)>& is_chosen) {
+  Statistics result;
+  std::vector<double> times, evaluations, errors;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    if (!is_chosen(pairs[p])) continue;
+    const Sample& sample = samples[p];
+    times.push_back(sample.time);
+    evaluations.push_back(sample.answer.evaluations);
+    if (sample.answer.kind == Answer::Kind::Gap) errors.push_back(std::abs(sample.answer.gap - pairs[p].gap) / pairs[p].size);
+    if (is_failure(sample.answer, pairs[p])) ++result.failures;
+  }
+  result.inexact = static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), [](double e) { return !(e <= kInexact); }));
+  result.queries = times.size();
+  result.worst_error = errors.empty() ? median(errors) : *std::max_element(errors.begin(), errors.end());
+  result.time = median(std::move(times));
+  result.evaluations = median(std::move(evaluations));
+  result.median_error = median(std::move(errors));
+  return result;
+}
+
+}  // namespace accuracy_cost

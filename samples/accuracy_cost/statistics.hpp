@@ -1,0 +1,27 @@
+// What a method's samples on a group of pairs come to.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "measurement.hpp"
+
+namespace accuracy_cost {
+
+struct Statistics {
+  std::size_t queries = 0;
+  double time = 0;          ///< s; median over the pairs
+  double evaluations = 0;   ///< median
+  double median_error = 0;  ///< of the gap, relative to the smallest half-axis; NaN if the method told no gap
+  double worst_error = 0;
+  std::size_t inexact = 0;   ///< gaps off by more than 1e-6 of the smallest half-axis
+  std::size_t failures = 0;  ///< no answer, wrong verdict, or wrong by more than 10 % of the gap + 0.001 of the smallest half-axis
+};
+
+double median(std::vector<double> values);  ///< NaN for none
+
+/// Of one method on the pairs that are chosen.
+Statistics statistics(const std::vector<Sample>& samples, const std::vector<Pair>& pairs,
+                      const std::function<bool(const Pair&)>& is_chosen);
+
+}  // namespace accuracy_cost
