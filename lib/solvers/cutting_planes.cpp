@@ -8,7 +8,7 @@ namespace supernormal {
 namespace {
 
 // Slopes are compared relative to the steepest cut: a ridge whose slope is below this share of it is level.
-constexpr double kLevelSlope = 1e-12;
+constexpr double kLevelSlope = 1e-14;
 
 // Cuts whose values differ by less than this share of the largest value or slope meet at a point.
 constexpr double kTie = 1e-13;
@@ -21,12 +21,15 @@ struct Cut {
   double at(const Vector2& u) const { return value + slope.dot(u); }
 };
 
-/// The point of the segment a b nearest to the origin.
+/// The point of the segment a b nearest to the origin. Between the ends it is exactly across the segment, however short: the slopes
+/// of two flat faces may be a thousand times steeper than the ridge where they meet.
 Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
   const Vector2 edge = b - a;
   const double squared = edge.squaredNorm();
-  if (squared == 0) return a;
-  return a + std::clamp(-a.dot(edge) / squared, 0.0, 1.0) * edge;
+  const double share = -a.dot(edge);
+  if (!(share > 0)) return a;
+  if (share >= squared) return b;
+  return (a.x() * b.y() - a.y() * b.x()) / squared * Vector2(edge.y(), -edge.x());
 }
 
 using Cuts = std::array<Cut, CuttingPlanes::kCapacity>;
@@ -40,7 +43,7 @@ Vector2 steepest_ascent(const Cuts& cuts, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i; j < count; ++j) {
       const Vector2 nearest = nearest_on_segment(cuts[i].slope, cuts[j].slope);
-      const double least = nearest.squaredNorm() - kTie * steepest * nearest.norm();
+      const double least = nearest.squaredNorm() - kLevelSlope * steepest * nearest.norm();
       const auto is_behind = [&](const Cut& cut) { return cut.slope.dot(nearest) >= least; };
       if (std::all_of(cuts.begin(), cuts.begin() + count, is_behind)) return nearest;
     }
@@ -76,16 +79,20 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
     scale = std::max(scale, std::abs(cuts[k].value));
   }
   scale = std::max(scale, steepest);
-  best.uncertainty = kTie * scale;
   for (std::size_t step = 0; step < 2 * count; ++step) {
     std::size_t met_count = 0;
+    double highest_met = best.value;
     for (std::size_t k = 0; k < count; ++k) {
-      if (cuts[k].at(best.u) <= best.value + kTie * scale) met[met_count++] = cuts[k];
+      const double value = cuts[k].at(best.u);
+      if (value > best.value + kTie * scale) continue;
+      met[met_count++] = cuts[k];
+      highest_met = std::max(highest_met, value);
     }
     const Vector2 ascent = steepest_ascent(met, met_count);
     const double slope = ascent.norm();
     if (slope <= kLevelSlope * steepest) {
       best.is_interior = true;
+      best.uncertainty = highest_met - best.value;  // a mean of these cuts is level, and lies above their least everywhere
       break;
     }
     // Walk up until another cut becomes the lowest, or to the rim.

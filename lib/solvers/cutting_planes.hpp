@@ -20,7 +20,7 @@ class CuttingPlanes {
   struct Maximum {
     Vector2 u = Vector2::Zero();  ///< where, in gnomonic coordinates
     double value = 0;             ///< the model there, m
-    double uncertainty = 0;       ///< m; how much higher the maximum may be: cuts this close count as equal
+    double uncertainty = 0;       ///< m; an interior maximum may be higher by this
     bool is_interior = false;     ///< the maximum of the model over the whole plane, not just within the radius
   };
 

@@ -31,6 +31,7 @@ Vector3 first_guess(const GapFunction& gap) {
   const Matrix3 A = half1.cwiseProduct(half1).asDiagonal();
   const Matrix3 B = R * half2.cwiseProduct(half2).asDiagonal() * R.transpose();
   const double sum = size1 + size2;
+  if (sum == 0) return gap.offset().normalized();  // two points
   const Matrix3 M = size1 == 0 ? B : size2 == 0 ? A : Matrix3(A * (sum / size1) + B * (sum / size2));
   const Vector3 n = M.inverse() * gap.offset();
   const double length = n.norm();

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 namespace supernormal {
 
@@ -44,12 +45,17 @@ struct Symmetric2 {
   Symmetric2 operator+(const Symmetric2& o) const { return {xx + o.xx, xy + o.xy, yy + o.yy}; }
   Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
 
-  /// The vector that this matrix maps to b; not finite when it is singular. Scaled first, since radii of curvature go up to 1e120.
+  /// The vector that this matrix maps to b; infinite when it is singular. Scaled first, since radii of curvature go up to 1e120.
   Vector2 solve(const Vector2& b) const {
-    const double scale = 1 / (std::abs(xx) + std::abs(yy));
+    const Vector2 singular = Vector2::Constant(std::numeric_limits<double>::infinity());
+    const double size = std::abs(xx) + std::abs(yy);
+    if (size == 0) return singular;
+    const double scale = 1 / size;
     const double sxx = xx * scale, sxy = xy * scale, syy = yy * scale;
     const Vector2 sb = b * scale;
-    return Vector2(syy * sb.x() - sxy * sb.y(), sxx * sb.y() - sxy * sb.x()) / (sxx * syy - sxy * sxy);
+    const double determinant = sxx * syy - sxy * sxy;
+    if (determinant == 0) return singular;
+    return Vector2(syy * sb.x() - sxy * sb.y(), sxx * sb.y() - sxy * sb.x()) / determinant;
   }
 };
 

@@ -82,7 +82,7 @@ TEST_CASE("maximize finds the top of random cuts") {
     CuttingPlanes cuts;
     const int count = 1 + trial % 12;
     for (int k = 0; k < count; ++k) cuts.add({gauss(engine), gauss(engine), gauss(engine)});
-    const TangentPlane plane(Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized(), Vector3(1, 2, -1));
+    const TangentPlane plane(Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized(), Vector3(1, 2, -1));
     const CuttingPlanes::Maximum top = cuts.maximize(plane, kRadius);
     CHECK(top.u.norm() <= kRadius * (1 + 1e-12));
     CHECK(std::abs(top.value - model(cuts, plane, top.u)) <= 1e-10);

