@@ -16,10 +16,10 @@ using namespace supernormal::test;
 
 namespace {
 
-const Ellipsoid reference(Vector3(3, 2, 1));
-const CallbackShape::Support good_support = [](const Vector3& n) { return reference.support(n); };
-const CallbackShape::Point good_point = [](const Vector3& n) { return reference.point(n); };
-const CallbackShape::Hessian good_hessian = [](const Vector3& n) { return reference.jet(n).H; };
+const Ellipsoid kReference(Vector3(3, 2, 1));
+const CallbackShape::Support kGoodSupport = [](const Vector3& n) { return kReference.support(n); };
+const CallbackShape::Point kGoodPoint = [](const Vector3& n) { return kReference.point(n); };
+const CallbackShape::Hessian kGoodHessian = [](const Vector3& n) { return kReference.jet(n).H; };
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string refusal(const CallbackShape::Support& support, const CallbackShape::Point& point,
@@ -39,13 +39,13 @@ void check_contains(const std::string& message, const std::string& part) {
 }  // namespace
 
 TEST_CASE("callbacks are passed on unchanged") {
-  const CallbackShape with(good_support, good_point, good_hessian), without(good_support, good_point);
+  const CallbackShape with(kGoodSupport, kGoodPoint, kGoodHessian), without(kGoodSupport, kGoodPoint);
   CHECK(with.has_curvature());
   CHECK_FALSE(without.has_curvature());
   CHECK_FALSE(with.has_flat_faces());
   CHECK(with.half_extents() == Vector3(3, 2, 1));
   for (const Vector3& n : random_normals(20, 41)) {
-    const Jet expected = reference.jet(n), jet = with.jet(n);
+    const Jet expected = kReference.jet(n), jet = with.jet(n);
     CHECK(jet.h == expected.h);
     CHECK(jet.r == expected.r);
     CHECK(jet.H == expected.H);
@@ -59,8 +59,8 @@ TEST_CASE("callbacks are passed on unchanged") {
 TEST_CASE("an order calls no function that it does not need") {
   int points = 0, hessians = 0;
   const CallbackShape shape(
-      good_support, [&](const Vector3& n) { return ++points, good_point(n); },
-      [&](const Vector3& n) { return ++hessians, good_hessian(n); });
+      kGoodSupport, [&](const Vector3& n) { return ++points, kGoodPoint(n); },
+      [&](const Vector3& n) { return ++hessians, kGoodHessian(n); });
   points = hessians = 0;
   shape.support(Vector3::UnitX());
   CHECK(points == 0);
@@ -72,28 +72,28 @@ TEST_CASE("an order calls no function that it does not need") {
 }
 
 TEST_CASE("missing functions are refused") {
-  CHECK(refusal({}, good_point) == "the support function is missing");
-  CHECK(refusal(good_support, {}) == "the point function is missing");
+  CHECK(refusal({}, kGoodPoint) == "the support function is missing");
+  CHECK(refusal(kGoodSupport, {}) == "the point function is missing");
 }
 
 TEST_CASE("values that are not finite are refused, with the direction") {
   const auto only_up = [](const Vector3& n) { return n == Vector3::UnitZ(); };
-  const std::string support = refusal([&](const Vector3& n) { return only_up(n) ? kNan : good_support(n); }, good_point);
+  const std::string support = refusal([&](const Vector3& n) { return only_up(n) ? kNan : kGoodSupport(n); }, kGoodPoint);
   CHECK(support == "support = nan is not finite in the direction n = (0, 0, 1)");
   const std::string point =
-      refusal(good_support, [&](const Vector3& n) { return only_up(n) ? Vector3(0, HUGE_VAL, 1) : Vector3(good_point(n)); });
+      refusal(kGoodSupport, [&](const Vector3& n) { return only_up(n) ? Vector3(0, HUGE_VAL, 1) : Vector3(kGoodPoint(n)); });
   CHECK(point == "point = (0, inf, 1) is not finite in the direction n = (0, 0, 1)");
   const std::string hessian = refusal(
-      good_support, good_point, [&](const Vector3& n) { return only_up(n) ? Matrix3::Constant(kNan) : Matrix3(good_hessian(n)); });
+      kGoodSupport, kGoodPoint, [&](const Vector3& n) { return only_up(n) ? Matrix3::Constant(kNan) : Matrix3(kGoodHessian(n)); });
   CHECK(hessian == "hessian is not finite in the direction n = (0, 0, 1)");
 }
 
 TEST_CASE("a point off its supporting plane is refused; single precision is accepted") {
-  const std::string message = refusal([](const Vector3& n) { return 1.25 * good_support(n); }, good_point);
+  const std::string message = refusal([](const Vector3& n) { return 1.25 * kGoodSupport(n); }, kGoodPoint);
   check_contains(message, "differs from support = ");
   check_contains(message, "by more than 1e-6 of the size 3.75 m in the direction n = (");
-  CHECK(refusal([](const Vector3& n) { return static_cast<float>(good_support(n)); },
-                [](const Vector3& n) { return Vector3(good_point(n).cast<float>().cast<double>()); }) == "accepted");
+  CHECK(refusal([](const Vector3& n) { return static_cast<float>(kGoodSupport(n)); },
+                [](const Vector3& n) { return Vector3(kGoodPoint(n).cast<float>().cast<double>()); }) == "accepted");
 }
 
 TEST_CASE("a body without width is refused, one beside its origin is not") {
@@ -103,8 +103,8 @@ TEST_CASE("a body without width is refused, one beside its origin is not") {
   check_contains(refusal([](const Vector3&) { return 0.0; }, [](const Vector3&) { return Vector3(0, 0, 0); }),
                  "size of the body = 0 m is outside [1e-30, 1e+30] m");
   const Vector3 offset(100, 0, 0);
-  CHECK(refusal([&](const Vector3& n) { return good_support(n) + n.dot(offset); },
-                [&](const Vector3& n) { return Vector3(good_point(n) + offset); }) == "accepted");
+  CHECK(refusal([&](const Vector3& n) { return kGoodSupport(n) + n.dot(offset); },
+                [&](const Vector3& n) { return Vector3(kGoodPoint(n) + offset); }) == "accepted");
 }
 
 TEST_CASE("a body that is not convex is refused") {
@@ -121,17 +121,17 @@ TEST_CASE("a body that is not convex is refused") {
 
 TEST_CASE("a Hessian that cannot be one is refused") {
   const auto with = [](const std::function<Matrix3(const Vector3&)>& hessian) {
-    return refusal(good_support, good_point, hessian);
+    return refusal(kGoodSupport, kGoodPoint, hessian);
   };
   check_contains(with([](const Vector3& n) {
-                   Matrix3 H = good_hessian(n);
+                   Matrix3 H = kGoodHessian(n);
                    H(0, 1) += 0.1;
                    return H;
                  }),
                  "hessian is not symmetric");
-  check_contains(with([](const Vector3& n) { return Matrix3(good_hessian(n) + Matrix3::Identity()); }),
+  check_contains(with([](const Vector3& n) { return Matrix3(kGoodHessian(n) + Matrix3::Identity()); }),
                  "hessian times n is not zero");
-  check_contains(with([](const Vector3& n) { return Matrix3(-good_hessian(n)); }), "hessian has a negative principal radius");
-  CHECK(with(good_hessian) == "accepted");
+  check_contains(with([](const Vector3& n) { return Matrix3(-kGoodHessian(n)); }), "hessian has a negative principal radius");
+  CHECK(with(kGoodHessian) == "accepted");
   CHECK(with([](const Vector3&) { return Matrix3::Zero(); }) == "accepted");  // as on the vertices of a polytope
 }

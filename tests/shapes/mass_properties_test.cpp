@@ -67,8 +67,8 @@ Eigen::Vector4d steiner(const std::shared_ptr<const Shape>& core) {
   return {v[0], d1 - d2 / 2 + d3 / 3, d2 / 2 - d3 / 2, d3 / 6};
 }
 
-const Matrix3 some_rotation = Eigen::AngleAxisd(0.9, Vector3(1, 2, 3).normalized()).toRotationMatrix();
-const Vector3 some_position(0.5, -2, 4);
+const Matrix3 kSomeRotation = Eigen::AngleAxisd(0.9, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+const Vector3 kSomePosition(0.5, -2, 4);
 
 }  // namespace
 
@@ -111,9 +111,9 @@ TEST_CASE("mass: quadrature over the normals against closed forms, turned and mo
     const double size = axes.maxCoeff();
     check_equal(quadrature_mass_properties(*ellipsoid), ellipsoid->mass_properties(), 1e-13, "ellipsoid " + text(axes));
     for (const bool with_hessian : {true, false}) {
-      const CallbackShape shape = placed(ellipsoid, some_rotation, size * some_position, with_hessian);
+      const CallbackShape shape = placed(ellipsoid, kSomeRotation, size * kSomePosition, with_hessian);
       const MassProperties mass = shape.mass_properties();
-      check_equal(mass, placed(ellipsoid->mass_properties(), some_rotation, size * some_position), 1e-11, "turned " + text(axes));
+      check_equal(mass, placed(ellipsoid->mass_properties(), kSomeRotation, size * kSomePosition), 1e-11, "turned " + text(axes));
       CHECK(mass.relative_error <= 1e-10);
     }
   }
@@ -131,7 +131,7 @@ TEST_CASE("mass: moving the origin of a user's body moves its centroid and nothi
   CHECK(mass.relative_error <= 1e-10);
   CHECK(std::abs(mass.centroid.z()) > 0.01);
   CHECK(mass.centroid.head<2>().norm() <= 1e-13);
-  check_equal(placed(egg, some_rotation, some_position, false).mass_properties(), placed(mass, some_rotation, some_position), 1e-11,
+  check_equal(placed(egg, kSomeRotation, kSomePosition, false).mass_properties(), placed(mass, kSomeRotation, kSomePosition), 1e-11,
               "egg");
 }
 
@@ -149,8 +149,8 @@ TEST_CASE("mass: two independent ways for a rounded ellipsoid and a rounded user
   const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(3, 2, 1));
   const MassProperties expected = Rounded(ellipsoid, 0.5).mass_properties();
   check_equal(quadrature_mass_properties(Rounded(ellipsoid, 0.5)), expected, 1e-12, "quadrature");
-  const auto user = std::make_shared<CallbackShape>(placed(ellipsoid, some_rotation, some_position, true));
-  check_equal(Rounded(user, 0.5).mass_properties(), placed(expected, some_rotation, some_position), 1e-12, "user's body");
+  const auto user = std::make_shared<CallbackShape>(placed(ellipsoid, kSomeRotation, kSomePosition, true));
+  check_equal(Rounded(user, 0.5).mass_properties(), placed(expected, kSomeRotation, kSomePosition), 1e-12, "user's body");
   const auto superellipsoid = std::make_shared<Superellipsoid>(Vector3(3, 2, 1), 2, 2);
   check_equal(Rounded(superellipsoid, 0.5).mass_properties(), expected, 1e-13, "superellipsoid");
 }
@@ -242,7 +242,7 @@ TEST_CASE("mass: a lens, whose edge is an open set of normals, within its report
     const auto lens =
         std::make_shared<CallbackShape>(h, r, with_hessian ? CallbackShape::Hessian(hessian) : CallbackShape::Hessian());
     for (const MassProperties& mass :
-         {lens->mass_properties(), placed(lens, some_rotation, some_position, with_hessian).mass_properties()}) {
+         {lens->mass_properties(), placed(lens, kSomeRotation, kSomePosition, with_hessian).mass_properties()}) {
       CHECK(std::abs(mass.volume / volume - 1) <= mass.relative_error);
       CHECK(mass.relative_error < 0.5);
       CHECK(mass.volume == doctest::Approx(volume).epsilon(0.03));

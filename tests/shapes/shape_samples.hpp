@@ -33,7 +33,7 @@ inline std::vector<Vector3> random_normals(int count, unsigned seed) {
   std::normal_distribution<double> gauss;
   std::vector<Vector3> normals;
   while (static_cast<int>(normals.size()) < count) {
-    const Vector3 v(gauss(engine), gauss(engine), gauss(engine));
+    const Vector3 v{gauss(engine), gauss(engine), gauss(engine)};  // braces: evaluated in this order
     if (v.norm() > 1e-3) normals.push_back(v.normalized());
   }
   return normals;
