@@ -4,6 +4,8 @@ namespace supernormal {
 
 Vector3 Shape::advance_normal(const Vector3& n, const Jet& /*jet*/, const Vector3& dn) const { return n + dn; }
 
+void Shape::add_corners(const Vector3& /*n*/, const Vector3& /*toward*/, Corners& /*corners*/) const {}
+
 Vector3 Shape::half_extents() const {
   Vector3 half;
   for (int axis = 0; axis < 3; ++axis) {

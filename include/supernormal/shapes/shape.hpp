@@ -51,6 +51,21 @@ struct SharpFeatures {
   static SharpFeatures of_box(double radius);
 };
 
+/// Points of a body that has faces or straight edges, in its own frame: see Shape::add_corners.
+class Corners {
+ public:
+  static constexpr int kCapacity = 8;
+
+  void clear() { count_ = 0; }
+  void add(const Vector3& point) { points_[static_cast<std::size_t>(count_++)] = point; }
+  int size() const { return count_; }
+  const Vector3& operator[](int k) const { return points_[static_cast<std::size_t>(k)]; }
+
+ private:
+  std::array<Vector3, kCapacity> points_;
+  int count_ = 0;
+};
+
 /// A convex body known by its normal parameterization (Roemer; DESIGN section 1). The functions of a shape are pure:
 /// any number of threads may call them at once.
 class SUPERNORMAL_API Shape {
@@ -76,6 +91,15 @@ class SUPERNORMAL_API Shape {
 
   /// Whether advance_normal() is more than n + dn.
   virtual bool has_flat_faces() const { return false; }
+
+  /// Whether the body has flat faces or straight edges in the strict sense, so that its support function has kinks: all points of
+  /// a face share one normal. evaluate() then delivers one of them, and H without the jump.
+  virtual bool has_kinks() const { return false; }
+
+  /// For a body with kinks: up to Corners::kCapacity of its points, those that become boundary points when the normal n turns; they
+  /// bound the support function, h(m) >= m.corner for every m. r(n) may be among them. `toward` is a point, in the body's frame, of
+  /// the curved face or edge with normal n, if there is one, the nearest point to it is among them.
+  virtual void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const;
 
   /// Half of the extent along the three axes of the body's frame, m.
   virtual Vector3 half_extents() const;

@@ -1,0 +1,27 @@
+// Box.
+#pragma once
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// |x| <= a, |y| <= b, |z| <= c: h(n) = a|nx| + b|ny| + c|nz|. Of a face or an edge, r(n) is one of the corners.
+class SUPERNORMAL_API Box final : public Shape {
+ public:
+  /// Half-lengths in m, in [0, 1e30]; std::invalid_argument otherwise.
+  explicit Box(const Vector3& half_lengths);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_kinks() const override { return true; }
+  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  Vector3 half_extents() const override { return half_lengths_; }
+  SharpFeatures sharp_features() const override;
+  MassProperties mass_properties() const override;
+
+  const Vector3& half_lengths() const { return half_lengths_; }
+
+ private:
+  Vector3 half_lengths_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,29 @@
+// Capsule: a segment swept by a sphere.
+#pragma once
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// The points within `radius` of the segment from (0, 0, -half_length) to (0, 0, half_length): h(n) = half_length |nz| + radius.
+/// Of its side, r(n) is one of the two ends.
+class SUPERNORMAL_API Capsule final : public Shape {
+ public:
+  /// Both in m, in [0, 1e30]; std::invalid_argument otherwise. A radius of 0 makes it a segment.
+  Capsule(double radius, double half_length);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_kinks() const override { return half_length_ > 0; }
+  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }
+  SharpFeatures sharp_features() const override;
+  MassProperties mass_properties() const override;
+
+  double radius() const { return radius_; }
+  double half_length() const { return half_length_; }
+
+ private:
+  double radius_, half_length_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,29 @@
+// Cylinder with flat ends.
+#pragma once
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// x^2 + y^2 <= radius^2, |z| <= half_length: h(n) = radius sqrt(nx^2 + ny^2) + half_length |nz|. Of its side, r(n) is one of the
+/// two ends; of a cap, the centre.
+class SUPERNORMAL_API Cylinder final : public Shape {
+ public:
+  /// Both in m, in [0, 1e30]; std::invalid_argument otherwise.
+  Cylinder(double radius, double half_length);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_kinks() const override { return true; }
+  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  Vector3 half_extents() const override { return {radius_, radius_, half_length_}; }
+  SharpFeatures sharp_features() const override;
+  MassProperties mass_properties() const override;
+
+  double radius() const { return radius_; }
+  double half_length() const { return half_length_; }
+
+ private:
+  double radius_, half_length_;
+};
+
+}  // namespace supernormal

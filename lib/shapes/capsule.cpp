@@ -1,0 +1,51 @@
+#include "supernormal/shapes/capsule.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+
+Capsule::Capsule(double radius, double half_length)
+    : radius_(require_in("radius", radius, 0, kMaxLength, "m")),
+      half_length_(require_in("half-length", half_length, 0, kMaxLength, "m")) {}
+
+void Capsule::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  jet.h = half_length_ * std::abs(n.z()) + radius_;
+  if (order == Order::Value) return;
+  jet.r = radius_ * n;
+  jet.r.z() += std::copysign(half_length_, n.z());
+  if (order == Order::Point) return;
+  jet.H = radius_ * (Matrix3::Identity() - n * n.transpose());
+}
+
+// The sphere's share of the boundary point follows the normal: it is the same for both ends.
+void Capsule::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners& corners) const {
+  const Vector3 end(0, 0, half_length_);
+  corners.add(radius_ * n - end);
+  corners.add(radius_ * n + end);
+}
+
+SharpFeatures Capsule::sharp_features() const {
+  SharpFeatures features;
+  features.radius = radius_;
+  features.add_edge(Vector3::UnitZ());
+  return features;
+}
+
+MassProperties Capsule::mass_properties() const {
+  const double r = radius_;
+  const double l = half_length_;
+  const double wall = 2 * std::numbers::pi * r * r * l;  // volume of the part with straight sides
+  const double ends = 4.0 / 3 * std::numbers::pi * r * r * r;
+  // Half a ball has its centroid 3/8 r from its flat side and the second moment of half the ball about that side.
+  const double across = wall * r * r / 4 + ends * r * r / 5;
+  const double along = wall * l * l / 3 + ends * (r * r / 5 + 2 * (3.0 / 8) * r * l + l * l);
+  MassProperties mass;
+  mass.volume = wall + ends;
+  mass.second_moment = Vector3(across, across, along).asDiagonal();
+  return mass;
+}
+
+}  // namespace supernormal

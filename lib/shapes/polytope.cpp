@@ -1,0 +1,60 @@
+#include "supernormal/shapes/polytope.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+
+Polytope::Polytope(std::span<const Vector3> points, std::span<const Vector3> face_normals)
+    : points_(points), face_normals_(face_normals) {
+  if (points.empty()) throw std::invalid_argument("points is empty; at least one is needed");
+  Vector3 low = points.front();
+  Vector3 high = low;
+  for (const Vector3& point : points) {
+    for (int axis = 0; axis < 3; ++axis) require_in("coordinate of a point", point[axis], -kMaxLength, kMaxLength, "m");
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  half_extents_ = 0.5 * (high - low);
+}
+
+void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  const Vector3* highest = &points_.front();
+  jet.h = n.dot(*highest);
+  for (const Vector3& point : points_.subspan(1)) {
+    const double height = n.dot(point);
+    if (height <= jet.h) continue;
+    jet.h = height;
+    highest = &point;
+  }
+  if (order == Order::Value) return;
+  jet.r = *highest;
+  if (order == Order::Point) return;
+  jet.H.setZero();
+}
+
+// The highest along n: the first that can take over.
+void Polytope::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners& corners) const {
+  struct Height {
+    double height;
+    const Vector3* point;
+  };
+  std::array<Height, Corners::kCapacity> highest;
+  std::size_t count = 0;
+  for (const Vector3& point : points_) {
+    const double height = n.dot(point);
+    if (count == highest.size() && height <= highest.back().height) continue;
+    if (count < highest.size()) ++count;
+    std::size_t place = count - 1;
+    for (; place > 0 && highest[place - 1].height < height; --place) highest[place] = highest[place - 1];
+    highest[place] = {height, &point};
+  }
+  for (std::size_t k = 0; k < count; ++k) corners.add(*highest[k].point);
+}
+
+SharpFeatures Polytope::sharp_features() const { return SharpFeatures::of_box(0); }
+
+}  // namespace supernormal
