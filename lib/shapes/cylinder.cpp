@@ -7,6 +7,12 @@
 #include "shapes/validation.hpp"
 
 namespace supernormal {
+namespace {
+
+// The normal of a cap, that was rotated there and back, is as far from the axis as this.
+constexpr double kCap = 1e-15;
+
+}  // namespace
 
 Cylinder::Cylinder(double radius, double half_length)
     : radius_(require_in("radius", radius, 0, kMaxLength, "m")),
@@ -16,27 +22,38 @@ void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const double across = std::hypot(n.x(), n.y());
   jet.h = radius_ * across + half_length_ * std::abs(n.z());
   if (order == Order::Value) return;
-  const Vector3 radial = across > 0 ? Vector3(n.x() / across, n.y() / across, 0) : Vector3(0, 0, 0);
+  const bool is_cap = across < kCap;
+  const Vector3 radial = is_cap ? Vector3(0, 0, 0) : Vector3(n.x() / across, n.y() / across, 0);
   jet.r = radius_ * radial;
   jet.r.z() = std::copysign(half_length_, n.z());
   if (order == Order::Point) return;
   // The rim turns with the normal's azimuth; a cap does not.
   const Vector3 along_rim(-radial.y(), radial.x(), 0);
-  const double rim_radius = across > 0 ? radius_ / across : 0;
-  jet.H = rim_radius * along_rim * along_rim.transpose();
+  jet.H = is_cap ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
 }
 
 void Cylinder::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
-  Vector3 rim(n.x(), n.y(), 0);
-  if (rim.x() == 0 && rim.y() == 0) {  // a cap: its point nearest to `toward`
-    const double distance = std::hypot(toward.x(), toward.y());
-    rim = Vector3(toward.x(), toward.y(), 0) * (distance > radius_ ? radius_ / distance : 1);
-  } else {
-    rim *= radius_ / std::hypot(n.x(), n.y());
-  }
   const Vector3 end(0, 0, half_length_);
-  corners.add(rim - end);
-  corners.add(rim + end);
+  const double across = std::hypot(n.x(), n.y());
+  if (across < kCap) {
+    // An equilateral triangle of rim points, one of them in the direction of the point.
+    const double distance = std::hypot(toward.x(), toward.y());
+    const Vector3 rim = distance > 0 ? Vector3(toward.x(), toward.y(), 0) * (radius_ / distance) : Vector3(radius_, 0, 0);
+    const Vector3 middle = -0.5 * rim;
+    const Vector3 aside = 0.5 * std::numbers::sqrt3 * Vector3(-rim.y(), rim.x(), 0);
+    for (const Vector3& point : {rim, Vector3(middle + aside), Vector3(middle - aside)})
+      corners.add(point + (n.z() < 0 ? -end : end));
+  } else {
+    const Vector3 rim = Vector3(n.x(), n.y(), 0) * (radius_ / across);
+    corners.add(rim - end);
+    corners.add(rim + end);
+  }
+}
+
+bool Cylinder::crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const {
+  if (from.z() * to.z() <= 0 || from.x() * to.x() + from.y() * to.y() >= 0) return false;
+  face = Vector3(0, 0, std::copysign(1.0, to.z()));
+  return true;
 }
 
 SharpFeatures Cylinder::sharp_features() const { return SharpFeatures::of_box(0); }

@@ -53,8 +53,10 @@ void Polytope::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners&
     highest[place] = {height, &point};
   }
   for (std::size_t k = 0; k < count; ++k) corners.add(*highest[k].point);
+  if (points_.size() > count) corners.set_partial();
 }
 
-SharpFeatures Polytope::sharp_features() const { return SharpFeatures::of_box(0); }
+// Its faces and edges are not the same from both sides.
+SharpFeatures Polytope::sharp_features() const { return {}; }
 
 }  // namespace supernormal

@@ -6,6 +6,8 @@ Vector3 Shape::advance_normal(const Vector3& n, const Jet& /*jet*/, const Vector
 
 void Shape::add_corners(const Vector3& /*n*/, const Vector3& /*toward*/, Corners& /*corners*/) const {}
 
+bool Shape::crosses_curved_face(const Vector3& /*from*/, const Vector3& /*to*/, Vector3& /*face*/) const { return false; }
+
 Vector3 Shape::half_extents() const {
   Vector3 half;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,7 @@
 #include "solvers/ascent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -44,6 +45,9 @@ constexpr double kGrazing = 1e-15;
 // distance (radians): the slope may go on that far.
 constexpr double kSecantReach = 0.05;
 
+// Corners that share a normal; more than this are coplanar, and any three of them know the normal.
+constexpr std::size_t kMaxTied = 24;
+
 /// Of the solutions u1, u2 that the two bodies propose, each counted by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2).
 Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
   return (A1 + A2).solve(A1 * u1 + A2 * u2);
@@ -64,12 +68,14 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
       cuts_(cuts),
       settings_(settings),
       tolerance_(tolerance),
-      has_flat_faces_(gap.has_curvature() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())) {}
+      has_flat_faces_(gap.has_curvature() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())),
+      has_kinks_(gap.shape2().has_kinks()),
+      known_(gap) {}
 
 Status Ascent::climb(const Vector3& start, double worth) {
   radius_ = kFirstRadius;
   promised_gain_ = 0;
-  evaluate(start, current_);
+  evaluate(start, current_, current_corners_);
   if (!gap_.has_curvature()) secant_.restart(current_);
   Status status = Status::Converged;
   while (true) {
@@ -77,12 +83,13 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (settings_.stop_when_apart && current_.s > 0) return Status::Apart;
     const Step step = choose_step();
     if (finished(worth, status)) return status;
-    evaluate(step.normal.normalized(), trial_);
-    if (!gap_.has_curvature()) secant_.update(current_, trial_);
+    evaluate(step.normal.normalized(), trial_, trial_corners_);
+    if (!gap_.has_curvature()) learn_curvature();
     const double actual_gain = trial_.s - current_.s;
     adapt_radius(step, actual_gain);
     if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
       std::swap(current_, trial_);
+      if (has_kinks_) std::swap(current_corners_, trial_corners_);
     } else {
       promised_gain_ = 0;
     }
@@ -102,21 +109,13 @@ bool Ascent::finished(double worth, Status& status) const {
   return true;
 }
 
+LocalModel Ascent::local_model() const {
+  return gap_.has_curvature() ? LocalModel::of(gap_, current_) : LocalModel::of(gap_, current_, secant_.matrix());
+}
+
 Ascent::Step Ascent::choose_step() {
-  const LocalModel local = gap_.has_curvature() ? LocalModel::of(gap_, current_) : LocalModel::of(gap_, current_, secant_.matrix());
-  const Vector2 newton = local.model.maximize(radius_);
-  const double newton_gain = std::max(local.model.gain(newton), 0.0);
-
-  // What the model says is still to come, and by how much it promised more the step before.
-  const double whole_gain = local.model.largest_gain();
-  const bool is_asymptotic = promised_gain_ > 0 && newton.norm() < kAsymptoticStep;
-  const double contraction = is_asymptotic ? std::min(whole_gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
-  promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
-  error_ = kGainSafety / (1 - contraction) * whole_gain;
-  if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * local.model.g.norm());
-
-  Step step{current_.n + local.plane1.lift(newton), newton.norm(), newton_gain};
-  if (has_flat_faces_) flat_step(local, newton, step);
+  const LocalModel local = local_model();
+  Step step = has_kinks_ ? kinked_step(local) : smooth_step(local);
   if (error_ > tolerance_ && ruled_out(step)) {
     const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
     step = {current_.n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current_.s, 0.0)};
@@ -126,12 +125,81 @@ Ascent::Step Ascent::choose_step() {
   return step;
 }
 
-void Ascent::flat_step(const LocalModel& local, const Vector2& newton, Step& step) {
+Ascent::Step Ascent::smooth_step(const LocalModel& local) {
+  const Vector2 newton = local.model.maximize(radius_);
+  estimate_error(local.model.largest_gain(), newton.norm());
+  if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * local.model.g.norm());
+  Step step{current_.n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
+  if (has_flat_faces_) flat_step(local, {0, local.model.g, newton, nullptr}, step);
+  return step;
+}
+
+Ascent::Step Ascent::kinked_step(const LocalModel& local) {
+  const std::span<const Piece> pieces = known_.pieces(current_, current_corners_, local.plane1);
+  const PiecewiseModel model{pieces, curvature_that_counts(local.model.A, pieces)};
+  const bool is_concave = Eigen2(model.A).low > 0;
+  PiecewiseModel::Peak peak;
+  if (is_concave) peak = model.maximize();
+  const double whole_gain = is_concave ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
+  if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
+  estimate_error(whole_gain, peak.u.norm());
+
+  Target target{0, Vector2::Zero(), peak.u, &peak};
+  for (std::size_t i = 0; i < peak.count; ++i) {
+    target.value += peak.weight[i] * pieces[peak.active[i]].value;
+    target.slope += peak.weight[i] * pieces[peak.active[i]].slope;
+    if (peak.count > 1) cuts_.add(known_.difference(current_, peak.active[i]));
+  }
+  if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * target.slope.norm());
+  const Vector3 normal = known_.shared_normal(peak, current_.n + local.plane1.lift(peak.u));
+  Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0)};
+  if (has_flat_faces_ && peak.count < 3) flat_step(local, target, step);
+  Vector3 face;
+  if (gap_.shape2().crosses_curved_face(current_.m, -(gap_.rotation().transpose() * step.normal), face)) {
+    step.normal = -(gap_.rotation() * face);
+  }
+  return step;
+}
+
+// Across an edge the kink holds the normal, and on a face both ways: curvature matters only along what is free.
+Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Piece> pieces) const {
+  if (Eigen2(A).low > 0) return A;
+  std::array<Piece, kMaxTied> tied;
+  std::size_t count = 0;
+  for (const Piece& piece : pieces) {
+    if (piece.value <= gap_.rounding() && count < tied.size()) tied[count++] = {0, piece.slope};
+  }
+  const auto rest = PiecewiseModel{{tied.data(), count}, {1, 0, 1}}.maximize();
+  const double size = std::max(std::abs(A.xx) + std::abs(A.yy), gap_.length_unit());
+  if (rest.count == 3) return {size, 0, size};
+  if (rest.count == 1) return A;
+  const Vector2 across = (tied[rest.active[1]].slope - tied[rest.active[0]].slope).normalized();
+  const Vector2 along(-across.y(), across.x());
+  const double curvature = along.dot(A * along);
+  return {curvature * along.x() * along.x() + size * across.x() * across.x(),
+          curvature * along.x() * along.y() + size * across.x() * across.y(),
+          curvature * along.y() * along.y() + size * across.y() * across.y()};
+}
+
+// What the model says is still to come, and by how much it promised more the step before.
+void Ascent::estimate_error(double whole_gain, double step_length) {
+  const bool is_asymptotic = promised_gain_ > 0 && step_length < kAsymptoticStep;
+  const double contraction = is_asymptotic ? std::min(whole_gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
+  promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
+  error_ = kGainSafety / (1 - contraction) * whole_gain;
+}
+
+void Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {
+  const Vector2& newton = target.newton;
   Vector2 u1, u2;
   if (!to_plane(local.plane1, gap_.shape1().advance_normal(current_.n, current_.jet1, local.plane1.lift(newton)), u1)) return;
   if (!to_plane(local.plane2, -gap_.shape2().advance_normal(current_.m, current_.jet2, -local.plane2.lift(newton)), u2)) return;
   Vector2 u = blend(local.A1, local.A2, u1, u2);
-  double rise = local.model.g.dot(u);
+  if (target.peak != nullptr) {
+    const Vector3 normal = known_.shared_normal(*target.peak, current_.n + local.plane1.lift(u));
+    if (!to_plane(local.plane1, normal, u)) return;
+  }
+  double rise = target.value + target.slope.dot(u);
   if (!u.allFinite() || !(rise > 0)) return;
   // s is concave where it matters: it gains at most the slope times the step, however flat the face.
   error_ = std::max(error_, rise);
@@ -140,7 +208,9 @@ void Ascent::flat_step(const LocalModel& local, const Vector2& newton, Step& ste
   const double shrink = length > reach ? reach / length : 1;
   if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return;
   u *= shrink;
-  step = {current_.n + local.plane1.lift(u), u.norm(), std::min(step.gain, shrink * rise)};
+  Vector3 normal = current_.n + local.plane1.lift(u);
+  if (target.peak != nullptr) normal = known_.shared_normal(*target.peak, normal);
+  step = {normal, u.norm(), std::min(step.gain, shrink * rise)};
 }
 
 bool Ascent::ruled_out(const Step& step) const {
@@ -152,9 +222,22 @@ bool Ascent::is_level_but_flatter(double actual_gain) const {
   return std::abs(actual_gain) <= gap_.rounding() && slope(trial_) < slope(current_);
 }
 
-void Ascent::evaluate(const Vector3& normal, GapJet& jet) {
+void Ascent::evaluate(const Vector3& normal, GapJet& jet, Corners& corners) {
   gap_.evaluate(normal, gap_.has_curvature() ? Order::Curvature : Order::Point, jet);
+  if (has_kinks_) known_.settle(jet, corners);
   cuts_.add(jet.d);
+}
+
+// Of a body with corners the boundary point jumps: only the smooth body's tells a curvature.
+void Ascent::learn_curvature() {
+  if (!has_kinks_) {
+    secant_.update(current_, trial_);
+    return;
+  }
+  GapJet from = current_, to = trial_;
+  from.d = -from.jet1.r;
+  to.d = -to.jet1.r;
+  secant_.update(from, to);
 }
 
 void Ascent::adapt_radius(const Step& step, double actual_gain) {

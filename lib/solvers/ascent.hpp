@@ -5,6 +5,7 @@
 
 #include "solvers/curvature.hpp"
 #include "solvers/cutting_planes.hpp"
+#include "solvers/known_corners.hpp"
 #include "solvers/local_model.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/proximity.hpp"
@@ -16,7 +17,10 @@ namespace supernormal {
 ///   2. where a body is flat, replaces it by the step that puts the flat body's boundary point opposite the other's: there the
 ///      normal is a smooth function of the boundary point, not the other way round;
 ///   3. where the boundary points found so far rule that step out (CuttingPlanes), replaces it by the maximum of the cuts;
-///   4. evaluates, keeps the better normal, and adapts the trust radius to how much of the promised gain came true.
+///   4. where body 2 has faces or straight edges, takes the maximum over all of its corners for step 1, and goes to the exact
+///   normal
+///      of the edge or face where that lies;
+///   5. evaluates, keeps the better normal, and adapts the trust radius to how much of the promised gain came true.
 /// It has converged when the gain still to come, estimated from the model and its contraction, is within the tolerance.
 class Ascent {
  public:
@@ -39,12 +43,26 @@ class Ascent {
     double length;   ///< in gnomonic coordinates
     double gain;     ///< m; promised
   };
+  /// What body 2 looks like from the current normal to first order: its boundary point, or a mean of those that share a normal.
+  struct Target {
+    double value;                      ///< m; s there is at most s + value + slope.u, but for the curvature of body 1
+    Vector2 slope;                     ///< m
+    Vector2 newton;                    ///< where the model has its maximum
+    const PiecewiseModel::Peak* peak;  ///< null for a smooth body 2
+  };
+
+  LocalModel local_model() const;
   Step choose_step();
-  void flat_step(const LocalModel& local, const Vector2& newton, Step& step);
+  Step smooth_step(const LocalModel& local);
+  Step kinked_step(const LocalModel& local);
+  void estimate_error(double whole_gain, double step_length);
+  void flat_step(const LocalModel& local, const Target& target, Step& step);
+  Symmetric2 curvature_that_counts(const Symmetric2& A, std::span<const Piece> pieces) const;
   bool ruled_out(const Step& step) const;
   /// Near the maximum s is level to rounding while its slope still tells the way.
   bool is_level_but_flatter(double actual_gain) const;
-  void evaluate(const Vector3& normal, GapJet& jet);
+  void evaluate(const Vector3& normal, GapJet& jet, Corners& corners);
+  void learn_curvature();
   void adapt_radius(const Step& step, double actual_gain);
   bool finished(double worth, Status& status) const;
 
@@ -53,8 +71,11 @@ class Ascent {
   const Settings& settings_;
   const double tolerance_;  // m
   const bool has_flat_faces_;
+  const bool has_kinks_;
   SecantCurvature secant_;
+  KnownCorners known_;
   GapJet current_, trial_;
+  Corners current_corners_, trial_corners_;
   double radius_ = 0;         // of the trust region, gnomonic
   double promised_gain_ = 0;  // m; of the quadratic model at the last accepted normal; 0: no history
   double error_ = 0;          // m

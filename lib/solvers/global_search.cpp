@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace supernormal {
 namespace {
@@ -42,8 +43,20 @@ GlobalSearch::GlobalSearch(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent
 void GlobalSearch::add(const Vector3& direction) {
   // Of the two signs the one towards body 2 separates better: both bodies look alike from both sides.
   const double length = direction.norm();
-  const Vector3 normal = direction * (direction.dot(gap_.offset()) < 0 ? -1 / length : 1 / length);
-  candidates_[static_cast<std::size_t>(count_++)] = {normal, cuts_.upper_bound(normal), 0};
+  add_exact(direction * (direction.dot(gap_.offset()) < 0 ? -1 / length : 1 / length));
+}
+
+void GlobalSearch::add_exact(const Vector3& normal) {
+  const double bound = cuts_.upper_bound(normal);
+  auto place = candidates_.begin() + count_;
+  if (count_ < kMaxCandidates) {
+    ++count_;
+  } else {
+    place = std::min_element(candidates_.begin(), candidates_.end(),
+                             [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; });
+    if (bound <= place->bound) return;
+  }
+  *place = {normal, bound, 0};
 }
 
 void GlobalSearch::collect(const SharpFeatures& features1, const SharpFeatures& features2) {
@@ -57,6 +70,29 @@ void GlobalSearch::collect(const SharpFeatures& features1, const SharpFeatures& 
       const Vector3 edge2 = R * features2.edges[static_cast<std::size_t>(j)];
       const Vector3 direction = edge1.cross(edge2);
       if (direction.norm() > kParallel * edge1.norm() * edge2.norm()) add(direction);
+    }
+  }
+}
+
+// A polytope looks different from every side: its faces one by one, and of its edges those between the corners near the best normal.
+void GlobalSearch::collect_of_polytope(const SharpFeatures& features1, const GapJet& best) {
+  const Matrix3& R = gap_.rotation();
+  const std::span<const Vector3> faces = gap_.shape2().face_normals();
+  for (const Vector3& face : faces) add_exact(-(R * face));
+  if (faces.empty()) return;
+  Corners corners;
+  gap_.shape2().add_corners(best.m, best.jet2.r, corners);
+  for (int i = 0; i < features1.edge_count; ++i) {
+    const Vector3& edge1 = features1.edges[static_cast<std::size_t>(i)];
+    for (int j = 0; j < corners.size(); ++j) {
+      for (int k = 0; k < j; ++k) {
+        const Vector3 edge2 = R * (corners[j] - corners[k]);
+        const Vector3 direction = edge1.cross(edge2);
+        const double length = direction.norm();
+        if (!(length > kParallel * edge1.norm() * edge2.norm())) continue;
+        add_exact(direction / length);
+        add_exact(-direction / length);
+      }
     }
   }
 }
@@ -81,6 +117,7 @@ Status GlobalSearch::improve(const SharpFeatures& features1, const SharpFeatures
                              double& error) {
   const double slack = kSlackPerDepth * std::abs(best.s) + kSlackPerRoundness * (features1.roundness + features2.roundness);
   collect(features1, features2);
+  collect_of_polytope(features1, best);
   evaluate_candidates(best.s - slack);
   if (gap_.evaluations() >= settings_.max_evaluations) return Status::EvaluationLimit;
   const auto end = candidates_.begin() + evaluated_;

@@ -25,11 +25,13 @@ class GlobalSearch {
     double bound;  // m; s cannot be larger
     double s;      // m; once evaluated
   };
-  // 4 + 4 face normals, 6 x 6 pairs of edges.
-  static constexpr int kMaxCandidates = 44;
+  // 4 + 4 face normals, 6 x 6 pairs of edges, and the most promising faces and edges of a polytope.
+  static constexpr int kMaxCandidates = 64;
 
   void collect(const SharpFeatures& features1, const SharpFeatures& features2);
+  void collect_of_polytope(const SharpFeatures& features1, const GapJet& best);
   void add(const Vector3& direction);
+  void add_exact(const Vector3& normal);
   void evaluate_candidates(double threshold);
 
   GapFunction& gap_;

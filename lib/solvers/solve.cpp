@@ -19,6 +19,7 @@ void check(const Settings& settings) {
 }
 
 Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
+  if (gap.shape2().has_kinks()) return solve_hybrid(gap, settings, start, branch);
   switch (settings.solver) {
     case Solver::Newton:
       if (gap.has_curvature()) return solve_newton(gap, settings, start);
@@ -33,11 +34,25 @@ Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start
 
 bool is_usable(const Vector3& normal) { return std::abs(normal.squaredNorm() - 1) < 1e-6; }
 
+// Of two bodies only the second may have faces and edges that the solver knows of; those of the first it finds by cuts.
+Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                   const Settings& settings, const Vector3* first_normal) {
+  Vector3 normal;
+  if (first_normal != nullptr) normal = -(pose2.rotation.transpose() * (pose1.rotation * *first_normal));
+  Proximity out = find_proximity(shape2, pose2, shape1, pose1, settings, first_normal != nullptr ? &normal : nullptr);
+  out.normal = -out.normal;
+  out.point1.swap(out.point2);
+  return out;
+}
+
 }  // namespace
 
 Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
                          const Vector3* first_normal) {
   check(settings);
+  if (shape1.has_kinks() && !shape2.has_kinks()) {
+    return find_with_bodies_swapped(shape1, pose1, shape2, pose2, settings, first_normal);
+  }
   GapFunction gap(shape1, pose1, shape2, pose2);
   if (!gap.is_finite()) return {};
   const bool is_warm = first_normal != nullptr && is_usable(*first_normal);

@@ -23,7 +23,7 @@ class SUPERNORMAL_API Polytope final : public Shape {
   SharpFeatures sharp_features() const override;
 
   std::span<const Vector3> points() const { return points_; }
-  std::span<const Vector3> face_normals() const { return face_normals_; }
+  std::span<const Vector3> face_normals() const override { return face_normals_; }
 
  private:
   std::span<const Vector3> points_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 
 #include "supernormal/export.h"
 
@@ -51,19 +52,24 @@ struct SharpFeatures {
   static SharpFeatures of_box(double radius);
 };
 
-/// Points of a body that has faces or straight edges, in its own frame: see Shape::add_corners.
+/// Some points of a body that has faces or straight edges, in its own frame: see Shape::add_corners.
 class Corners {
  public:
   static constexpr int kCapacity = 8;
 
-  void clear() { count_ = 0; }
+  void clear() { *this = Corners(); }
   void add(const Vector3& point) { points_[static_cast<std::size_t>(count_++)] = point; }
   int size() const { return count_; }
   const Vector3& operator[](int k) const { return points_[static_cast<std::size_t>(k)]; }
 
+  /// Whether the body has more corners than it named. They must then be the same points for every normal.
+  bool is_partial() const { return is_partial_; }
+  void set_partial() { is_partial_ = true; }
+
  private:
   std::array<Vector3, kCapacity> points_;
   int count_ = 0;
+  bool is_partial_ = false;
 };
 
 /// A convex body known by its normal parameterization (Roemer; DESIGN section 1). The functions of a shape are pure:
@@ -96,10 +102,17 @@ class SUPERNORMAL_API Shape {
   /// a face share one normal. evaluate() then delivers one of them, and H without the jump.
   virtual bool has_kinks() const { return false; }
 
-  /// For a body with kinks: up to Corners::kCapacity of its points, those that become boundary points when the normal n turns; they
-  /// bound the support function, h(m) >= m.corner for every m. r(n) may be among them. `toward` is a point, in the body's frame, of
-  /// the curved face or edge with normal n, if there is one, the nearest point to it is among them.
+  /// For a body with kinks: at most Corners::kCapacity points that are or become its boundary points as the normal turns, the first
+  /// to do so. Each bounds the support function, h(m) >= m.corner for every m; r(n) may be among them. Of a curved face with normal
+  /// n, three that have its point nearest to `toward` (body's frame) between them.
   virtual void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const;
+
+  /// Whether the way from one normal to another crosses that of a curved face, such as the cap of a cylinder, which no corners
+  /// announce; then `face` is that normal.
+  virtual bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const;
+
+  /// The normals of the flat faces of a polytope, as far as they are known; otherwise none.
+  virtual std::span<const Vector3> face_normals() const { return {}; }
 
   /// Half of the extent along the three axes of the body's frame, m.
   virtual Vector3 half_extents() const;

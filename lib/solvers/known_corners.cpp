@@ -1,0 +1,87 @@
+#include "solvers/known_corners.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+namespace supernormal {
+namespace {
+
+// Corners whose heights along a normal differ by less than this, in units of the last place of their coordinates, share it: the
+// normal of an edge is itself rounded.
+constexpr double kTieUnits = 16;
+
+TangentPlane plane_at(const Vector3& n) {
+  int axis = 0;
+  n.cwiseAbs().minCoeff(&axis);
+  return {n, Vector3::Unit(axis)};
+}
+
+}  // namespace
+
+void KnownCorners::settle(GapJet& jet, Corners& here) {
+  here.clear();
+  const Vector3 toward = jet.jet2.r - gap_.rotation().transpose() * jet.d;  // body 1's boundary point in body 2's frame
+  gap_.shape2().add_corners(jet.m, toward, here);
+  collect(jet, here, plane_at(jet.n));
+  if (here.is_partial()) remember(jet.jet2.r);
+  // Only the pieces that meet here, as if they met exactly.
+  std::size_t tied = 0;
+  for (std::size_t k = 0; k < count_; ++k) {
+    const double rounding = kTieUnits * std::numeric_limits<double>::epsilon() * (corners_[k].norm() + jet.jet2.r.norm());
+    if (pieces_[k].value > rounding) continue;
+    corners_[tied] = corners_[k];
+    pieces_[tied++] = {0, pieces_[k].slope};
+  }
+  if (tied == 0) return;
+  const auto nearest = PiecewiseModel{{pieces_.data(), tied}, {1, 0, 1}}.maximize();
+  jet.jet2.r.setZero();
+  for (std::size_t i = 0; i < nearest.count; ++i) jet.jet2.r += nearest.weight[i] * corners_[nearest.active[i]];
+  jet.d = gap_.rotation() * jet.jet2.r + (gap_.offset() - jet.jet1.r);
+}
+
+std::span<const Piece> KnownCorners::pieces(const GapJet& jet, const Corners& here, const TangentPlane& plane1) {
+  collect(jet, here, plane1);
+  return {pieces_.data(), count_};
+}
+
+void KnownCorners::collect(const GapJet& jet, const Corners& here, const TangentPlane& plane1) {
+  count_ = 0;
+  for (int k = 0; k < here.size(); ++k) add_piece(jet, here[k], plane1);
+  if (!here.is_partial()) return;
+  const std::size_t named = count_;
+  for (std::size_t k = 0; k < std::min(earlier_count_, kEarlier); ++k) {
+    if (std::find(corners_.begin(), corners_.begin() + named, earlier_[k]) == corners_.begin() + named) {
+      add_piece(jet, earlier_[k], plane1);
+    }
+  }
+}
+
+void KnownCorners::add_piece(const GapJet& jet, const Vector3& corner, const TangentPlane& plane1) {
+  corners_[count_] = corner;
+  pieces_[count_].value = std::max(jet.jet2.h - jet.m.dot(corner), 0.0);
+  pieces_[count_].slope = plane1.project(difference(jet, count_));
+  ++count_;
+}
+
+void KnownCorners::remember(const Vector3& corner) {
+  const auto end = earlier_.begin() + std::min(earlier_count_, kEarlier);
+  if (std::find(earlier_.begin(), end, corner) != end) return;
+  earlier_[earlier_count_++ % kEarlier] = corner;
+}
+
+Vector3 KnownCorners::difference(const GapJet& jet, std::size_t k) const {
+  return gap_.rotation() * corners_[k] + (gap_.offset() - jet.jet1.r);
+}
+
+Vector3 KnownCorners::shared_normal(const PiecewiseModel::Peak& peak, const Vector3& direction) const {
+  if (peak.count == 1) return direction;
+  const Vector3& first = corners_[peak.active[0]];
+  const Vector3 edge = gap_.rotation() * (corners_[peak.active[1]] - first);
+  if (peak.count == 2) return direction - edge * (edge.dot(direction) / edge.squaredNorm());
+  const Vector3 normal = edge.cross(Vector3(gap_.rotation() * (corners_[peak.active[2]] - first)));
+  const double length = normal.norm() / direction.norm();
+  return normal.dot(direction) < 0 ? Vector3(-normal / length) : Vector3(normal / length);
+}
+
+}  // namespace supernormal

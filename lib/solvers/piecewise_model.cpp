@@ -1,0 +1,144 @@
+#include "solvers/piecewise_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace supernormal {
+namespace {
+
+using Peak = PiecewiseModel::Peak;
+using Indices = std::array<std::size_t, 4>;
+
+// A step may be this much longer than the radius: it is only a trial.
+constexpr double kReach = 1.1;
+constexpr int kMaxShifts = 24;  // the secant takes two to four
+
+// A piece that lies lower than the maximum by less than this share of the values is no lower.
+constexpr double kRounding = 1e-15;
+
+/// The maxima of one, two or three pieces alone, kept where they are equal.
+class Candidates {
+ public:
+  Candidates(const PiecewiseModel& model, const Indices& subset, std::size_t count)
+      : model_(model), subset_(subset), count_(count) {
+    best_.gain = -std::numeric_limits<double>::infinity();
+  }
+
+  /// The best of the maxima over all sets of at most three of the subset that contain its last piece.
+  Peak best() {
+    const std::size_t last = subset_[count_ - 1];
+    try_one(last);
+    for (std::size_t i = 0; i + 1 < count_; ++i) {
+      try_two(subset_[i], last);
+      for (std::size_t j = i + 1; j + 1 < count_; ++j) try_three(subset_[i], subset_[j], last);
+    }
+    return best_;
+  }
+
+ private:
+  const Piece& piece(std::size_t k) const { return model_.pieces[k]; }
+
+  void offer(const Peak& peak) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < count_; ++k) {
+      lowest = std::min(lowest, piece(subset_[k]).value + piece(subset_[k]).slope.dot(peak.u));
+    }
+    const double gain = lowest - 0.5 * peak.u.dot(model_.A * peak.u);
+    if (!(gain > best_.gain)) return;  // false for NaN
+    best_ = peak;
+    best_.gain = gain;
+  }
+
+  void try_one(std::size_t i) { offer({model_.A.solve(piece(i).slope), 0, {i, 0, 0}, {1, 0, 0}, 1}); }
+
+  void try_two(std::size_t i, std::size_t j) {
+    const Vector2 ui = model_.A.solve(piece(i).slope);
+    const Vector2 difference = piece(j).slope - piece(i).slope;
+    const Vector2 along = model_.A.solve(difference);
+    const double share = (piece(i).value - piece(j).value - difference.dot(ui)) / difference.dot(along);
+    if (!(share >= 0 && share <= 1)) return;
+    offer({ui + share * along, 0, {i, j, 0}, {1 - share, share, 0}, 2});
+  }
+
+  void try_three(std::size_t i, std::size_t j, std::size_t k) {
+    const Vector2 a = piece(j).slope - piece(i).slope;
+    const Vector2 b = piece(k).slope - piece(i).slope;
+    const double determinant = a.x() * b.y() - a.y() * b.x();
+    const double ra = piece(i).value - piece(j).value;
+    const double rb = piece(i).value - piece(k).value;
+    const Vector2 u = Vector2(ra * b.y() - rb * a.y(), a.x() * rb - b.x() * ra) / determinant;
+    const Vector2 rest = model_.A * u - piece(i).slope;
+    const double wj = (rest.x() * b.y() - rest.y() * b.x()) / determinant;
+    const double wk = (a.x() * rest.y() - a.y() * rest.x()) / determinant;
+    if (!(wj >= 0 && wk >= 0 && wj + wk <= 1)) return;
+    offer({u, 0, {i, j, k}, {1 - wj - wk, wj, wk}, 3});
+  }
+
+  const PiecewiseModel& model_;
+  const Indices& subset_;
+  const std::size_t count_;
+  Peak best_;
+};
+
+}  // namespace
+
+PiecewiseModel::Peak PiecewiseModel::maximize() const {
+  Indices subset{};
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    if (pieces[k].value < pieces[subset[0]].value) subset[0] = k;
+  }
+  Peak peak = Candidates(*this, subset, 1).best();
+  for (std::size_t step = 0; step < 4 * pieces.size(); ++step) {
+    const double curvature = 0.5 * peak.u.dot(A * peak.u);
+    const double height = peak.gain + curvature;
+    std::size_t lowest = peak.active[0];
+    double lowest_value = height - kRounding * (std::abs(height) + curvature);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const double value = pieces[k].value + pieces[k].slope.dot(peak.u);
+      if (!(value < lowest_value)) continue;
+      lowest = k;
+      lowest_value = value;
+    }
+    const auto end = peak.active.begin() + peak.count;
+    if (std::find(peak.active.begin(), end, lowest) != end) return peak;
+    std::copy(peak.active.begin(), end, subset.begin());
+    subset[peak.count] = lowest;
+    const Peak lower = Candidates(*this, subset, peak.count + 1).best();
+    if (!(lower.gain < peak.gain)) return peak;
+    peak = lower;
+  }
+  return peak;
+}
+
+PiecewiseModel::Peak PiecewiseModel::maximize(double radius) const {
+  const double low = Eigen2(A).low;
+  const auto shifted = [&](double shift) {
+    Peak peak = PiecewiseModel{pieces, A.plus_identity(shift)}.maximize();
+    peak.gain += 0.5 * shift * peak.u.squaredNorm();
+    return peak;
+  };
+  double steepest = 0;
+  for (const Piece& piece : pieces) steepest = std::max(steepest, piece.slope.norm());
+  // |u| falls with the shift, and |u| <= steepest / (low + shift).
+  double below = low > 0 ? 0 : -low;
+  double above = std::max(steepest / radius - low, below);
+  Peak peak = shifted(low > 0 ? 0 : above);
+  if (low > 0 && peak.u.norm() <= kReach * radius) return peak;
+  double inverse_below = low > 0 ? 1 / peak.u.norm() : 0;
+  double inverse_above = 0;
+  for (int step = 0; step < kMaxShifts; ++step) {
+    // 1/|u| is a nearly linear function of the shift.
+    const double share = inverse_above > 0 ? (1 / radius - inverse_below) / (inverse_above - inverse_below) : 1;
+    const double shift = below + std::clamp(share, 1e-3, 1.0) * (above - below);
+    peak = shifted(shift);
+    const double length = peak.u.norm();
+    if (length <= kReach * radius && (length >= radius / kReach || length == 0)) break;
+    (length > radius ? below : above) = shift;
+    (length > radius ? inverse_below : inverse_above) = 1 / length;
+    if (!(above > below)) break;
+  }
+  return peak;
+}
+
+}  // namespace supernormal
