@@ -116,13 +116,15 @@ LocalModel Ascent::local_model() const {
 Ascent::Step Ascent::choose_step() {
   const LocalModel local = local_model();
   Step step = has_kinks_ ? kinked_step(local) : smooth_step(local);
-  if (error_ > tolerance_ && ruled_out(step)) {
-    const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
-    step = {current_.n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current_.s, 0.0)};
-    // The cuts bound s over the whole plane where their maximum is not on the rim.
-    if (top.is_interior) error_ = std::min(error_, kGainSafety * step.gain + top.uncertainty);
-  }
+  if (error_ > tolerance_ && ruled_out(step)) cut_step(local, step);
   return step;
+}
+
+void Ascent::cut_step(const LocalModel& local, Step& step) {
+  const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
+  step = {current_.n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current_.s, 0.0)};
+  // The cuts bound s over the whole plane where their maximum is not on the rim.
+  if (top.is_interior) error_ = std::min(error_, kGainSafety * step.gain + top.uncertainty);
 }
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
@@ -153,7 +155,11 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * target.slope.norm());
   const Vector3 normal = known_.shared_normal(peak, current_.n + local.plane1.lift(peak.u));
   Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0)};
-  if (has_flat_faces_ && peak.count < 3) flat_step(local, target, step);
+  if (has_flat_faces_ && peak.count < 3 && !flat_step(local, target, step)) {
+    // The corner or edge lies beyond the flat face, where the curvature here says nothing.
+    error_ = std::numeric_limits<double>::infinity();
+    cut_step(local, step);
+  }
   Vector3 face;
   if (gap_.shape2().crosses_curved_face(current_.m, -(gap_.rotation().transpose() * step.normal), face)) {
     step.normal = -(gap_.rotation() * face);
@@ -189,28 +195,30 @@ void Ascent::estimate_error(double whole_gain, double step_length) {
   error_ = kGainSafety / (1 - contraction) * whole_gain;
 }
 
-void Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {
+bool Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {
   const Vector2& newton = target.newton;
   Vector2 u1, u2;
-  if (!to_plane(local.plane1, gap_.shape1().advance_normal(current_.n, current_.jet1, local.plane1.lift(newton)), u1)) return;
-  if (!to_plane(local.plane2, -gap_.shape2().advance_normal(current_.m, current_.jet2, -local.plane2.lift(newton)), u2)) return;
+  if (!to_plane(local.plane1, gap_.shape1().advance_normal(current_.n, current_.jet1, local.plane1.lift(newton)), u1)) return false;
+  if (!to_plane(local.plane2, -gap_.shape2().advance_normal(current_.m, current_.jet2, -local.plane2.lift(newton)), u2))
+    return false;
   Vector2 u = blend(local.A1, local.A2, u1, u2);
   if (target.peak != nullptr) {
     const Vector3 normal = known_.shared_normal(*target.peak, current_.n + local.plane1.lift(u));
-    if (!to_plane(local.plane1, normal, u)) return;
+    if (!to_plane(local.plane1, normal, u)) return false;
   }
   double rise = target.value + target.slope.dot(u);
-  if (!u.allFinite() || !(rise > 0)) return;
+  if (!u.allFinite() || !(rise > 0)) return false;
   // s is concave where it matters: it gains at most the slope times the step, however flat the face.
   error_ = std::max(error_, rise);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
   const double reach = kFlatStepReach * radius_;
   const double shrink = length > reach ? reach / length : 1;
-  if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return;
+  if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return true;
   u *= shrink;
   Vector3 normal = current_.n + local.plane1.lift(u);
   if (target.peak != nullptr) normal = known_.shared_normal(*target.peak, normal);
   step = {normal, u.norm(), std::min(step.gain, shrink * rise)};
+  return true;
 }
 
 bool Ascent::ruled_out(const Step& step) const {

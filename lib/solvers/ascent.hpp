@@ -56,7 +56,9 @@ class Ascent {
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
   void estimate_error(double whole_gain, double step_length);
-  void flat_step(const LocalModel& local, const Target& target, Step& step);
+  /// Whether there is such a step.
+  bool flat_step(const LocalModel& local, const Target& target, Step& step);
+  void cut_step(const LocalModel& local, Step& step);
   Symmetric2 curvature_that_counts(const Symmetric2& A, std::span<const Piece> pieces) const;
   bool ruled_out(const Step& step) const;
   /// Near the maximum s is level to rounding while its slope still tells the way.

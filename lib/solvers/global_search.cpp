@@ -32,8 +32,9 @@ constexpr double kParallel = 1e-6;
 
 }  // namespace
 
-bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth, double length_unit) {
-  const double radii = depth > kDeep * length_unit ? kDeepDepthPerRadius : kShallowDepthPerRadius;
+bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth, double length_unit,
+                           bool has_kinks) {
+  const double radii = has_kinks ? 1 : depth > kDeep * length_unit ? kDeepDepthPerRadius : kShallowDepthPerRadius;
   return depth > radii * (features1.radius + features2.radius);
 }
 
@@ -74,7 +75,8 @@ void GlobalSearch::collect(const SharpFeatures& features1, const SharpFeatures& 
   }
 }
 
-// A polytope looks different from every side: its faces one by one, and of its edges those between the corners near the best normal.
+// A polytope looks different from every side: its faces one by one, and of its edges those between the corners near the best
+// normal.
 void GlobalSearch::collect_of_polytope(const SharpFeatures& features1, const GapJet& best) {
   const Matrix3& R = gap_.rotation();
   const std::span<const Vector3> faces = gap_.shape2().face_normals();

@@ -8,7 +8,8 @@ namespace supernormal {
 /// Whether two bodies that overlap by `depth` (m) may have a better local maximum than the one found. If a ball with the radius of
 /// the depth rolls freely inside the difference of the bodies, the maximum is the only one (Blaschke's rolling theorem); the
 /// smallest radii of curvature of the bodies add.
-bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth, double length_unit);
+bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth, double length_unit,
+                           bool has_kinks);
 
 /// Looks for a better local maximum than `best` and puts it there. Starts from the separating axes of the polytopes that the
 /// bodies resemble: face normals of both and cross products of their edges, the highest first, unless the cuts rule them out.

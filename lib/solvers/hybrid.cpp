@@ -40,7 +40,7 @@ Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3
   if (best.s < -tolerance && is_questioned(gap, branch, best)) {
     const SharpFeatures features1 = gap.shape1().sharp_features();
     const SharpFeatures features2 = gap.shape2().sharp_features();
-    const bool in_doubt = may_have_other_maxima(features1, features2, -best.s, gap.length_unit());
+    const bool in_doubt = may_have_other_maxima(features1, features2, -best.s, gap.length_unit(), gap.shape2().has_kinks());
     if (in_doubt && gap.evaluations() >= settings.max_evaluations) {
       status = Status::EvaluationLimit;
     } else if (in_doubt && (branch == Branch::Highest || is_higher_at_first_guess(gap, cuts, best))) {

@@ -14,6 +14,9 @@ using Indices = std::array<std::size_t, 4>;
 constexpr double kReach = 1.1;
 constexpr int kMaxShifts = 24;  // the secant takes two to four
 
+// Nearer to the ends of its interval, in shares of it, the shift is not searched.
+constexpr double kLeastShare = 1e-2;
+
 // A piece that lies lower than the maximum by less than this share of the values is no lower.
 constexpr double kRounding = 1e-15;
 
@@ -122,23 +125,31 @@ PiecewiseModel::Peak PiecewiseModel::maximize(double radius) const {
   for (const Piece& piece : pieces) steepest = std::max(steepest, piece.slope.norm());
   // |u| falls with the shift, and |u| <= steepest / (low + shift).
   double below = low > 0 ? 0 : -low;
-  double above = std::max(steepest / radius - low, below);
-  Peak peak = shifted(low > 0 ? 0 : above);
-  if (low > 0 && peak.u.norm() <= kReach * radius) return peak;
-  double inverse_below = low > 0 ? 1 / peak.u.norm() : 0;
-  double inverse_above = 0;
-  for (int step = 0; step < kMaxShifts; ++step) {
-    // 1/|u| is a nearly linear function of the shift.
-    const double share = inverse_above > 0 ? (1 / radius - inverse_below) / (inverse_above - inverse_below) : 1;
-    const double shift = below + std::clamp(share, 1e-3, 1.0) * (above - below);
-    peak = shifted(shift);
-    const double length = peak.u.norm();
-    if (length <= kReach * radius && (length >= radius / kReach || length == 0)) break;
-    (length > radius ? below : above) = shift;
-    (length > radius ? inverse_below : inverse_above) = 1 / length;
-    if (!(above > below)) break;
+  double above = std::max(steepest / radius - low, below + kLeastShare * std::abs(low));
+  if (low > 0) {
+    const Peak peak = shifted(0);
+    if (peak.u.norm() <= kReach * radius) return peak;
   }
-  return peak;
+  Peak best = shifted(above);
+  double inverse_below = 0;
+  double inverse_above = 1 / best.u.norm();
+  for (int step = 0; step < kMaxShifts && best.u.norm() * kReach < radius; ++step) {
+    if (!(above - below > kLeastShare * above)) break;  // kinks hold it nearer than the radius
+    // 1/|u| is a nearly linear function of the shift.
+    const double share = std::isfinite(inverse_above) ? (1 / radius - inverse_below) / (inverse_above - inverse_below) : 0.5;
+    const double shift = below + std::clamp(share, kLeastShare, 1 - kLeastShare) * (above - below);
+    const Peak peak = shifted(shift);
+    const double length = peak.u.norm();
+    if (length <= kReach * radius) {
+      best = peak;
+      above = shift;
+      inverse_above = 1 / length;
+    } else {
+      below = shift;
+      inverse_below = 1 / length;
+    }
+  }
+  return best;
 }
 
 }  // namespace supernormal
