@@ -27,6 +27,9 @@ constexpr std::size_t kMaxClimbs = 8;
 // Starts closer than five degrees lead up the same hill.
 constexpr double kSameHillCosine = 0.9962;
 
+// Of a polytope, the edges of this many of its most promising sides are tried as well.
+constexpr int kSidesSearched = 4;
+
 // Edges closer to parallel than this (radians) have no cross product worth trying.
 constexpr double kParallel = 1e-6;
 
@@ -53,15 +56,16 @@ void GlobalSearch::add_exact(const Vector3& normal) {
   if (count_ < kMaxCandidates) {
     ++count_;
   } else {
-    place = std::min_element(candidates_.begin(), candidates_.end(),
+    place = std::min_element(candidates_.begin() + evaluated_, candidates_.end(),
                              [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; });
-    if (bound <= place->bound) return;
+    if (place == candidates_.end() || bound <= place->bound) return;
   }
   *place = {normal, bound, 0};
 }
 
 void GlobalSearch::collect(const SharpFeatures& features1, const SharpFeatures& features2) {
   count_ = 0;
+  evaluated_ = 0;
   const Matrix3& R = gap_.rotation();
   for (int i = 0; i < features1.face_count; ++i) add(features1.face_normals[static_cast<std::size_t>(i)]);
   for (int j = 0; j < features2.face_count; ++j) add(R * features2.face_normals[static_cast<std::size_t>(j)]);
@@ -75,20 +79,22 @@ void GlobalSearch::collect(const SharpFeatures& features1, const SharpFeatures& 
   }
 }
 
-// A polytope looks different from every side: its faces one by one, and of its edges those between the corners near the best
-// normal.
-void GlobalSearch::collect_of_polytope(const SharpFeatures& features1, const GapJet& best) {
+// A polytope looks different from every side: its faces come one by one, and of its edges those near a normal.
+void GlobalSearch::collect_faces_of_polytope() {
+  for (const Vector3& face : gap_.shape2().face_normals()) add_exact(-(gap_.rotation() * face));
+}
+
+void GlobalSearch::collect_edges_of_polytope(const SharpFeatures& features1, const Vector3& normal) {
+  if (gap_.shape2().face_normals().empty()) return;
   const Matrix3& R = gap_.rotation();
-  const std::span<const Vector3> faces = gap_.shape2().face_normals();
-  for (const Vector3& face : faces) add_exact(-(R * face));
-  if (faces.empty()) return;
+  const Vector3 m = -(R.transpose() * normal);
   Corners corners;
-  gap_.shape2().add_corners(best.m, best.jet2.r, corners);
-  for (int i = 0; i < features1.edge_count; ++i) {
-    const Vector3& edge1 = features1.edges[static_cast<std::size_t>(i)];
-    for (int j = 0; j < corners.size(); ++j) {
-      for (int k = 0; k < j; ++k) {
-        const Vector3 edge2 = R * (corners[j] - corners[k]);
+  gap_.shape2().add_corners(m, m, corners);
+  for (int j = 0; j < corners.size(); ++j) {
+    for (int k = 0; k < j; ++k) {
+      const Vector3 edge2 = R * (corners[j] - corners[k]);
+      for (int i = 0; i < features1.edge_count; ++i) {
+        const Vector3& edge1 = features1.edges[static_cast<std::size_t>(i)];
         const Vector3 direction = edge1.cross(edge2);
         const double length = direction.norm();
         if (!(length > kParallel * edge1.norm() * edge2.norm())) continue;
@@ -101,7 +107,6 @@ void GlobalSearch::collect_of_polytope(const SharpFeatures& features1, const Gap
 
 void GlobalSearch::evaluate_candidates(double threshold) {
   GapJet jet;
-  evaluated_ = 0;
   while (evaluated_ < count_ && gap_.evaluations() < settings_.max_evaluations) {
     const auto rest = candidates_.begin() + evaluated_;
     const auto end = candidates_.begin() + count_;
@@ -115,15 +120,26 @@ void GlobalSearch::evaluate_candidates(double threshold) {
   }
 }
 
+void GlobalSearch::sort_evaluated() {
+  std::sort(candidates_.begin(), candidates_.begin() + evaluated_,
+            [](const Candidate& a, const Candidate& b) { return a.s > b.s; });
+}
+
 Status GlobalSearch::improve(const SharpFeatures& features1, const SharpFeatures& features2, Status status, GapJet& best,
                              double& error) {
   const double slack = kSlackPerDepth * std::abs(best.s) + kSlackPerRoundness * (features1.roundness + features2.roundness);
   collect(features1, features2);
-  collect_of_polytope(features1, best);
+  collect_faces_of_polytope();
+  collect_edges_of_polytope(features1, best.n);
+  evaluate_candidates(best.s - slack);
+  sort_evaluated();
+  for (int i = 0; i < std::min(evaluated_, kSidesSearched); ++i) {
+    collect_edges_of_polytope(features1, candidates_[static_cast<std::size_t>(i)].normal);
+  }
   evaluate_candidates(best.s - slack);
   if (gap_.evaluations() >= settings_.max_evaluations) return Status::EvaluationLimit;
+  sort_evaluated();
   const auto end = candidates_.begin() + evaluated_;
-  std::sort(candidates_.begin(), end, [](const Candidate& a, const Candidate& b) { return a.s > b.s; });
 
   std::array<Vector3, kMaxClimbs + 1> starts;
   std::size_t start_count = 0;

@@ -30,7 +30,9 @@ class GlobalSearch {
   static constexpr int kMaxCandidates = 64;
 
   void collect(const SharpFeatures& features1, const SharpFeatures& features2);
-  void collect_of_polytope(const SharpFeatures& features1, const GapJet& best);
+  void collect_faces_of_polytope();
+  void collect_edges_of_polytope(const SharpFeatures& features1, const Vector3& normal);
+  void sort_evaluated();
   void add(const Vector3& direction);
   void add_exact(const Vector3& normal);
   void evaluate_candidates(double threshold);
