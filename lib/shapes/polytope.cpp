@@ -1,5 +1,6 @@
 #include "supernormal/shapes/polytope.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -19,6 +20,12 @@ Polytope::Polytope(std::span<const Vector3> points, std::span<const Vector3> fac
     high = high.cwiseMax(point);
   }
   half_extents_ = 0.5 * (high - low);
+  if (points.size() != 3) return;
+  const Vector3 across = (points[1] - points[0]).cross(points[2] - points[0]);
+  const double length = across.norm();
+  if (!(length > 0)) return;
+  sides_ = {across / length, -across / length};
+  side_count_ = 2;
 }
 
 void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {

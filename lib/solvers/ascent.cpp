@@ -30,6 +30,9 @@ constexpr double kCreep = 1e-2;
 // quadratic model; sums of different powers take a little more.
 constexpr double kGainSafety = 3;
 
+// A corner or an edge adds no curvature to that of a flat face: the step that rises to it may be so many times too short.
+constexpr double kCornerSafety = 3;
+
 // The gain to come is summed as a geometric series of the model's contraction; this is the slowest contraction that is believed,
 // and the one assumed before two steps have shown it.
 constexpr double kSlowestContraction = 0.95;
@@ -209,7 +212,7 @@ bool Ascent::flat_step(const LocalModel& local, const Target& target, Step& step
   double rise = target.value + target.slope.dot(u);
   if (!u.allFinite() || !(rise > 0)) return false;
   // s is concave where it matters: it gains at most the slope times the step, however flat the face.
-  error_ = std::max(error_, rise);
+  error_ = std::max(error_, target.peak != nullptr ? kCornerSafety * rise : rise);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
   const double reach = kFlatStepReach * radius_;
   const double shrink = length > reach ? reach / length : 1;

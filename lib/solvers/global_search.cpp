@@ -85,7 +85,6 @@ void GlobalSearch::collect_faces_of_polytope() {
 }
 
 void GlobalSearch::collect_edges_of_polytope(const SharpFeatures& features1, const Vector3& normal) {
-  if (gap_.shape2().face_normals().empty()) return;
   const Matrix3& R = gap_.rotation();
   const Vector3 m = -(R.transpose() * normal);
   Corners corners;
@@ -130,10 +129,11 @@ Status GlobalSearch::improve(const SharpFeatures& features1, const SharpFeatures
   const double slack = kSlackPerDepth * std::abs(best.s) + kSlackPerRoundness * (features1.roundness + features2.roundness);
   collect(features1, features2);
   collect_faces_of_polytope();
-  collect_edges_of_polytope(features1, best.n);
+  const bool is_polytope = gap_.shape2().has_kinks() && features2.edge_count == 0;
+  if (is_polytope) collect_edges_of_polytope(features1, best.n);
   evaluate_candidates(best.s - slack);
   sort_evaluated();
-  for (int i = 0; i < std::min(evaluated_, kSidesSearched); ++i) {
+  for (int i = 0; is_polytope && i < std::min(evaluated_, kSidesSearched); ++i) {
     collect_edges_of_polytope(features1, candidates_[static_cast<std::size_t>(i)].normal);
   }
   evaluate_candidates(best.s - slack);

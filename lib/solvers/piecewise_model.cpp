@@ -55,13 +55,16 @@ class Candidates {
 
   void try_one(std::size_t i) { offer({model_.A.solve(piece(i).slope), 0, {i, 0, 0}, {1, 0, 0}, 1}); }
 
+  // On the line where the two are equal, and not as a sum of their own maxima: those lie far away where A is nearly singular.
   void try_two(std::size_t i, std::size_t j) {
-    const Vector2 ui = model_.A.solve(piece(i).slope);
     const Vector2 difference = piece(j).slope - piece(i).slope;
-    const Vector2 along = model_.A.solve(difference);
-    const double share = (piece(i).value - piece(j).value - difference.dot(ui)) / difference.dot(along);
+    const double squared = difference.squaredNorm();
+    const Vector2 foot = (piece(i).value - piece(j).value) / squared * difference;
+    const Vector2 line(-difference.y(), difference.x());
+    const Vector2 u = foot + line.dot(piece(i).slope - model_.A * foot) / line.dot(model_.A * line) * line;
+    const double share = difference.dot(model_.A * u - piece(i).slope) / squared;
     if (!(share >= 0 && share <= 1)) return;
-    offer({ui + share * along, 0, {i, j, 0}, {1 - share, share, 0}, 2});
+    offer({u, 0, {i, j, 0}, {1 - share, share, 0}, 2});
   }
 
   void try_three(std::size_t i, std::size_t j, std::size_t k) {

@@ -1,6 +1,7 @@
 // The convex hull of some points.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "supernormal/shapes/shape.hpp"
@@ -23,11 +24,17 @@ class SUPERNORMAL_API Polytope final : public Shape {
   SharpFeatures sharp_features() const override;
 
   std::span<const Vector3> points() const { return points_; }
-  std::span<const Vector3> face_normals() const override { return face_normals_; }
+
+  /// As given; of a triangle, that of its two sides.
+  std::span<const Vector3> face_normals() const override {
+    return face_normals_.empty() ? std::span(sides_).first(side_count_) : face_normals_;
+  }
 
  private:
   std::span<const Vector3> points_;
   std::span<const Vector3> face_normals_;
+  std::array<Vector3, 2> sides_;
+  std::size_t side_count_ = 0;
   Vector3 half_extents_;
 };
 
