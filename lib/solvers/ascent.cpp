@@ -48,6 +48,9 @@ constexpr double kGrazing = 1e-15;
 // distance (radians): the slope may go on that far.
 constexpr double kSecantReach = 0.05;
 
+// A radius of curvature beyond this, in units of the bodies' size, is that of a flat face.
+constexpr double kFlatRadius = 1e8;
+
 // Corners that share a normal; more than this are coplanar, and any three of them know the normal.
 constexpr std::size_t kMaxTied = 24;
 
@@ -156,12 +159,21 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
     if (peak.count > 1) cuts_.add(known_.difference(current_, peak.active[i]));
   }
   if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * target.slope.norm());
+  if (local.A1.xx + local.A1.yy > kFlatRadius * gap_.length_unit()) {
+    // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
+    const Vector2 way = target.slope - local.A2 * peak.u - current_.s * peak.u;
+    const Vector2 turn = local.A1.solve(way);
+    if (turn.allFinite()) target.newton = turn;
+  }
   const Vector3 normal = known_.shared_normal(peak, current_.n + local.plane1.lift(peak.u));
   Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0)};
   if (has_flat_faces_ && peak.count < 3 && !flat_step(local, target, step)) {
-    // The corner or edge lies beyond the flat face, where the curvature here says nothing.
-    error_ = std::numeric_limits<double>::infinity();
-    cut_step(local, step);
+    target.newton = peak.u;
+    if (!flat_step(local, target, step)) {
+      // The corner or edge lies beyond the flat face, where the curvature here says nothing.
+      error_ = std::numeric_limits<double>::infinity();
+      cut_step(local, step);
+    }
   }
   Vector3 face;
   if (gap_.shape2().crosses_curved_face(current_.m, -(gap_.rotation().transpose() * step.normal), face)) {
