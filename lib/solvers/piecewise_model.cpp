@@ -20,6 +20,8 @@ constexpr double kLeastShare = 1e-2;
 // A piece that lies lower than the maximum by less than this share of the values is no lower.
 constexpr double kRounding = 1e-15;
 
+double inverse(double length) { return length > 0 ? 1 / length : std::numeric_limits<double>::infinity(); }
+
 /// The maxima of one, two or three pieces alone, kept where they are equal.
 class Candidates {
  public:
@@ -59,9 +61,11 @@ class Candidates {
   void try_two(std::size_t i, std::size_t j) {
     const Vector2 difference = piece(j).slope - piece(i).slope;
     const double squared = difference.squaredNorm();
-    const Vector2 foot = (piece(i).value - piece(j).value) / squared * difference;
     const Vector2 line(-difference.y(), difference.x());
-    const Vector2 u = foot + line.dot(piece(i).slope - model_.A * foot) / line.dot(model_.A * line) * line;
+    const double curvature = line.dot(model_.A * line);
+    if (squared == 0 || curvature == 0) return;
+    const Vector2 foot = (piece(i).value - piece(j).value) / squared * difference;
+    const Vector2 u = foot + line.dot(piece(i).slope - model_.A * foot) / curvature * line;
     const double share = difference.dot(model_.A * u - piece(i).slope) / squared;
     if (!(share >= 0 && share <= 1)) return;
     offer({u, 0, {i, j, 0}, {1 - share, share, 0}, 2});
@@ -71,6 +75,7 @@ class Candidates {
     const Vector2 a = piece(j).slope - piece(i).slope;
     const Vector2 b = piece(k).slope - piece(i).slope;
     const double determinant = a.x() * b.y() - a.y() * b.x();
+    if (determinant == 0) return;
     const double ra = piece(i).value - piece(j).value;
     const double rb = piece(i).value - piece(k).value;
     const Vector2 u = Vector2(ra * b.y() - rb * a.y(), a.x() * rb - b.x() * ra) / determinant;
@@ -135,21 +140,23 @@ PiecewiseModel::Peak PiecewiseModel::maximize(double radius) const {
   }
   Peak best = shifted(above);
   double inverse_below = 0;
-  double inverse_above = 1 / best.u.norm();
+  double inverse_above = inverse(best.u.norm());
   for (int step = 0; step < kMaxShifts && best.u.norm() * kReach < radius; ++step) {
     if (!(above - below > kLeastShare * above)) break;  // kinks hold it nearer than the radius
     // 1/|u| is a nearly linear function of the shift.
-    const double share = std::isfinite(inverse_above) ? (1 / radius - inverse_below) / (inverse_above - inverse_below) : 0.5;
+    const double share = std::isfinite(inverse_above) && inverse_above > inverse_below
+                             ? (1 / radius - inverse_below) / (inverse_above - inverse_below)
+                             : 0.5;
     const double shift = below + std::clamp(share, kLeastShare, 1 - kLeastShare) * (above - below);
     const Peak peak = shifted(shift);
     const double length = peak.u.norm();
     if (length <= kReach * radius) {
       best = peak;
       above = shift;
-      inverse_above = 1 / length;
+      inverse_above = inverse(length);
     } else {
       below = shift;
-      inverse_below = 1 / length;
+      inverse_below = inverse(length);
     }
   }
   return best;

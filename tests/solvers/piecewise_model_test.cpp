@@ -112,3 +112,15 @@ TEST_CASE("coplanar corners: many pieces meet in one point") {
   for (std::size_t i = 0; i < peak.count; ++i) slope += peak.weight[i] * ring[peak.active[i]].slope;
   CHECK(slope.norm() <= 1e-14);
 }
+
+TEST_CASE("pieces that repeat or are parallel, and no curvature at all, divide by nothing") {
+  const std::vector<Piece> same(3, {0, {1, 2}});
+  CHECK(PiecewiseModel{same, {1, 0, 1}}.maximize().gain == doctest::Approx(2.5));
+  const std::vector<Piece> parallel = {{0, {1, 0}}, {1, {-1, 0}}, {0.5, {0.5, 0}}};
+  const PiecewiseModel::Peak ridge = PiecewiseModel{parallel, {1, 0, 1}}.maximize();
+  CHECK(ridge.u.x() == doctest::Approx(0.5));
+  CHECK(ridge.u.y() == 0);
+  const std::vector<Piece> level = {{0, {0, 0}}};
+  const PiecewiseModel::Peak rest = PiecewiseModel{level, {0, 0, 0}}.maximize(1);
+  CHECK(rest.u.allFinite());
+}
