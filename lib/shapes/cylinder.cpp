@@ -9,8 +9,11 @@
 namespace supernormal {
 namespace {
 
-// The normal of a cap, that was rotated there and back, is as far from the axis as this.
-constexpr double kCap = 1e-15;
+// Closer to the axis than this, a normal's azimuth is nothing but rounding.
+constexpr double kPole = 1e-15;
+
+// The normal of a cap, that was rotated there and back by matrices that are themselves rounded, is as far from the axis as this.
+constexpr double kCap = 4e-15;
 
 }  // namespace
 
@@ -22,14 +25,14 @@ void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const double across = std::hypot(n.x(), n.y());
   jet.h = radius_ * across + half_length_ * std::abs(n.z());
   if (order == Order::Value) return;
-  const bool is_cap = across < kCap;
-  const Vector3 radial = is_cap ? Vector3(0, 0, 0) : Vector3(n.x() / across, n.y() / across, 0);
+  const bool is_pole = across < kPole;
+  const Vector3 radial = is_pole ? Vector3(0, 0, 0) : Vector3(n.x() / across, n.y() / across, 0);
   jet.r = radius_ * radial;
   jet.r.z() = std::copysign(half_length_, n.z());
   if (order == Order::Point) return;
   // The rim turns with the normal's azimuth; a cap does not.
   const Vector3 along_rim(-radial.y(), radial.x(), 0);
-  jet.H = is_cap ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
+  jet.H = is_pole ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
 }
 
 void Cylinder::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
