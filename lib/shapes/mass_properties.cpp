@@ -1,12 +1,15 @@
 #include "shapes/mass_properties.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
+#include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
 
 namespace supernormal {
 namespace {
@@ -21,28 +24,37 @@ MassProperties symmetric(double volume, const Vector3& mean_squares) {
   return mass;
 }
 
-MassProperties swept_superellipsoid(const MassProperties& core, const Vector3& half_axes, double delta, double epsilon,
-                                    double radius) {
-  MassProperties mass = superellipsoid_layer(half_axes, delta, epsilon, radius);
+MassProperties swept_superovoid(const MassProperties& core, const Superovoid& shape, double radius) {
+  const MassProperties layer = superovoid_layer(shape, radius);
+  MassProperties mass = layer;
   mass.volume += core.volume;
+  mass.centroid = (core.volume * core.centroid + layer.volume * layer.centroid) / mass.volume;
   mass.second_moment += core.second_moment;
   return mass;
 }
 
+/// Not owned.
+std::shared_ptr<const Shape> borrowed(const Shape& shape) { return {std::shared_ptr<const Shape>(), &shape}; }
+
 /// The core swept by a sphere; by closed form and spectral quadrature where the kind of core is known.
-MassProperties swept(const Rounded& shape) {
-  const Shape& core = shape.core();
-  const double radius = shape.radius();
+MassProperties swept(const Shape& core, double radius) {
   if (radius == 0) return core.mass_properties();
+  if (const auto* rounded = dynamic_cast<const Rounded*>(&core)) return swept(rounded->core(), rounded->radius() + radius);
   if (const auto* sphere = dynamic_cast<const Sphere*>(&core)) return Sphere(sphere->radius() + radius).mass_properties();
+  if (const auto* capsule = dynamic_cast<const Capsule*>(&core)) {
+    return Capsule(capsule->radius() + radius, capsule->half_length()).mass_properties();
+  }
   if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&core)) {
-    return swept_superellipsoid(core.mass_properties(), ellipsoid->half_axes(), 2, 2, radius);
+    return swept_superovoid(core.mass_properties(), Superovoid(ellipsoid->half_axes(), 2, 2, 0, 0), radius);
   }
   if (const auto* superellipsoid = dynamic_cast<const Superellipsoid*>(&core)) {
-    return swept_superellipsoid(core.mass_properties(), superellipsoid->half_axes(), superellipsoid->delta(),
-                                superellipsoid->epsilon(), radius);
+    const Superovoid straight(superellipsoid->half_axes(), superellipsoid->delta(), superellipsoid->epsilon(), 0, 0);
+    return swept_superovoid(core.mass_properties(), straight, radius);
   }
-  return quadrature_mass_properties(shape);
+  if (const auto* superovoid = dynamic_cast<const Superovoid*>(&core)) {
+    return swept_superovoid(core.mass_properties(), *superovoid, radius);
+  }
+  return quadrature_mass_properties(Rounded(borrowed(core), radius));
 }
 
 }  // namespace
@@ -65,6 +77,31 @@ MassProperties Superellipsoid::mass_properties() const {
   return symmetric(volume, half_axes_.cwiseAbs2().cwiseProduct(Vector3(section, section, height)));
 }
 
-MassProperties Rounded::mass_properties() const { return swept(*this); }
+MassProperties Superovoid::mass_properties() const {
+  // The section at s = z/c is that of the superellipsoid, scaled by X = 1 + taper_x s and Y = 1 + taper_y s: with a polynomial in
+  // s, all integrals are sums of those of w^m s^k, w^epsilon = 1 - |s|^epsilon, over s from -1 to 1; the odd ones vanish.
+  const auto e = [this](int k) { return std::tgamma(1 + k / epsilon_); };
+  const auto integral = [&](int m, int k) { return 2 * e(m) * e(k + 1) / ((k + 1) * e(m + k + 1)); };
+  const auto d = [this](int k) { return std::tgamma(1 + k / delta_); };
+  const double area = 4 * d(1) * d(1) / d(2);  // of the section with half-axes 1, and the mean of x^2 in it
+  const double mean_square = d(3) * d(2) / (3 * d(1) * d(4));
+  const double x = taper_x_, y = taper_y_;
+  // The integral of w^4 X^3 Y; that of w^4 X Y^3 with x and y exchanged.
+  const auto across = [&](double i, double j) {
+    return integral(4, 0) + 3 * i * (i + j) * integral(4, 2) + i * i * i * j * integral(4, 4);
+  };
+  const double scale = area * half_axes_.prod();
+  const double volume = integral(2, 0) + x * y * integral(2, 2);
+  const double height = integral(2, 2) + x * y * integral(2, 4);
+  MassProperties mass;
+  mass.volume = scale * volume;
+  mass.centroid.z() = half_axes_.z() * (x + y) * integral(2, 2) / volume;
+  mass.second_moment =
+      (scale * half_axes_.cwiseAbs2().cwiseProduct(Vector3(mean_square * across(x, y), mean_square * across(y, x), height)))
+          .asDiagonal();
+  return mass;
+}
+
+MassProperties Rounded::mass_properties() const { return swept(*core_, radius_); }
 
 }  // namespace supernormal

@@ -31,6 +31,18 @@ Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3&
   return core_->advance_normal(n, core_jet, dn);
 }
 
+// As of a Capsule, the sphere's share is the same for all corners. It turns with the normal, so that a list that names only some of
+// the core's corners has to count as all of them.
+void Rounded::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
+  Corners of_core;
+  core_->add_corners(n, toward - radius_ * n, of_core);
+  for (int k = 0; k < of_core.size(); ++k) corners.add(of_core[k] + radius_ * n);
+}
+
+bool Rounded::crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const {
+  return core_->crosses_curved_face(from, to, face);
+}
+
 Vector3 Rounded::half_extents() const { return core_->half_extents() + Vector3::Constant(radius_); }
 
 SharpFeatures Rounded::sharp_features() const {

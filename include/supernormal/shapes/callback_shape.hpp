@@ -18,17 +18,25 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
   /// `hessian` may be empty. Tries the functions in 26 directions (of the faces, edges and corners of a cube): finite results, a
   /// size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) > 0, no point farther than 1e-6 of the size outside a
   /// supporting plane, a symmetric Hessian with H n = 0 and no negative radius, to 1e-6 of its largest entry. std::invalid_argument
-  /// otherwise, with the direction, the value and what was expected.
+  /// otherwise, with the direction, the value and what was expected. Looks for the body's sharpest edges in some 650 directions
+  /// more.
   CallbackShape(Support support, Point point, Hessian hessian = {});
 
   /// Without a Hessian, Order::Curvature delivers h and r and leaves H as it is.
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_curvature() const override { return static_cast<bool>(hessian_); }
+  Vector3 half_extents() const override { return half_extents_; }
+
+  /// Estimated from boundary points. Solvers need them to know how sharp the body is; an edge away from the nine great circles that
+  /// are walked, and shorter than the way between two of them, may be missed.
+  SharpFeatures sharp_features() const override { return sharp_features_; }
 
  private:
   Support support_;
   Point point_;
   Hessian hessian_;
+  Vector3 half_extents_;  // asked for once, like the next
+  SharpFeatures sharp_features_;
 };
 
 }  // namespace supernormal

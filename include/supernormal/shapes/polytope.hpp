@@ -23,6 +23,10 @@ class SUPERNORMAL_API Polytope final : public Shape {
   Vector3 half_extents() const override { return half_extents_; }
   SharpFeatures sharp_features() const override;
 
+  /// Exact, but for points that lie less than about a millionth of the size outside the hull of the others: what they hold may be
+  /// missing, and relative_error counts it.
+  MassProperties mass_properties() const override;
+
   std::span<const Vector3> points() const { return points_; }
 
   /// As given; of a triangle, that of its two sides.

@@ -17,8 +17,15 @@ class SUPERNORMAL_API Rounded final : public Shape {
   bool has_curvature() const override { return core_->has_curvature(); }
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return core_->has_flat_faces(); }
+  bool has_kinks() const override { return core_->has_kinks(); }
+  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
+  std::span<const Vector3> face_normals() const override { return core_->face_normals(); }
   Vector3 half_extents() const override;
   SharpFeatures sharp_features() const override;
+
+  /// Of spheres, capsules and ellipsoids, superellipsoids and superovoids, swept once or again, to 1e-11. Of other shapes by
+  /// Shape::mass_properties(), which knows no flat faces: see relative_error there.
   MassProperties mass_properties() const override;
 
   const Shape& core() const { return *core_; }

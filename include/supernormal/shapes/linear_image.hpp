@@ -1,0 +1,45 @@
+// A shape stretched, sheared, turned or mirrored.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// The points M p of all points p of a shape: h(n) = h_shape(M^T n), with h_shape homogeneous of degree 1; r = M r_shape and
+/// H = M H_shape M^T / |M^T n| at the unit vector along M^T n. (Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 1.7.)
+class SUPERNORMAL_API LinearImage final : public Shape {
+ public:
+  /// `shape` must not be null; `matrix` (in m per m) must have singular values in [1e-30, 1e30] with a ratio of at most 1e12;
+  /// std::invalid_argument otherwise.
+  LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matrix);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_curvature() const override { return shape_->has_curvature(); }
+  Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
+  bool has_flat_faces() const override { return shape_->has_flat_faces(); }
+  bool has_kinks() const override { return shape_->has_kinks(); }
+  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
+  std::span<const Vector3> face_normals() const override { return face_normals_; }
+  Vector3 half_extents() const override { return half_extents_; }
+  SharpFeatures sharp_features() const override;
+
+  /// As exact as that of the shape.
+  MassProperties mass_properties() const override;
+
+  const Shape& shape() const { return *shape_; }
+  const Matrix3& matrix() const { return matrix_; }
+
+ private:
+  std::shared_ptr<const Shape> shape_;
+  Matrix3 matrix_, inverse_;
+  Matrix3 axes_;               // columns: the axes of the ellipsoid that is the image of a sphere
+  double largest_, smallest_;  // stretch
+  std::vector<Vector3> face_normals_;
+  Vector3 half_extents_;
+};
+
+}  // namespace supernormal

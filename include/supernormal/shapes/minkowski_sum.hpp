@@ -1,0 +1,41 @@
+// The sum of two shapes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// The Minkowski sum: all points p + q with p in one shape and q in the other. h, r and H are the sums of those of the two. (With a
+/// sphere it is Rounded; with a point, such as a Polytope of one, the shape is moved there.) Its mass is that of
+/// Shape::mass_properties(): to 1e-10 when both are smooth, without the volume behind flat faces, which relative_error counts.
+/// Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 1.7.
+class SUPERNORMAL_API MinkowskiSum final : public Shape {
+ public:
+  /// Neither may be null; std::invalid_argument otherwise.
+  MinkowskiSum(std::shared_ptr<const Shape> first, std::shared_ptr<const Shape> second);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_curvature() const override { return first_->has_curvature() && second_->has_curvature(); }
+  Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
+  bool has_flat_faces() const override { return first_->has_flat_faces() || second_->has_flat_faces(); }
+  bool has_kinks() const override { return first_->has_kinks() || second_->has_kinks(); }
+  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
+
+  /// Those of both; of the sum of two polytopes the faces that an edge of one makes with an edge of the other are missing.
+  std::span<const Vector3> face_normals() const override { return face_normals_; }
+  Vector3 half_extents() const override { return first_->half_extents() + second_->half_extents(); }
+  SharpFeatures sharp_features() const override;
+
+  const Shape& first() const { return *first_; }
+  const Shape& second() const { return *second_; }
+
+ private:
+  std::shared_ptr<const Shape> first_, second_;
+  std::vector<Vector3> face_normals_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,65 @@
+// Superovoid: a superellipsoid whose section grows or shrinks linearly along z (eggs, teeth, truncated pyramids).
+#pragma once
+
+#include "supernormal/shapes/power_norm.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// With X = 1 + taper_x z/c and Y = 1 + taper_y z/c, in the body's frame,
+///     (|x/(a X)|^delta + |y/(b Y)|^delta)^(epsilon/delta) + |z/c|^epsilon = 1:
+/// a superellipsoid with linear tapering (Barr 1984; as contact geometry: Lopes et al. 2010). With both tapers 0 it is the
+/// Superellipsoid.
+///
+/// It is convex if and only if, for every direction in the xy-plane, the width of the section is a concave function of z. That is:
+///  - both |taper| <= max_taper(epsilon) = 2^(1/epsilon) (epsilon - 1)/epsilon, which is 0.707 for epsilon = 2 and below 1 always;
+///  - for epsilon > 2, taper_x = taper_y: half-way up the side is straight along z there, and two different tapers twist a straight
+///    side into a saddle;
+///  - for epsilon <= 2 and different tapers, a bound on both together that also depends on delta and is evaluated numerically; for
+///    taper_y = -taper_x = k and epsilon = 2 it is, besides the first, k^2 <= delta - 1.
+///
+/// h(n) = max over the height of a concave function of one variable, solved by a safeguarded Newton iteration to rounding; r and H
+/// then follow by implicit differentiation. At the limit of convexity the largest radius of curvature is infinite.
+class SUPERNORMAL_API Superovoid final : public Shape {
+ public:
+  static constexpr double kMinExponent = 1.01;
+  static constexpr double kMaxExponent = 1000;
+
+  /// Half-axes in m, finite and in [1e-30, 1e30]; exponents in [kMinExponent, kMaxExponent]; tapers such that the body is convex,
+  /// see above. std::invalid_argument otherwise, with the condition that fails.
+  Superovoid(const Vector3& half_axes, double delta, double epsilon, double taper_x, double taper_y);
+
+  /// The largest |taper| of a convex body whose section keeps its proportions.
+  static double max_taper(double epsilon);
+
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+
+  /// As that of the Superellipsoid: where it is flat, the gradient of the implicit function at the moved boundary point.
+  Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
+  bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
+
+  /// The body reaches from z = -c to c; its widest section is above or below z = 0.
+  Vector3 half_extents() const override { return half_extents_; }
+  SharpFeatures sharp_features() const override;
+
+  /// In closed form. With a taper the centroid is not the origin but on the z-axis.
+  MassProperties mass_properties() const override;
+
+  /// a, b, c: those of the superellipsoid that is tapered.
+  const Vector3& half_axes() const { return half_axes_; }
+  double delta() const { return delta_; }
+  double epsilon() const { return epsilon_; }
+  double taper_x() const { return taper_x_; }
+  double taper_y() const { return taper_y_; }
+
+ private:
+  Vector3 half_axes_;
+  double delta_, epsilon_;
+  double taper_x_, taper_y_;
+  double knee_;                                  // 2^(-1/epsilon): |z/c| where the meridian has the slope of its diagonal
+  PowerNorm inner_potential_, outer_potential_;  // the dual norms of the section and of the meridian: exponents p and q
+  PowerNorm inner_gauge_, outer_gauge_;          // of (x/(a X), y/(b Y)) and of (inner, z/c): exponents delta and epsilon
+  Vector3 half_extents_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,79 @@
+// The faces of the convex hull of some points, as starting directions for solvers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// A point of a lattice. On it the side of a plane that a point is on is decided exactly, so that coplanar, collinear and repeated
+/// points are no special cases for the hull.
+using LatticePoint = std::array<std::int64_t, 3>;
+
+/// Coordinates are in [-kLatticeHalfWidth, kLatticeHalfWidth]: the largest for which three differences and a sum of three products
+/// of them stay within 64 bits.
+inline constexpr std::int64_t kLatticeHalfWidth = std::int64_t{1} << 19;
+
+/// Quickhull (Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls", ACM Trans. Math. Softw. 22, 1996) with
+/// exact arithmetic. Keeps its memory from one hull to the next.
+class ConvexHull {
+ public:
+  struct Face {
+    std::array<std::size_t, 3> vertices;    ///< of points(), counter-clockwise seen from outside
+    std::array<std::size_t, 3> neighbours;  ///< neighbours[k] lies across the edge from vertices[k] to vertices[k + 1]
+    LatticePoint normal;                    ///< outward, twice as long as the area is large
+    std::size_t first_outside;              ///< a list of the points in front of it while the hull grows
+    bool is_removed;
+    bool is_visited;
+  };
+
+  /// Replaces the hull. The order of the points makes no difference.
+  void build(std::span<const LatticePoint> points);
+
+  /// Sorted, each once; those inside the hull as well.
+  std::span<const LatticePoint> points() const { return points_; }
+
+  /// Calls `visit(face)` for every triangle of the surface. Points in a plane have both sides of a triangle, points on a line
+  /// nothing.
+  template <typename Visit>
+  void for_each_face(Visit&& visit) const {
+    for (const Face& face : faces_) {
+      if (!face.is_removed) visit(face);
+    }
+  }
+
+  /// Adds the unit normals of the faces to `normals`, the largest face first, triangles of one plane once. Small faces that the
+  /// lattice is too coarse for are left out.
+  void add_face_normals(std::vector<Vector3>& normals);
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  bool start();
+  std::size_t add_face(std::size_t a, std::size_t b, std::size_t c);
+  std::int64_t height(const Face& face, std::size_t point) const;
+  std::size_t farthest_outside(const Face& face) const;
+  void collect_visible(std::size_t face, std::size_t point);
+  void grow(std::size_t face);
+  void hand_over(std::size_t point, std::size_t first_face);
+
+  struct Edge {
+    std::size_t from, to;      // as the visible face has it
+    std::size_t beyond, side;  // the face that stays, and which of its edges it is
+  };
+
+  std::vector<LatticePoint> points_;
+  std::vector<Face> faces_;
+  std::vector<std::size_t> next_outside_;  // for each point
+  std::vector<std::size_t> face_from_;     // for each point: the new face whose edge of the horizon starts there
+  std::vector<std::size_t> visible_;
+  std::vector<Edge> horizon_;
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,95 @@
+#include "supernormal/shapes/linear_image.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+namespace {
+
+constexpr double kLargestRatio = 1e12;
+
+}  // namespace
+
+LinearImage::LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matrix) : shape_(std::move(shape)), matrix_(matrix) {
+  if (!shape_) throw std::invalid_argument("shape is null; a shape is needed");
+  if (!matrix.allFinite()) throw std::invalid_argument("matrix has an entry that is not finite");
+  const Eigen::JacobiSVD<Matrix3> svd(matrix, Eigen::ComputeFullU);
+  axes_ = svd.matrixU();
+  largest_ = require_in("largest singular value of matrix", svd.singularValues()[0], kMinLength, kMaxLength);
+  smallest_ = require_in("smallest singular value of matrix", svd.singularValues()[2], largest_ / kLargestRatio, largest_);
+  inverse_ = matrix.inverse();
+  for (const Vector3& normal : shape_->face_normals()) face_normals_.push_back((inverse_.transpose() * normal).normalized());
+  half_extents_ = Shape::half_extents();
+}
+
+void LinearImage::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  const Vector3 covector = matrix_.transpose() * n;
+  const double length = covector.norm();
+  shape_->evaluate(covector / length, order, jet);
+  jet.h *= length;
+  if (order == Order::Value) return;
+  jet.r = matrix_ * jet.r;
+  if (order == Order::Point || !has_curvature()) return;
+  const Matrix3 half = matrix_ * (jet.H / length);
+  jet.H = half * matrix_.transpose();
+  // The same products in another order differ by rounding.
+  jet.H = (0.5 * (jet.H + jet.H.transpose())).eval();
+}
+
+Vector3 LinearImage::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
+  if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
+  const Vector3 covector = matrix_.transpose() * n;
+  const double length = covector.norm();
+  Jet original;
+  original.h = jet.h / length;
+  original.r = inverse_ * jet.r;
+  original.H = length * (inverse_ * jet.H * inverse_.transpose());
+  return inverse_.transpose() * shape_->advance_normal(covector / length, original, matrix_.transpose() * dn / length);
+}
+
+void LinearImage::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
+  Corners originals;
+  shape_->add_corners((matrix_.transpose() * n).normalized(), inverse_ * toward, originals);
+  for (int k = 0; k < originals.size(); ++k) corners.add(matrix_ * originals[k]);
+  if (originals.is_partial()) corners.set_partial();
+}
+
+bool LinearImage::crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const {
+  Vector3 original;
+  if (!shape_->crosses_curved_face(matrix_.transpose() * from, matrix_.transpose() * to, original)) return false;
+  face = (inverse_.transpose() * original).normalized();
+  return true;
+}
+
+SharpFeatures LinearImage::sharp_features() const {
+  const SharpFeatures originals = shape_->sharp_features();
+  SharpFeatures features;
+  features.radius = originals.radius * smallest_ * (smallest_ / largest_);
+  features.roundness = originals.roundness * largest_;
+  for (int i = 0; i < originals.face_count; ++i) {
+    features.add_face(inverse_.transpose() * originals.face_normals[static_cast<std::size_t>(i)]);
+  }
+  for (int i = 0; i < originals.edge_count; ++i) features.add_edge(matrix_ * originals.edges[static_cast<std::size_t>(i)]);
+  const bool is_round = originals.face_count == 0 && originals.edge_count == 0 && !has_kinks();
+  for (int axis = 0; is_round && axis < 3; ++axis) {
+    features.add_face(axes_.col(axis));
+    features.add_edge(axes_.col(axis));
+  }
+  return features;
+}
+
+MassProperties LinearImage::mass_properties() const {
+  MassProperties mass = shape_->mass_properties();
+  const double dilation = std::abs(matrix_.determinant());
+  mass.volume *= dilation;
+  mass.centroid = matrix_ * mass.centroid;
+  mass.second_moment = dilation * (matrix_ * mass.second_moment * matrix_.transpose());
+  return mass;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,107 @@
+#include "supernormal/shapes/minkowski_sum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace supernormal {
+namespace {
+
+void add_features(const SharpFeatures& part, SharpFeatures& sum) {
+  const int face_room = static_cast<int>(sum.face_normals.size());
+  const int edge_room = static_cast<int>(sum.edges.size());
+  for (int i = 0; i < part.face_count && sum.face_count < face_room; ++i) {
+    sum.add_face(part.face_normals[static_cast<std::size_t>(i)]);
+  }
+  for (int i = 0; i < part.edge_count && sum.edge_count < edge_room; ++i) sum.add_edge(part.edges[static_cast<std::size_t>(i)]);
+}
+
+/// Both parts have kinks: their corners in pairs, the highest along n.
+void add_highest_pairs(const Vector3& n, const Corners& first, const Corners& second, Corners& corners) {
+  struct Pair {
+    double height;
+    Vector3 point;
+  };
+  std::array<Pair, std::size_t{Corners::kCapacity} * Corners::kCapacity> pairs;
+  std::size_t count = 0;
+  for (int i = 0; i < first.size(); ++i) {
+    for (int j = 0; j < second.size(); ++j) {
+      const Vector3 point = first[i] + second[j];
+      pairs[count++] = {n.dot(point), point};
+    }
+  }
+  const auto end = pairs.begin() + count;
+  const auto kept = std::min<std::ptrdiff_t>(end - pairs.begin(), Corners::kCapacity);
+  std::partial_sort(pairs.begin(), pairs.begin() + kept, end, [](const Pair& a, const Pair& b) { return a.height > b.height; });
+  for (auto pair = pairs.begin(); pair != pairs.begin() + kept; ++pair) corners.add(pair->point);
+}
+
+}  // namespace
+
+MinkowskiSum::MinkowskiSum(std::shared_ptr<const Shape> first, std::shared_ptr<const Shape> second)
+    : first_(std::move(first)), second_(std::move(second)) {
+  if (!first_ || !second_) throw std::invalid_argument(std::string(first_ ? "second" : "first") + " is null; a shape is needed");
+  for (const Shape* part : {first_.get(), second_.get()}) {
+    const auto normals = part->face_normals();
+    face_normals_.insert(face_normals_.end(), normals.begin(), normals.end());
+  }
+}
+
+void MinkowskiSum::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  Jet other;
+  first_->evaluate(n, order, jet);
+  second_->evaluate(n, order, other);
+  jet.h += other.h;
+  if (order == Order::Value) return;
+  jet.r += other.r;
+  if (order == Order::Point || !has_curvature()) return;
+  jet.H += other.H;
+}
+
+// The flatter part knows best which normal its moved point has; the other one's point follows the normal.
+Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
+  if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
+  const Jet jet1 = first_->jet(n);
+  Jet jet2;
+  jet2.h = jet.h - jet1.h;
+  jet2.r = jet.r - jet1.r;
+  jet2.H = jet.H - jet1.H;
+  const bool first_moves_more = (jet1.H * dn).squaredNorm() >= (jet2.H * dn).squaredNorm();
+  const bool follow_first = first_->has_flat_faces() && (first_moves_more || !second_->has_flat_faces());
+  if (follow_first) return first_->advance_normal(n, jet1, dn);
+  return second_->advance_normal(n, second_->jet(n), dn);
+}
+
+// The corners of a part without kinks are its boundary point. A list that names only some of the corners counts as all of them,
+// because those of the sum need not be the same points for every normal.
+void MinkowskiSum::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
+  std::array<Corners, 2> parts;
+  const std::array<const Shape*, 2> shapes = {first_.get(), second_.get()};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (shapes[i]->has_kinks()) {
+      shapes[i]->add_corners(n, toward - shapes[1 - i]->point(n), parts[i]);
+    } else {
+      parts[i].add(shapes[i]->point(n));
+    }
+  }
+  add_highest_pairs(n, parts[0], parts[1], corners);
+}
+
+bool MinkowskiSum::crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const {
+  return first_->crosses_curved_face(from, to, face) || second_->crosses_curved_face(from, to, face);
+}
+
+SharpFeatures MinkowskiSum::sharp_features() const {
+  const SharpFeatures features1 = first_->sharp_features(), features2 = second_->sharp_features();
+  SharpFeatures sum;
+  sum.radius = features1.radius + features2.radius;
+  sum.roundness = features1.roundness + features2.roundness;
+  // The sharper part first, should there not be room for both.
+  const bool first_is_sharper = features1.radius <= features2.radius;
+  add_features(first_is_sharper ? features1 : features2, sum);
+  add_features(first_is_sharper ? features2 : features1, sum);
+  return sum;
+}
+
+}  // namespace supernormal

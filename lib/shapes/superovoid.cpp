@@ -1,0 +1,247 @@
+// Of the section at height s = z/c, in the direction (nx, ny), let N(s) = |(a X nx, b Y ny)|_p be the width before it is scaled by
+// the meridian w(s) = (1 - |s|^epsilon)^(1/epsilon). Then
+//     h(n) = max over s of w(s) N(s) + c nz s,
+// a concave function. Its maximum is where the tangent of the meridian has the slope v/t with
+//     F = v N(s) - t (w(s) N'(s) + c nz) = 0.
+// The pair (t, v) is the unknown: s and w are the gradient of the dual norm at (t, v), smooth where the meridian is flat and where
+// it is steep. One of the two is 1, the other at most 1 in magnitude, so that both keep their relative precision down to the axes.
+#include "supernormal/shapes/superovoid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shapes/superovoid_convexity.hpp"
+#include "shapes/validation.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+namespace supernormal {
+namespace {
+
+// Newton takes four to nine evaluations; where the curvature vanishes (at the limit of convexity) bisection takes over.
+constexpr int kMaxIterations = 200;
+
+// At the limit of convexity the curvature vanishes at one height, and rounding decides its sign: this share of its usual size is
+// left.
+constexpr double kLeastSlope = 1e-15;
+
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
+constexpr double kDenormal = std::numeric_limits<double>::min();  // numbers below have no digits to lose
+
+/// N and its derivatives by the height s.
+class Width {
+ public:
+  Width(const Vector3& half_axes, double taper_x, double taper_y, const PowerNorm& norm, const Vector3& n)
+      : norm_(norm), taper_x_(taper_x), taper_y_(taper_y), is_similar_(taper_x == taper_y) {
+    full_x_ = half_axes.x() * std::abs(n.x());
+    full_y_ = half_axes.y() * std::abs(n.y());
+    if (is_similar_) full_ = norm_.value(full_x_, full_y_);
+  }
+
+  void move_to(double s) {
+    X = 1 + taper_x_ * s;
+    Y = 1 + taper_y_ * s;
+    if (is_similar_) {
+      value = full_ * X;
+      slope = full_ * taper_x_;
+    } else {
+      norm_.curvature(full_x_ * X, full_y_ * Y, jet);
+      value = jet.value;
+      slope = full_x_ * taper_x_ * jet.dx + full_y_ * taper_y_ * jet.dy;
+      bend = -jet.xy * (full_x_ * X) * share(full_y_ * Y) * (difference() * difference());
+    }
+  }
+
+  /// The norm's derivatives at the present height; until then `jet` may be empty.
+  void complete(Order order) {
+    if (order == Order::Value || !is_similar_) return;
+    if (order == Order::Point) {
+      norm_.gradient(full_x_ * X, full_y_ * Y, jet);
+    } else {
+      norm_.curvature(full_x_ * X, full_y_ * Y, jet);
+    }
+  }
+
+  /// Derivatives of N' by a|nx| and b|ny|.
+  Eigen::Vector2d slope_gradient() const {
+    const double turn = difference() * jet.xy;
+    return {taper_x_ * jet.dx - X * turn * share(full_y_ * Y), taper_y_ * jet.dy + Y * turn * share(full_x_ * X)};
+  }
+
+  double X = 1, Y = 1;  ///< scale of the section at the height
+  double value = 0, slope = 0, bend = 0;
+  PowerNormJet jet;
+
+ private:
+  double share(double side) const { return value > 0 ? side / value : 1; }
+  double difference() const { return is_similar_ ? 0 : taper_x_ / X - taper_y_ / Y; }
+
+  const PowerNorm& norm_;
+  double taper_x_, taper_y_;
+  bool is_similar_;
+  double full_x_, full_y_;  // a|nx|, b|ny|
+  double full_ = 0;         // their norm
+};
+
+/// The solution of F = 0 and what belongs to it, for c nz >= 0.
+struct Summit {
+  double t = 1, v = 0;
+  double w = 0, s = 0;
+  double climb = 0;  // w N'(s) + c nz
+  double slope = 0;  // dF/dv where t = 1, -dF/dt where v = 1; above 0
+  PowerNormJet meridian;
+};
+
+class SummitSearch {
+ public:
+  /// `rise`: c nz. `knee`: the height where t = v.
+  SummitSearch(const PowerNorm& norm, Width& width, double rise, double knee) : norm_(norm), width_(width), rise_(rise) {
+    width_.move_to(knee);
+    is_steep_ = width_.value - knee * width_.slope <= rise;
+  }
+
+  Summit find() {
+    // Of x, which is t near the poles and v elsewhere.
+    double low = is_steep_ ? 0 : -1, high = 1;
+    double x = first_guess();
+    for (int i = 0; i < kMaxIterations; ++i) {
+      const double value = evaluate(x);
+      const double scale = std::abs(summit_.v) * width_.value + summit_.t * (summit_.w * std::abs(width_.slope) + rise_);
+      if (std::abs(value) <= kRounding * scale + kDenormal) break;
+      (value < 0 ? low : high) = x;
+      double next = x - value / summit_.slope;
+      if (!(next > low && next < high)) next = 0.5 * (low + high);
+      if (next == x || next == low || next == high) break;
+      x = next;
+    }
+    return summit_;
+  }
+
+ private:
+  double first_guess() {
+    width_.move_to(is_steep_ ? 1 : 0);
+    if (is_steep_) return width_.value < rise_ ? width_.value / rise_ : 1;
+    return std::clamp((rise_ + width_.slope) / width_.value, -1.0, 1.0);
+  }
+
+  /// F at x, or -F where it falls with x.
+  double evaluate(double x) {
+    Summit& m = summit_;
+    m.t = is_steep_ ? x : 1;
+    m.v = is_steep_ ? 1 : x;
+    norm_.curvature(m.t, std::abs(m.v), m.meridian);
+    m.w = m.meridian.dx;
+    m.s = std::copysign(m.meridian.dy, m.v);
+    width_.move_to(m.s);
+    m.climb = m.w * width_.slope + rise_;
+    const double coupling = 2 * m.v * width_.slope - m.t * m.w * width_.bend;
+    const double straight = is_steep_ ? m.climb : width_.value;
+    const double bent = (is_steep_ ? -m.meridian.xy : m.meridian.yy) / m.meridian.value * coupling;
+    m.slope = std::max(straight + bent, kLeastSlope * straight);
+    const double F = m.v * width_.value - m.t * m.climb;
+    return is_steep_ ? -F : F;
+  }
+
+  const PowerNorm& norm_;
+  Width& width_;
+  double rise_;
+  bool is_steep_;
+  Summit summit_;
+};
+
+}  // namespace
+
+Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, double taper_x, double taper_y)
+    : half_axes_(require_half_axes(half_axes)),
+      delta_(require_in("delta", delta, kMinExponent, kMaxExponent)),
+      epsilon_(require_in("epsilon", epsilon, kMinExponent, kMaxExponent)),
+      taper_x_(taper_x),
+      taper_y_(taper_y),
+      knee_(std::exp2(-1 / epsilon)),
+      inner_potential_(PowerNorm::dual_to_exponent(delta)),
+      outer_potential_(PowerNorm::dual_to_exponent(epsilon)),
+      inner_gauge_(PowerNorm::of_exponent(delta)),
+      outer_gauge_(PowerNorm::of_exponent(epsilon)) {
+  require_convex_taper(delta, epsilon, taper_x, taper_y);
+  half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};
+}
+
+double Superovoid::max_taper(double epsilon) {
+  return largest_convex_taper(require_in("epsilon", epsilon, kMinExponent, kMaxExponent));
+}
+
+void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  const double up = std::copysign(1.0, n.z());  // the body upside down has the opposite tapers
+  const double rise = half_axes_.z() * std::abs(n.z());
+  Width width(half_axes_, up * taper_x_, up * taper_y_, inner_potential_, n);
+  const Summit m = SummitSearch(outer_potential_, width, rise, knee_).find();
+  jet.h = m.w * width.value + rise * m.s;
+  if (order == Order::Value) return;
+
+  width.complete(order);
+  const Vector3 axes(std::copysign(half_axes_.x(), n.x()), std::copysign(half_axes_.y(), n.y()), up * half_axes_.z());
+  const PowerNormJet& norm = width.jet;
+  const double X = width.X, Y = width.Y;
+  jet.r = axes.cwiseProduct(Vector3(m.w * X * norm.dx, m.w * Y * norm.dy, m.s));
+  if (order == Order::Point) return;
+
+  // The section's own curvature, w times the Hessian of N, and what the height adds to it when it follows the normal.
+  const bool is_steep = m.v == 1;
+  const double per_width = m.meridian.dx_over_x / m.meridian.value / (is_steep ? m.climb : width.value);  // w/N
+  const double follows = (is_steep ? m.meridian.xx : m.meridian.yy) / m.meridian.value / m.slope;
+  const Eigen::Vector2d slope_gradient = width.slope_gradient();
+  const Vector3 pull(m.t * m.w * slope_gradient.x() - m.v * X * norm.dx, m.t * m.w * slope_gradient.y() - m.v * Y * norm.dy, m.t);
+  Matrix3& H = jet.H;
+  H.noalias() = pull * (follows * pull).transpose();
+  H(0, 0) += per_width * X * X * norm.xx;
+  H(0, 1) += per_width * X * Y * norm.xy;
+  H(1, 1) += per_width * Y * Y * norm.yy;
+  H(1, 0) = H(0, 1);
+  H(2, 0) = H(0, 2);
+  H(2, 1) = H(1, 2);
+  H.array() *= (axes * axes.transpose()).array();
+}
+
+Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
+  // Each of the two norms goes its own way, as in the Superellipsoid: a flat one (exponent above 2) through the boundary point, a
+  // sharp one through the normal.
+  const Vector3 moved = n + dn;
+  const bool inner_is_flat = delta_ > 2;
+  const bool outer_is_flat = epsilon_ > 2;
+  if (!inner_is_flat && !outer_is_flat) return moved;
+
+  const Vector3 target = jet.r + jet.H * dn;
+  const Vector3 gauge_point = target.cwiseQuotient(half_axes_);
+  const double s = std::clamp(gauge_point.z(), -1.0, 1.0);  // a long step may leave the heights where the section is positive
+  const double X = 1 + taper_x_ * s, Y = 1 + taper_y_ * s;
+  PowerNormJet section, meridian;
+  inner_gauge_.gradient(std::abs(gauge_point.x()) / X, std::abs(gauge_point.y()) / Y, section);
+
+  // The normal's part in the section, scaled to a dual norm of 1, and its signs.
+  const Eigen::Vector2d scaled(X * half_axes_.x() * std::abs(moved.x()), Y * half_axes_.y() * std::abs(moved.y()));
+  const double width = inner_potential_.value(scaled.x(), scaled.y());
+  Eigen::Vector2d across(section.dx, section.dy);
+  if (!inner_is_flat) across = width > 0 ? Eigen::Vector2d(scaled / width) : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  const Vector3& sign = inner_is_flat ? target : moved;
+  const Vector3 direction(std::copysign(across.x() / X, sign.x()) / half_axes_.x(),
+                          std::copysign(across.y() / Y, sign.y()) / half_axes_.y(), 0);
+  if (!outer_is_flat) return width * direction + Vector3(0, 0, moved.z());
+
+  outer_gauge_.gradient(section.value, std::abs(gauge_point.z()), meridian);
+  // Going up, the point comes nearer to the middle of its section, which has grown.
+  const double growth = section.value > 0 ? (section.dx * std::abs(gauge_point.x()) * taper_x_ / (X * X) +
+                                             section.dy * std::abs(gauge_point.y()) * taper_y_ / (Y * Y))
+                                          : 0;
+  const double along = std::copysign(meridian.dy, gauge_point.z()) - meridian.dx * growth;
+  return meridian.dx * direction + Vector3(0, 0, along / half_axes_.z());
+}
+
+SharpFeatures Superovoid::sharp_features() const {
+  SharpFeatures features = Superellipsoid(half_axes_, delta_, epsilon_).sharp_features();
+  // Where the section has shrunk to this share, the radius of its meridian has shrunk with its square.
+  const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
+  features.radius *= narrowest * narrowest;
+  return features;
+}
+
+}  // namespace supernormal
