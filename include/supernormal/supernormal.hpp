@@ -18,4 +18,5 @@
 #include "supernormal/solvers/plane.hpp"
 #include "supernormal/solvers/pose.hpp"
 #include "supernormal/solvers/proximity.hpp"
+#include "supernormal/solvers/ray.hpp"
 #include "supernormal/solvers/solve.hpp"
