@@ -44,9 +44,9 @@ constexpr double kAsymptoticStep = 1e-3;
 // Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-15;
 
-// A secant estimate knows the curvature only in the directions that were walked. What it promises is not believed beyond this
-// distance (radians): the slope may go on that far.
-constexpr double kSecantReach = 0.05;
+// A secant estimate knows the curvature only in the directions that were walked. What it promises is not believed within this
+// distance (radians): the slope may go on that far, as it does along the normals of a sharp edge.
+constexpr double kSecantReach = 0.6;
 
 // A radius of curvature beyond this, in units of the bodies' size, is that of a flat face.
 constexpr double kFlatRadius = 1e8;
@@ -103,7 +103,9 @@ Status Ascent::climb(const Vector3& start, double worth) {
 }
 
 bool Ascent::finished(double worth, Status& status) const {
-  if (error_ <= tolerance_) {
+  // Two points of separated bodies are never closer than the gap.
+  const bool is_proved = current_.s > 0 && current_.d.norm() - current_.s <= tolerance_;
+  if (error_ <= tolerance_ || is_proved) {
     status = Status::Converged;
   } else if (gap_.evaluations() >= settings_.max_evaluations) {
     status = Status::EvaluationLimit;
