@@ -15,8 +15,8 @@ namespace supernormal {
 ///
 /// Points are known by their places on a lattice, some millionths of the hull's size wide, so that the rounding in coordinates read
 /// from a moving geom makes no difference, and the normals are those of the hull of the lattice points: they depend on these points
-/// only, neither on their order nor on what was asked before. Good as starting directions (Polytope); the wider a face, the nearer to
-/// its true normal.
+/// only, neither on their order nor on what was asked before. Good as starting directions (Polytope); the wider a face, the nearer
+/// to its true normal.
 class FaceNormals {
  public:
   /// Of the hull of the points (finite, relative to about their middle), unit. Valid until the next call.

@@ -65,7 +65,7 @@ std::vector<Vector3> box_corners(const Vector3& half) {
   std::vector<Vector3> points;
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
-      for (const double z : {-1.0, 1.0}) points.push_back(half.cwiseProduct(Vector3(x, y, z)));
+      for (const double z : {-1.0, 1.0}) points.emplace_back(half.cwiseProduct(Vector3(x, y, z)));
     }
   }
   return points;
@@ -73,6 +73,7 @@ std::vector<Vector3> box_corners(const Vector3& half) {
 
 std::vector<Vector3> circle(double radius, double z) {
   std::vector<Vector3> points;
+  points.reserve(360);
   for (int i = 0; i < 360; ++i) points.emplace_back(radius * std::cos(i * kPi / 180), radius * std::sin(i * kPi / 180), z);
   return points;
 }
@@ -122,7 +123,7 @@ TEST_CASE("capsule: support and points against a sweep of a sphere; mass by slic
   const double radius = 0.5, half_length = 1.5;
   std::vector<Vector3> boundary;
   for (const Vector3& n : random_normals(20000, 63)) {
-    boundary.push_back(radius * n + Vector3(0, 0, std::copysign(half_length, n.z())));
+    boundary.emplace_back(radius * n + Vector3(0, 0, std::copysign(half_length, n.z())));
   }
   check_against(Capsule(radius, half_length), boundary, normals_of_test(64), 3e-4);
   const auto section = [&](double z) {
@@ -188,14 +189,15 @@ TEST_CASE("polytope: mass of a box, turned and moved, with points in its faces, 
   std::vector<Vector3> points = box_corners(half);
   const std::vector<Vector3> corners = points;
   for (const Vector3& corner : corners) {
-    points.push_back(corner.cwiseProduct(Vector3(0.3, -0.7, 1)));
-    points.push_back(0.5 * corner);
+    points.emplace_back(corner.cwiseProduct(Vector3(0.3, -0.7, 1)));
+    points.emplace_back(0.5 * corner);
     points.push_back(corner);
   }
   for (const double angle : {0.0, 0.3, 0.77, 2.1}) {
     const Matrix3 rotation = Eigen::AngleAxisd(angle, Vector3(1, 2, 3).normalized()).toRotationMatrix();
     const Vector3 position = angle * Vector3(5, -3, 1);
     std::vector<Vector3> placed;
+    placed.reserve(points.size());
     for (const Vector3& point : points) placed.emplace_back(rotation * point + position);
     MassProperties expected = Box(half).mass_properties();
     expected.centroid = position;

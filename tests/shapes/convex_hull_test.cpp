@@ -141,18 +141,18 @@ TEST_CASE("face normals of boxes and prisms, turned and moved, are those of thei
     if (repetition % 2 == 0) {
       points = box_corners(half);
       for (const double sign : {-1.0, 1.0}) {
-        for (int axis = 0; axis < 3; ++axis) expected.push_back(sign * Vector3::Unit(axis));
+        for (int axis = 0; axis < 3; ++axis) expected.emplace_back(sign * Vector3::Unit(axis));
       }
     } else {
       constexpr int kSides = 12;
       for (int k = 0; k < kSides; ++k) {
         const double angle = 2 * std::numbers::pi * k / kSides;
         const double middle = angle + std::numbers::pi / kSides;
-        for (const double z : {-half.z(), half.z()}) points.push_back({half.x() * std::cos(angle), half.x() * std::sin(angle), z});
-        expected.push_back({std::cos(middle), std::sin(middle), 0});
+        for (const double z : {-half.z(), half.z()}) points.emplace_back(half.x() * std::cos(angle), half.x() * std::sin(angle), z);
+        expected.emplace_back(std::cos(middle), std::sin(middle), 0);
       }
-      expected.push_back(Vector3::UnitZ());
-      expected.push_back(-Vector3::UnitZ());
+      expected.emplace_back(Vector3::UnitZ());
+      expected.emplace_back(-Vector3::UnitZ());
     }
     for (Vector3& p : points) p = R * p;
     const auto found = face_normals.find(points);

@@ -32,9 +32,9 @@ void check_same(const Shape& image, const Shape& expected, const std::vector<Vec
   for (const Vector3& n : normals) {
     const Jet a = image.jet(n), b = expected.jet(n);
     const double h_miss = std::abs(a.h - b.h) / b.h, r_miss = (a.r - b.r).norm() / size;
-    const double H_miss = (a.H - b.H).cwiseAbs().maxCoeff() / b.H.cwiseAbs().maxCoeff();
-    if (!(h_miss <= tolerance && r_miss <= tolerance && H_miss <= 20 * tolerance)) {
-      FAIL_CHECK("n ", text(n), " h ", h_miss, " r ", r_miss, " H ", H_miss);
+    const double hessian_miss = (a.H - b.H).cwiseAbs().maxCoeff() / b.H.cwiseAbs().maxCoeff();
+    if (!(h_miss <= tolerance && r_miss <= tolerance && hessian_miss <= 20 * tolerance)) {
+      FAIL_CHECK("n ", text(n), " h ", h_miss, " r ", r_miss, " H ", hessian_miss);
     }
   }
 }
@@ -109,7 +109,7 @@ TEST_CASE("linear image: of a box a parallelepiped, with its corners, faces, mas
   std::vector<Vector3> points;
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-2.0, 2.0}) {
-      for (const double z : {-0.5, 0.5}) points.push_back(matrix * Vector3(x, y, z));
+      for (const double z : {-0.5, 0.5}) points.emplace_back(matrix * Vector3(x, y, z));
     }
   }
   const Polytope polytope(points);

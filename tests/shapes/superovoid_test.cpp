@@ -142,6 +142,7 @@ TEST_CASE("superovoid: no point of the boundary lies outside a supporting plane"
   const std::vector<Vector3> normals = all_normals(40, 4);
   for (const Superovoid& shape : superovoids(1.01, 1000, kTapers)) {
     std::vector<Vector3> points;
+    points.reserve(normals.size());
     for (const Vector3& n : normals) points.push_back(shape.point(n));
     for (const Vector3& n : random_normals(15, 5)) {
       const double h = shape.support(n);
@@ -220,13 +221,13 @@ TEST_CASE("superovoid: with tapers 0 it is the superellipsoid, to rounding") {
     CHECK(shape.half_extents() == straight.half_extents());
     for (const Vector3& n : all_normals(5, 9)) {
       const Jet a = shape.jet(n), b = straight.jet(n);
-      const double H_size = b.H.cwiseAbs().maxCoeff();
+      const double hessian_size = b.H.cwiseAbs().maxCoeff();
       const bool same = std::abs(a.h - b.h) <= 1e-15 * b.h &&
                         (a.r - b.r).cwiseQuotient(straight.half_axes()).cwiseAbs().maxCoeff() <= 2e-15 &&
-                        (a.H - b.H).cwiseAbs().maxCoeff() <= 1e-14 * H_size + 1e-290;
+                        (a.H - b.H).cwiseAbs().maxCoeff() <= 1e-14 * hessian_size + 1e-290;
       if (!same) {
         FAIL_CHECK(test::text(straight), " n ", test::text(n), " h ", a.h - b.h, " r ", (a.r - b.r).norm(), " H ",
-                   (a.H - b.H).norm(), " of ", H_size);
+                   (a.H - b.H).norm(), " of ", hessian_size);
       }
     }
     const MassProperties a = shape.mass_properties(), b = straight.mass_properties();
