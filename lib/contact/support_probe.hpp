@@ -1,0 +1,40 @@
+// A body seen from the surface that it touches.
+#pragma once
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// The body's point that reaches furthest against a normal of the surface: its deepest if the body is over a plane with it.
+struct DeepestPoint {
+  Vector3 point;      ///< m
+  double height = 0;  ///< m; normal . point
+};
+
+/// Evaluates and counts. The frame has the directions of the world and the body's origin, so that distance from the world's
+/// origin costs no digits and the normals of a level floor stay exact.
+class SupportProbe {
+ public:
+  SupportProbe(const Shape& shape, const Matrix3& rotation) : shape_(&shape), rotation_(rotation) {}
+
+  /// `normal` of unit length, out of the surface. The same operations in the same order as find_plane_proximity().
+  DeepestPoint deepest(const Vector3& normal) {
+    Jet jet;
+    shape_->evaluate(-(rotation_.transpose() * normal), Order::Point, jet);
+    ++evaluations_;
+    return {rotation_ * jet.r, -jet.h};
+  }
+
+  const Shape& shape() const { return *shape_; }
+  const Matrix3& rotation() const { return rotation_; }
+
+  int evaluations() const { return evaluations_; }
+  void count(int evaluations) { evaluations_ += evaluations; }
+
+ private:
+  const Shape* shape_;
+  Matrix3 rotation_;
+  int evaluations_ = 0;
+};
+
+}  // namespace supernormal
