@@ -36,14 +36,28 @@ SUPERNORMAL_API const char* snLastError(void);
 /* Every create call adds the geom to `space` unless that is 0, and refuses bad parameters: it then returns 0 and sets
  * snLastError. As with ODE's own geoms, create, set and destroy are not for near callbacks: ODE aborts when the space is locked.
  *
- * dCollide knows our geoms among themselves, with dPlane and with dSphere; inside spaces and dGeomTransform as everywhere. With the
- * other classes of ODE it finds no contacts, and snLastError says so. With a user class of another program it asks that class. */
+ * dCollide knows our geoms among themselves and with all of ODE's own: dSphere, dBox, dCapsule, dCylinder, dPlane, dConvex, dRay,
+ * dTriMesh and dHeightfield; inside spaces and dGeomTransform as everywhere. With a user class of another program it asks that
+ * class. A geom with a length that is not finite, or above 1e30, makes no contacts, and snLastError says so.
+ *  - dConvex: only the vertices count, not the planes and polygons that it was made with; after dGeomSetConvex call dGeomMoved.
+ *  - dTriMesh: single-sided, what is behind a triangle (seen from there its corners run clockwise) is solid; a contact's
+ *    side of the mesh is the number of the triangle. snGeomProximity takes a mesh that is met from behind as two-sided.
+ *  - dHeightfield: what is below its triangles is solid.
+ *  - dRay: as for ODE's convex classes: `depth` is the distance along the ray to the first point of the boundary, the normal
+ * opposes the ray, from inside too; a ray that is wholly inside, or of no length, hits nothing. */
 
 /* (x/a)^2 + (y/b)^2 + (z/c)^2 = 1 with half-axes a, b, c in [1e-30, 1e30]. */
 SUPERNORMAL_API dGeomID snCreateEllipsoid(dSpaceID space, dReal a, dReal b, dReal c);
 
 /* (|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 with half-axes in [1e-30, 1e30], exponents in [1.01, 1000]. */
 SUPERNORMAL_API dGeomID snCreateSuperellipsoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
+
+/* A superellipsoid whose section grows or shrinks linearly along z: the equation above with x/(1 + taper_x z/c) for x and
+ * y/(1 + taper_y z/c) for y. It must be convex: |taper| <= 2^(1/epsilon) (epsilon - 1)/epsilon, which is 0.707 for epsilon = 2; for
+ * epsilon > 2 the two tapers must be equal; for epsilon <= 2 different tapers are refused when both together are too much. Its
+ * centre of mass is not its origin but (0, 0, z): see snMassSet. */
+SUPERNORMAL_API dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
+                                           dReal taper_y);
 
 /* A body that the program itself describes, by its support function and the boundary point of a normal. Directions are unit
  * vectors in the body's frame. The callbacks must be pure; they are called from whatever thread collides. */
@@ -55,14 +69,23 @@ typedef struct snShape {
   void (*release)(void* user); /* called when the geom dies; may be NULL; not called when the create call refuses */
 } snShape;
 
-/* The callbacks are tried in 26 directions: results must be finite, with point(n).n = support(n) to 1e-6 of the size and
- * support(n) + support(-n) > 0. */
+/* The callbacks are tried in 26 directions: results must be finite and the size in [1e-30, 1e30]; to 1e-6 of the size,
+ * point(n).n = support(n) and no point lies outside the tangent plane of another; support(n) + support(-n) > 0; the Hessian is
+ * symmetric, has n in its kernel and no negative eigenvalue. Otherwise refused: 0, and snLastError names the direction. Flat faces
+ * and sharp edges are allowed (any point of the face will do); smooth bodies are solved with fewer evaluations. `shape` itself is
+ * copied. samples/user_shape shows an egg and a lens. */
 SUPERNORMAL_API dGeomID snCreateConvex(dSpaceID space, const snShape* shape);
 
 /* Set and get refuse (return 0, set snLastError) when the geom is not an ellipsoid or superellipsoid. Set keeps the rounding;
  * on a refusal the geom stays as it was. */
 SUPERNORMAL_API int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon);
 SUPERNORMAL_API int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon);
+
+/* The same for superovoids. */
+SUPERNORMAL_API int snGeomSuperovoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
+                                              dReal taper_y);
+SUPERNORMAL_API int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon,
+                                              dReal* taper_x, dReal* taper_y);
 
 /* Sweeps the body by a sphere of `radius` in [0, 1e30]: the body grows by it and its edges become round. Replaces an earlier
  * rounding; 0 takes it away. */
@@ -77,9 +100,11 @@ SUPERNORMAL_API dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z);
 /* The boundary point whose outward normal is `direction` (world frame, any length but 0); `point` in world coordinates. */
 SUPERNORMAL_API int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 point);
 
-/* Mass, centre of mass and inertia of the homogeneous body, in the geom's frame: exact for ellipsoids and superellipsoids,
- * quadrature to 1e-9 with rounding or for a smooth user-defined body. density and total_mass in (0, inf). A user-defined body
- * whose centre of mass is not its origin needs dMassTranslate and a geom offset before dBodySetMass, as ever in ODE. */
+/* Mass, centre of mass and inertia of the homogeneous body, in the geom's frame: exact for ellipsoids, superellipsoids
+ * and superovoids, quadrature to 1e-9 with rounding or for a smooth user-defined body; one with faces or edges is refused when
+ * their share of the volume, which quadrature does not see, is above 1 %. density (kg/m^3) and total_mass (kg) in (0, inf). A body
+ * whose centre of mass is not its origin (a superovoid's is not) needs dMassTranslate and a geom offset before dBodySetMass, as
+ * ever in ODE. */
 SUPERNORMAL_API int snMassSet(dMass* mass, dReal density, dGeomID geom);
 SUPERNORMAL_API int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom);
 
@@ -110,13 +135,17 @@ typedef struct snProximity {
   int converged;           /* 1: the error is within the tolerance */
 } snProximity;
 
-/* Signed distance of two geoms, apart or overlapping; at least one is ours, the other ours, a dPlane or a dSphere. Returns 1;
- * 0 (and snLastError) when the pair is not supported. */
+/* Signed distance of two geoms, apart or overlapping, in either order; at least one is ours, the other ours or one of ODE's own
+ * (not a space, not a dGeomTransform). The normal of faces and edges is that of the face or edge; point1 and point2 are then any of
+ * those that touch. Of a dTriMesh or dHeightfield, the gap of the deepest contact that dCollide makes; without contact, the
+ * distance of the nearest triangle, from either side; negative without a contact only for a body that touches a sheet's border from
+ * behind. Returns 1; 0 (and snLastError) when the pair is not supported or a pose or length is not finite. */
 SUPERNORMAL_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
 
-/* Of this thread since the last reset: what the colliders and snGeomProximity did. */
+/* Of this thread since the last reset: what the colliders and snGeomProximity did. With meshes, heightfields and rays no normal is
+ * remembered. */
 typedef struct snStatistics {
-  unsigned long long queries_cold, queries_warm;         /* pairs of two bodies solved without and with a remembered normal */
+  unsigned long long queries_cold, queries_warm;         /* pairs solved without and with a remembered normal */
   unsigned long long evaluations_cold, evaluations_warm; /* of the gap function, in those queries */
   unsigned long long closed_forms;                       /* pairs settled without iteration, such as body and plane */
   unsigned long long contacts;                           /* emitted */

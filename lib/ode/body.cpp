@@ -11,6 +11,7 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -22,6 +23,10 @@ std::shared_ptr<const Shape> make_superellipsoid(const SuperellipsoidParameters&
   return std::make_shared<Superellipsoid>(p.half_axes, p.delta, p.epsilon);
 }
 
+std::shared_ptr<const Shape> make_superovoid(const SuperovoidParameters& p) {
+  return std::make_shared<Superovoid>(p.straight.half_axes, p.straight.delta, p.straight.epsilon, p.taper_x, p.taper_y);
+}
+
 }  // namespace
 
 Body::Body(std::shared_ptr<const Shape> core)
@@ -31,7 +36,9 @@ Body::Body(std::shared_ptr<const Shape> core)
       settings_(default_settings()),
       serial_(++last_serial) {}
 
-Body::Body(const SuperellipsoidParameters& parameters) : Body(make_superellipsoid(parameters)) { superellipsoid_ = parameters; }
+Body::Body(const SuperellipsoidParameters& parameters) : Body(make_superellipsoid(parameters)) { parameters_ = parameters; }
+
+Body::Body(const SuperovoidParameters& parameters) : Body(make_superovoid(parameters)) { parameters_ = parameters; }
 
 Body::~Body() {
   if (release_ != nullptr) release_(user_);
@@ -39,7 +46,12 @@ Body::~Body() {
 
 void Body::set_superellipsoid(const SuperellipsoidParameters& parameters) {
   set_shape(make_superellipsoid(parameters), rounding_);
-  superellipsoid_ = parameters;
+  parameters_ = parameters;
+}
+
+void Body::set_superovoid(const SuperovoidParameters& parameters) {
+  set_shape(make_superovoid(parameters), rounding_);
+  parameters_ = parameters;
 }
 
 void Body::set_rounding(double radius) { set_shape(core_, radius); }

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <variant>
 
 #include "supernormal/shapes/shape.hpp"
 #include "supernormal/solvers/proximity.hpp"
@@ -19,10 +19,18 @@ struct SuperellipsoidParameters {
   double epsilon = 2;
 };
 
+/// The same with |x/(a X)| and |y/(b Y)|, X = 1 + taper_x z/c, Y = 1 + taper_y z/c.
+struct SuperovoidParameters {
+  SuperellipsoidParameters straight;
+  double taper_x = 0;
+  double taper_y = 0;
+};
+
 /// The C++ object behind a geom. Nothing in it depends on where the geom is.
 class Body {
  public:
   explicit Body(const SuperellipsoidParameters& parameters);
+  explicit Body(const SuperovoidParameters& parameters);
   explicit Body(std::shared_ptr<const Shape> core);
   ~Body();
   Body(const Body&) = delete;
@@ -42,11 +50,13 @@ class Body {
   const Settings& settings() const { return settings_; }
   void set_settings(const Settings& settings) { settings_ = settings; }
 
-  /// Null for a user-defined body.
-  const SuperellipsoidParameters* superellipsoid() const { return superellipsoid_ ? &*superellipsoid_ : nullptr; }
+  /// Null for a body of another kind.
+  const SuperellipsoidParameters* superellipsoid() const { return std::get_if<SuperellipsoidParameters>(&parameters_); }
+  const SuperovoidParameters* superovoid() const { return std::get_if<SuperovoidParameters>(&parameters_); }
 
-  /// These two leave the body as it was when they throw.
+  /// These leave the body as it was when they throw.
   void set_superellipsoid(const SuperellipsoidParameters& parameters);
+  void set_superovoid(const SuperovoidParameters& parameters);
   void set_rounding(double radius);
 
   /// Is called once, when the body dies. `release` may be null.
@@ -60,9 +70,9 @@ class Body {
 
   std::shared_ptr<const Shape> core_;  // without rounding
   std::shared_ptr<const Shape> shape_;
-  double rounding_ = 0;  // m
-  double size_;          // m
-  std::optional<SuperellipsoidParameters> superellipsoid_;
+  double rounding_ = 0;                                                                      // m
+  double size_;                                                                              // m
+  std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // none: a user-defined body
   Settings settings_;
   std::uint32_t serial_;
   void (*release_)(void*) = nullptr;

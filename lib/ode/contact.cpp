@@ -1,6 +1,7 @@
 #include "ode/contact.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 #include "ode/convert.hpp"
 #include "ode/statistics.hpp"
@@ -20,10 +21,13 @@ bool is_contact(const Proximity& proximity) {
 
 }  // namespace
 
-int write_contacts(const Proximity& proximity, const ContactArray& out) {
+int write_contacts(const Proximity& proximity, const ContactArray& out) { return append_contact(proximity, out, 0); }
+
+int append_contact(const Proximity& proximity, const ContactArray& out, int count, int side2) {
   const int room = out.flags & kContactLimitBits;
-  if (room < 1 || !is_contact(proximity)) return 0;
-  dContactGeom& contact = *out.first;
+  if (count >= room || !is_contact(proximity)) return count;
+  auto* const place = reinterpret_cast<char*>(out.first) + std::ptrdiff_t{count} * out.skip;
+  dContactGeom& contact = *reinterpret_cast<dContactGeom*>(place);
   from_vector(proximity.contact, contact.pos);
   from_vector(-proximity.normal.normalized(), contact.normal);
   contact.depth = static_cast<dReal>(-proximity.gap);
@@ -31,9 +35,9 @@ int write_contacts(const Proximity& proximity, const ContactArray& out) {
   contact.g1 = out.o1;
   contact.g2 = out.o2;
   contact.side1 = -1;
-  contact.side2 = -1;
+  contact.side2 = side2;
   count_contact();
-  return 1;
+  return count + 1;
 }
 
 }  // namespace supernormal::ode

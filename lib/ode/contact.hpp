@@ -23,4 +23,8 @@ struct ContactArray {
 /// does separate them, so that the depth errs on the safe side, and no contact at all would let them fall through each other.
 int write_contacts(const Proximity& proximity, const ContactArray& out);
 
+/// The same for pairs with several contacts: writes one behind the `count` that are there, if there is room, and returns how many
+/// are there now. `side2`: which part of o2 it is (the triangle of a mesh), -1 where geoms have no parts.
+int append_contact(const Proximity& proximity, const ContactArray& out, int count, int side2 = -1);
+
 }  // namespace supernormal::ode

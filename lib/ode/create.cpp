@@ -22,6 +22,13 @@ extern "C" dGeomID snCreateSuperellipsoid(dSpaceID space, dReal a, dReal b, dRea
   });
 }
 
+extern "C" dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
+                                      dReal taper_y) {
+  return guarded("snCreateSuperovoid", dGeomID{}, [&] {
+    return create_geom(space, std::make_unique<Body>(SuperovoidParameters{{{a, b, c}, delta, epsilon}, taper_x, taper_y}));
+  });
+}
+
 extern "C" dGeomID snCreateConvex(dSpaceID space, const snShape* shape) {
   return guarded("snCreateConvex", dGeomID{}, [&] {
     auto body = std::make_unique<Body>(make_user_shape(shape));

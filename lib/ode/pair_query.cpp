@@ -16,10 +16,12 @@ namespace {
 
 // The core's answer for two geoms, ours first.
 Proximity query(dGeomID ours, dGeomID partner) {
+  require_body(ours);
   PairQuery* const pair_query = find_query(dGeomGetClass(partner));
   if (pair_query == nullptr) {
-    throw std::invalid_argument("the partner is " + geom_class_name(partner) +
-                                ", but must be a body made by snCreate…, a dPlane or a dSphere");
+    throw std::invalid_argument(
+        "the partner is " + geom_class_name(partner) +
+        ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
   }
   Proximity result = pair_query(ours, partner, Goal::Distance);
   if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {

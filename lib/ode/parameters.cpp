@@ -1,5 +1,6 @@
 // Reading and changing what a geom is.
 #include <stdexcept>
+#include <string>
 
 #include "ode/body.hpp"
 #include "ode/last_error.hpp"
@@ -11,7 +12,28 @@ namespace {
 
 const SuperellipsoidParameters& require_superellipsoid(const Body& body) {
   if (body.superellipsoid() != nullptr) return *body.superellipsoid();
-  throw std::invalid_argument("geom is a user-defined body, but must be an ellipsoid or a superellipsoid");
+  throw std::invalid_argument(std::string("geom is ") + (body.superovoid() != nullptr ? "a superovoid" : "a user-defined body") +
+                              ", but must be an ellipsoid or a superellipsoid");
+}
+
+const SuperovoidParameters& require_superovoid(const Body& body) {
+  if (body.superovoid() != nullptr) return *body.superovoid();
+  throw std::invalid_argument(std::string("geom is ") +
+                              (body.superellipsoid() != nullptr ? "a superellipsoid" : "a user-defined body") +
+                              ", but must be a superovoid");
+}
+
+void get_superellipsoid(const SuperellipsoidParameters& parameters, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon) {
+  require_not_null("a", a);
+  require_not_null("b", b);
+  require_not_null("c", c);
+  require_not_null("delta", delta);
+  require_not_null("epsilon", epsilon);
+  *a = static_cast<dReal>(parameters.half_axes.x());
+  *b = static_cast<dReal>(parameters.half_axes.y());
+  *c = static_cast<dReal>(parameters.half_axes.z());
+  *delta = static_cast<dReal>(parameters.delta);
+  *epsilon = static_cast<dReal>(parameters.epsilon);
 }
 
 }  // namespace
@@ -31,17 +53,31 @@ extern "C" int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dRe
 
 extern "C" int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon) {
   return guarded("snGeomSuperellipsoidGetParams", 0, [&] {
-    const SuperellipsoidParameters& parameters = require_superellipsoid(require_body(geom));
-    require_not_null("a", a);
-    require_not_null("b", b);
-    require_not_null("c", c);
-    require_not_null("delta", delta);
-    require_not_null("epsilon", epsilon);
-    *a = static_cast<dReal>(parameters.half_axes.x());
-    *b = static_cast<dReal>(parameters.half_axes.y());
-    *c = static_cast<dReal>(parameters.half_axes.z());
-    *delta = static_cast<dReal>(parameters.delta);
-    *epsilon = static_cast<dReal>(parameters.epsilon);
+    get_superellipsoid(require_superellipsoid(require_body(geom)), a, b, c, delta, epsilon);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSuperovoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
+                                         dReal taper_y) {
+  return guarded("snGeomSuperovoidSetParams", 0, [&] {
+    Body& body = require_body(geom);
+    require_superovoid(body);
+    body.set_superovoid({{{a, b, c}, delta, epsilon}, taper_x, taper_y});
+    dGeomMoved(geom);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon, dReal* taper_x,
+                                         dReal* taper_y) {
+  return guarded("snGeomSuperovoidGetParams", 0, [&] {
+    const SuperovoidParameters& parameters = require_superovoid(require_body(geom));
+    require_not_null("taper_x", taper_x);
+    require_not_null("taper_y", taper_y);
+    get_superellipsoid(parameters.straight, a, b, c, delta, epsilon);
+    *taper_x = static_cast<dReal>(parameters.taper_x);
+    *taper_y = static_cast<dReal>(parameters.taper_y);
     return 1;
   });
 }

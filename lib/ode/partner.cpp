@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "ode/geom_class.hpp"
-#include "ode/last_error.hpp"
+#include "ode/solve_pair.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -14,31 +13,20 @@ struct Partner {
   int geom_class;
   const char* name;
   dColliderFn* collide;
-  PairQuery* query;  // null: not supported
+  PairQuery* query;
 };
-
-const char* builtin_name(int geom_class);
-
-// Sees every pair whose partner is not supported: no contacts, and snLastError says why bodies fall through each other.
-int collide_with_unsupported(dGeomID /*ours*/, dGeomID partner, int /*flags*/, dContactGeom* /*contacts*/, int /*skip*/) {
-  std::array<char, 128> message{};
-  std::snprintf(message.data(), message.size(), "the partner is a %s, which this version does not support: no contacts",
-                builtin_name(dGeomGetClass(partner)));
-  set_last_error("dCollide", message.data());
-  return 0;
-}
 
 // ODE's own classes but for spaces and dGeomTransform, which ODE takes apart itself.
 constexpr std::array<Partner, 9> kPartners = {{
-    {dSphereClass, "dSphere", collide_with_sphere, query_sphere},
-    {dBoxClass, "dBox", collide_with_unsupported, nullptr},
-    {dCapsuleClass, "dCapsule", collide_with_unsupported, nullptr},
-    {dCylinderClass, "dCylinder", collide_with_unsupported, nullptr},
-    {dPlaneClass, "dPlane", collide_with_plane, query_plane},
-    {dRayClass, "dRay", collide_with_unsupported, nullptr},
-    {dConvexClass, "dConvex", collide_with_unsupported, nullptr},
-    {dTriMeshClass, "dTriMesh", collide_with_unsupported, nullptr},
-    {dHeightfieldClass, "dHeightfield", collide_with_unsupported, nullptr},
+    {dSphereClass, "dSphere", collide_by<query_sphere>, query_sphere},
+    {dBoxClass, "dBox", collide_by<query_box>, query_box},
+    {dCapsuleClass, "dCapsule", collide_by<query_capsule>, query_capsule},
+    {dCylinderClass, "dCylinder", collide_by<query_cylinder>, query_cylinder},
+    {dPlaneClass, "dPlane", collide_by<query_plane>, query_plane},
+    {dRayClass, "dRay", collide_with_ray, query_ray},
+    {dConvexClass, "dConvex", collide_by<query_convex>, query_convex},
+    {dTriMeshClass, "dTriMesh", collide_with_trimesh, query_trimesh},
+    {dHeightfieldClass, "dHeightfield", collide_with_heightfield, query_heightfield},
 }};
 
 const Partner* find_builtin(int partner_class) {
@@ -47,15 +35,10 @@ const Partner* find_builtin(int partner_class) {
   return found == kPartners.end() ? nullptr : found;
 }
 
-const char* builtin_name(int geom_class) {
-  const Partner* const partner = find_builtin(geom_class);
-  return partner == nullptr ? "geom of unknown class" : partner->name;
-}
-
 }  // namespace
 
 dColliderFn* find_collider(int partner_class) {
-  if (partner_class == geom_class()) return collide_with_body;
+  if (partner_class == geom_class()) return collide_by<query_body>;
   const Partner* const partner = find_builtin(partner_class);
   return partner == nullptr ? nullptr : partner->collide;
 }
@@ -68,7 +51,7 @@ PairQuery* find_query(int partner_class) {
 
 void set_colliders(int our_class) {
   for (const Partner& partner : kPartners) dSetColliderOverride(our_class, partner.geom_class, partner.collide);
-  dSetColliderOverride(our_class, our_class, collide_with_body);
+  dSetColliderOverride(our_class, our_class, collide_by<query_body>);
 }
 
 std::string geom_class_name(dGeomID geom) {

@@ -1,5 +1,6 @@
-// The kinds of geom that ours can meet. One file each: partner_body.cpp (our own), partner_plane.cpp, partner_sphere.cpp.
-// A new partner is such a file with two functions, and a line in the table of partner.cpp.
+// The kinds of geom that ours can meet. One file each: partner_body.cpp (our own), partner_plane.cpp, partner_sphere.cpp, …
+// A new partner is such a file with a query, with a collider of its own if it has several contacts, and a line in the table of
+// partner.cpp.
 #pragma once
 
 #include <ode/ode.h>
@@ -18,16 +19,24 @@ using PairQuery = Proximity(dGeomID ours, dGeomID partner, Goal goal);
 PairQuery query_body;  // ours and ours
 PairQuery query_plane;
 PairQuery query_sphere;
+PairQuery query_box;
+PairQuery query_capsule;
+PairQuery query_cylinder;
+PairQuery query_convex;
+PairQuery query_ray;
+PairQuery query_trimesh;
+PairQuery query_heightfield;
 
 /// dColliderFn for a geom of ours and a partner, in this order: ODE turns the contacts around when it was asked the other way.
-dColliderFn collide_with_body;
-dColliderFn collide_with_plane;
-dColliderFn collide_with_sphere;
+/// Those that make one contact of their query are made by collide_by (solve_pair.hpp).
+dColliderFn collide_with_ray;
+dColliderFn collide_with_trimesh;
+dColliderFn collide_with_heightfield;
 
 /// dGetColliderFnFn of our class: 0 for classes that we know nothing about; ODE then asks the other class, if it is a user's.
 dColliderFn* find_collider(int partner_class);
 
-/// Null when partners of that class are not supported.
+/// Null for classes that we know nothing about.
 PairQuery* find_query(int partner_class);
 
 /// Enters our colliders for all of ODE's own classes, and for ourselves, into ODE's table.

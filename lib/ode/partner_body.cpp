@@ -2,9 +2,7 @@
 #include <algorithm>
 
 #include "ode/body.hpp"
-#include "ode/contact.hpp"
 #include "ode/convert.hpp"
-#include "ode/last_error.hpp"
 #include "ode/partner.hpp"
 #include "ode/statistics.hpp"
 #include "ode/warm_start.hpp"
@@ -40,13 +38,6 @@ Proximity query_body(dGeomID ours, dGeomID partner, Goal goal) {
   const Body& body2 = require_body(partner);
   if (body1.serial() < body2.serial()) return query_in_order(body1, pose_of(ours), body2, pose_of(partner), goal);
   return seen_from_other(query_in_order(body2, pose_of(partner), body1, pose_of(ours), goal));
-}
-
-int collide_with_body(dGeomID ours, dGeomID partner, int flags, dContactGeom* contacts, int skip) {
-  return guarded("dCollide", 0, [&] {
-    const Proximity proximity = query_body(ours, partner, Goal::Contact);
-    return write_contacts(proximity, {ours, partner, flags, contacts, skip});
-  });
 }
 
 }  // namespace supernormal::ode

@@ -1,8 +1,6 @@
 // Our bodies and dPlane, the half-space n.x <= d.
 #include "ode/body.hpp"
-#include "ode/contact.hpp"
 #include "ode/convert.hpp"
-#include "ode/last_error.hpp"
 #include "ode/partner.hpp"
 #include "ode/statistics.hpp"
 #include "supernormal/solvers/plane.hpp"
@@ -16,13 +14,6 @@ Proximity query_plane(dGeomID ours, dGeomID partner, Goal /*goal*/) {
   const Proximity result = find_plane_proximity(body.shape(), pose_of(ours), to_vector(plane), plane[3]);
   count_closed_form();
   return result;
-}
-
-int collide_with_plane(dGeomID ours, dGeomID partner, int flags, dContactGeom* contacts, int skip) {
-  return guarded("dCollide", 0, [&] {
-    const Proximity proximity = query_plane(ours, partner, Goal::Contact);
-    return write_contacts(proximity, {ours, partner, flags, contacts, skip});
-  });
 }
 
 }  // namespace supernormal::ode

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -20,6 +21,7 @@ struct Entry {
 
 constexpr double kSimilarOffset = 0.5;           // of the size
 const double kSimilarAttitude = std::cos(0.25);  // of half the angle
+constexpr unsigned kCellBits = 13;               // of PairKey::partner, for the direction
 
 // A set-associative cache: a pair has one set, in it the four last used pairs, latest first. Two pairs that share a slot of a
 // direct-mapped table push each other out at every step. Counted on lattices of neighbours: of the 7560 near pairs of 1000 bodies
@@ -52,7 +54,7 @@ bool same(const PairKey& a, const PairKey& b) { return a.body == b.body && a.par
 
 }  // namespace
 
-PairKey PairKey::of_direction(std::uint32_t serial, const Vector3& direction) {
+PairKey PairKey::of_direction(std::uint32_t serial, const Vector3& direction, std::uint32_t kind) {
   constexpr double kCellsPerUnit = 8;  // cells of 7 degrees
   const double length = direction.norm();
   std::uint32_t cell = 0;
@@ -61,12 +63,22 @@ PairKey PairKey::of_direction(std::uint32_t serial, const Vector3& direction) {
       cell = 17 * cell + static_cast<std::uint32_t>(std::lround(kCellsPerUnit * (direction[axis] / length + 1)));
     }
   }
-  return {serial, 0x80000000U | cell};
+  static_assert(17 * 17 * 17 <= 1U << kCellBits);
+  return {serial, 0x80000000U | (kind << kCellBits) | cell};
 }
 
-RelativePose RelativePose::of(const Pose& body, const Pose& partner) {
-  const Matrix3 to_body = body.rotation.transpose();
-  return {to_body * (partner.position - body.position), Eigen::Quaterniond(Matrix3(to_body * partner.rotation))};
+std::uint32_t partner_kind(int geom_class, std::initializer_list<double> lengths) {
+  auto hash = static_cast<std::uint64_t>(geom_class);
+  for (const double length : lengths) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(length)) * 0x9e3779b97f4a7c15U;  // odd; 2^64 / golden ratio
+    hash ^= hash >> 32U;
+  }
+  return static_cast<std::uint32_t>(hash);
+}
+
+RelativePose RelativePose::of(const Pose& frame, const Pose& other) {
+  const Matrix3 to_frame = frame.rotation.transpose();
+  return {to_frame * (other.position - frame.position), Eigen::Quaterniond(Matrix3(to_frame * other.rotation))};
 }
 
 void set_warm_start(bool on) noexcept { enabled.store(on, std::memory_order_relaxed); }

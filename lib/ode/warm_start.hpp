@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <initializer_list>
 
 #include "supernormal/shapes/shape.hpp"
 #include "supernormal/solvers/pose.hpp"
@@ -12,29 +13,32 @@ namespace supernormal::ode {
 /// A pair as the table knows it. Addresses would do for identity, but they change from run to run and with them which entries
 /// push out which: the same scene would give other last digits. Serial numbers of our geoms do not change.
 struct PairKey {
-  std::uint32_t body = 0;     ///< serial number of the body whose frame the normal is in; 0 is nobody
+  std::uint32_t body = 0;     ///< serial number of a body of ours; 0 is nobody
   std::uint32_t partner = 0;  ///< see the two functions below
 
   /// For two of our bodies, serial1 < serial2; the normal is in the frame of body 1.
   static PairKey of_bodies(std::uint32_t serial1, std::uint32_t serial2) { return {serial1, serial2 - serial1}; }
 
-  /// For a partner that has no serial number (ODE's own geoms): where it is seen from the body, `direction` in the body's frame,
-  /// of any length.
-  static PairKey of_direction(std::uint32_t serial, const Vector3& direction);
+  /// For a partner that has no serial number (ODE's own geoms): the direction in which one sees the other, in the frame that the
+  /// normal is in, of any length. `kind` tells partners apart that may be seen in the same direction, by their class and lengths.
+  static PairKey of_direction(std::uint32_t serial, const Vector3& direction, std::uint32_t kind);
 };
 
-/// Where the partner is, in the frame of the body.
+/// A number for the class of a geom and its lengths (in any unit): the same in every run.
+std::uint32_t partner_kind(int geom_class, std::initializer_list<double> lengths);
+
+/// Where one body is in the frame of the other, which is that of the normal.
 struct RelativePose {
   Vector3 offset = Vector3::Zero();                              ///< m
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< unit; always the identity for a sphere
 
-  static RelativePose of(const Pose& body, const Pose& partner);
+  static RelativePose of(const Pose& frame, const Pose& other);
 };
 
 void set_warm_start(bool on) noexcept;
 
 /// Copies the remembered unit normal of the pair and returns true; false when there is none, when warm start is off, or when the
-/// pair has moved too far since: by more than half of `size` (the smallest half-extent of the two, m) or half a radian. A deep
+/// pair has moved too far since: by more than half of `size` (the smallest half-extent of our bodies, m) or half a radian. A deep
 /// overlap has several local maxima, and the solver stays on the one that a first normal leads to. That is continuity when the
 /// pair has just been there, and an arbitrary depth when a body was moved by the program, or another sphere is in the old one's
 /// place.

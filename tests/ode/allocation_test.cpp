@@ -7,7 +7,8 @@
 #include <new>
 #include <vector>
 
-#include "ode/ode_fixture.hpp"
+#include "ode/mesh_fixture.hpp"
+#include "ode/partner_fixture.hpp"
 
 using namespace supernormal::test;
 
@@ -54,8 +55,11 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
     if (i % 5 == 0) snGeomSetRounding(bodies.back(), dReal(0.1));
     place(bodies.back(), random.uniform(0, 4) * random.direction());
   }
-  const Geom sphere(dCreateSphere(nullptr, 1));
-  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  std::vector<PartnerGeom> partners;
+  partners.reserve(kPartnerKinds.size());
+  for (const PartnerKind kind : kPartnerKinds) partners.emplace_back(kind, random);
+  const ConvexGeom crowded(std::vector<Vec>(2000, Vec{0.5, 0.5, 0.5}));
+  const MeshGeom mesh(box_arrays(2, 2.5, 1.5));
 
   long contacts_seen = 0;
   const auto everything = [&] {
@@ -67,8 +71,13 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
         contacts_seen += dCollide(g1, g2, 1, &contact, sizeof contact);
         if (dGeomID(g1) != dGeomID(g2)) snGeomProximity(g1, g2, &answer);
       }
-      contacts_seen += dCollide(g1, sphere, 1, &contact, sizeof contact);
-      contacts_seen += dCollide(g1, plane, 1, &contact, sizeof contact);
+      for (const PartnerGeom& partner : partners) {
+        contacts_seen += dCollide(g1, partner, 1, &contact, sizeof contact);
+        snGeomProximity(g1, partner, &answer);
+      }
+      contacts_seen += dCollide(g1, crowded, 1, &contact, sizeof contact);
+      contacts_seen += dCollide(g1, mesh, 1, &contact, sizeof contact);
+      snGeomProximity(g1, mesh, &answer);
       snGeomPointDepth(g1, 1, 2, 3);
       dGeomMoved(g1);
       dGeomGetAABB(g1, aabb);

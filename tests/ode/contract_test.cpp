@@ -6,23 +6,28 @@
 #include <vector>
 
 #include "ode/ode_fixture.hpp"
+#include "ode/partner_fixture.hpp"
 
 using namespace supernormal::test;
 
 namespace {
 
-enum class PartnerKind { Body, Plane, Sphere };
+// Overlaps a body at the origin (half-axes 0.5…1.5) or stays just clear of it.
+PartnerGeom make_partner(PartnerKind kind, Random& random) {
+  PartnerGeom partner(kind, random);
+  if (kind != PartnerKind::Plane) place(partner, random.uniform(0.6, 1.8) * random.direction());
+  return partner;
+}
 
-// A partner that overlaps a body at the origin (half-axes 0.5…1.5) or stays just clear of it.
-dGeomID make_partner(PartnerKind kind, Random& random) {
-  const Vec n = random.direction();
-  const double distance = random.uniform(0.6, 1.8);
-  if (kind == PartnerKind::Plane) {
-    return dCreatePlane(nullptr, dReal(n[0]), dReal(n[1]), dReal(n[2]), dReal(-random.uniform(0.2, 1.5)));
+// One of every kind, around a point.
+std::vector<PartnerGeom> make_partners_at(const Vec& point) {
+  Random random(7);
+  std::vector<PartnerGeom> partners;
+  for (const PartnerKind kind : kPartnerKinds) {
+    partners.emplace_back(kind, random);
+    if (kind != PartnerKind::Plane) place(partners.back(), point);
   }
-  const dGeomID geom = kind == PartnerKind::Body ? random_body(random) : dCreateSphere(nullptr, dReal(random.uniform(0.3, 1)));
-  place(geom, distance * n);
-  return geom;
+  return partners;
 }
 
 // Takes the unit normal into g1 and a depth at their word.
@@ -41,13 +46,13 @@ void check_contact(const dContactGeom& contact, dGeomID g1, dGeomID g2) {
 TEST_CASE("a contact moves the geoms apart, and nothing less does") {
   OdeSession session;
   Random random(1);
-  for (const PartnerKind kind : {PartnerKind::Body, PartnerKind::Plane, PartnerKind::Sphere}) {
-    CAPTURE(static_cast<int>(kind));
+  for (const PartnerKind kind : kPartnerKinds) {
+    CAPTURE(name_of(kind));
     int overlapping = 0;
     for (int i = 0; i < 300; ++i) {
       CAPTURE(i);
       const Geom body(random_body(random));
-      const Geom partner(make_partner(kind, random));
+      const PartnerGeom partner(make_partner(kind, random));
       for (const bool ours_first : {true, false}) {
         CAPTURE(ours_first);
         const dGeomID g1 = ours_first ? body : partner;
@@ -78,10 +83,10 @@ TEST_CASE("both call orders give the same contact, turned around") {
   Random random(2);
   for (const bool warm_start : {true, false}) {
     snSetWarmStart(warm_start ? 1 : 0);
-    for (const PartnerKind kind : {PartnerKind::Body, PartnerKind::Plane, PartnerKind::Sphere}) {
+    for (const PartnerKind kind : kPartnerKinds) {
       for (int i = 0; i < 100; ++i) {
         const Geom body(random_body(random));
-        const Geom partner(make_partner(kind, random));
+        const PartnerGeom partner(make_partner(kind, random));
         collide(body, partner);  // so that both of the following find the same remembered normal
         collide(body, partner);
         const auto forth = collide(body, partner);
@@ -106,15 +111,11 @@ TEST_CASE("both call orders give the same contact, turned around") {
 TEST_CASE("skip and flags: nothing is written beside the contacts asked for") {
   OdeSession session;
   const Geom body(snCreateSuperellipsoid(nullptr, 1, 1, 1, 4, 4));
-  const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
-  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
-  const Geom sphere(dCreateSphere(nullptr, 1));
-  dGeomSetPosition(other, dReal(1.7), 0, 0);
-  dGeomSetPosition(sphere, 0, dReal(1.7), 0);
+  const auto partners = make_partners_at({0.7, 0.3, 0});
 
   constexpr unsigned char kUntouched = 0xA5;
   constexpr int kSlots = 4;
-  for (const dGeomID partner : {dGeomID(other), dGeomID(plane), dGeomID(sphere)}) {
+  for (const PartnerGeom& partner : partners) {
     for (const std::size_t skip : {sizeof(dContactGeom), sizeof(dContact), sizeof(dContactGeom) + 40}) {
       for (const unsigned flags : {1U, 4U, 0x00070001U, 0x80000001U, 0x80000004U, 0xffffU}) {
         std::vector<unsigned char> memory(kSlots * skip, kUntouched);
@@ -131,12 +132,9 @@ TEST_CASE("skip and flags: nothing is written beside the contacts asked for") {
 TEST_CASE("the array is not touched when the geoms are apart") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 2, 3));
-  const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
-  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, -4));
-  const Geom sphere(dCreateSphere(nullptr, 1));
-  dGeomSetPosition(other, dReal(2.1), 0, 0);
-  dGeomSetPosition(sphere, 0, dReal(3.1), 0);
-  for (const dGeomID partner : {dGeomID(other), dGeomID(plane), dGeomID(sphere)}) {
+  place(body, {10, 0, 0});
+  for (const PartnerGeom& partner : make_partners_at({12, 3, 0})) {
+    if (dGeomGetClass(partner) == dPlaneClass) dGeomPlaneSetParams(partner, 0, 0, 1, -4);
     std::vector<unsigned char> memory(sizeof(dContactGeom), 0x5A);
     const auto before = memory;
     CHECK(dCollide(body, partner, 1, reinterpret_cast<dContactGeom*>(memory.data()), sizeof(dContactGeom)) == 0);
@@ -160,21 +158,29 @@ TEST_CASE("geoms of one body do not collide; a body with itself neither") {
   dWorldDestroy(world);
 }
 
-TEST_CASE("a body whose pose is not a number gives no contact and does not stop a space") {
+TEST_CASE("a geom whose pose is not a number gives no contact and does not stop a space") {
   OdeSession session;
+  const dReal nan = std::numeric_limits<dReal>::quiet_NaN();
   const dSpaceID space = dHashSpaceCreate(nullptr);
   const dGeomID broken = snCreateEllipsoid(space, 1, 1, 1);
-  const dGeomID other = snCreateSuperellipsoid(space, 1, 1, 1, 3, 3);
-  const dGeomID plane = dCreatePlane(space, 0, 0, 1, 0);
-  const dGeomID sphere = dCreateSphere(space, 1);
-  const dReal nan = std::numeric_limits<dReal>::quiet_NaN();
+  const dGeomID whole = snCreateSuperellipsoid(space, 1, 1, 1, 3, 3);
   dGeomSetPosition(broken, nan, nan, nan);
-  for (const dGeomID partner : {other, plane, sphere}) {
-    CHECK(collide(broken, partner).empty());
-    CHECK(collide(partner, broken).empty());
+  {
+    const auto partners = make_partners_at({0, 0, 0});
+    for (const PartnerGeom& partner : partners) {
+      CHECK(collide(broken, partner).empty());
+      CHECK(collide(partner, broken).empty());
+      if (dGeomGetClass(partner) == dPlaneClass) continue;
+      CHECK(collide(whole, partner).size() == 1);
+      dGeomSetPosition(partner, nan, nan, nan);
+      CHECK(collide(whole, partner).empty());
+      CHECK(collide(partner, whole).empty());
+    }
   }
+  const dGeomID plane = dCreatePlane(space, 0, 0, 1, 0);
   int pairs = 0;
   dSpaceCollide(space, &pairs, [](void* count, dGeomID, dGeomID) { ++*static_cast<int*>(count); });
   CHECK(pairs > 0);
+  dGeomDestroy(plane);
   dSpaceDestroy(space);
 }

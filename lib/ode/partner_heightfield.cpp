@@ -1,0 +1,157 @@
+// Our bodies and dHeightfield: the solid below its triangles.
+#include <span>
+#include <vector>
+
+#include "contact/body_box.hpp"
+#include "contact/mesh_contacts.hpp"
+#include "contact/nearest_triangle.hpp"
+#include "ode/body.hpp"
+#include "ode/contact.hpp"
+#include "ode/convert.hpp"
+#include "ode/heightfield_patch.hpp"
+#include "ode/last_error.hpp"
+#include "ode/partner.hpp"
+#include "ode/statistics.hpp"
+#include "supernormal/solvers/plane.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+// The region is wider than the body by this share of it: what touches it must not be lost by rounding.
+constexpr double kMargin = 1e-6;
+
+// A heightfield that is not placeable has no pose that could be asked for.
+Pose pose_of_heightfield(dGeomID heightfield) {
+  Pose pose;
+  dVector3 column;
+  dGeomGetRelPointPos(heightfield, 0, 0, 0, column);
+  pose.position = to_vector(column);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 unit = Vector3::Unit(axis);
+    dGeomVectorToWorld(heightfield, static_cast<dReal>(unit.x()), static_cast<dReal>(unit.y()), static_cast<dReal>(unit.z()),
+                       column);
+    pose.rotation.col(axis) = to_vector(column);
+  }
+  return pose;
+}
+
+/// The body in the frame of a heightfield, and its box.
+struct Visitor {
+  const Shape& shape;
+  Pose pose;
+  Settings settings;
+  BodyBox box;
+  Vector3 centre;   // of the box, m
+  Vector3 extents;  // of the box along the axes of the heightfield, from the centre, m
+
+  Visitor(const Body& body, const Pose& world, const Pose& frame)
+      : shape(body.shape()), settings(body.settings()), box(BodyBox::of(shape)) {
+    pose.rotation = frame.rotation.transpose() * world.rotation;
+    pose.position = frame.rotation.transpose() * (world.position - frame.position);
+    box.half_lengths *= 1 + kMargin;
+    centre = pose.position + pose.rotation * box.centre;
+    extents = pose.rotation.cwiseAbs() * box.half_lengths;
+  }
+
+  bool is_finite() const { return pose.rotation.allFinite() && centre.allFinite() && extents.allFinite(); }
+  double size() const { return extents.maxCoeff(); }
+  Region region() const {
+    return {centre.x() - extents.x(), centre.x() + extents.x(), centre.z() - extents.z(), centre.z() + extents.z()};
+  }
+};
+
+/// What a thread keeps from query to query, for the memory in it.
+struct Scratch {
+  HeightfieldPatch patch;
+  MeshContacts mesh;
+  std::vector<Proximity> contacts;
+};
+
+Scratch& scratch() {
+  thread_local Scratch kept;
+  return kept;
+}
+
+Proximity to_world(Proximity local, const Pose& frame) {
+  local.normal = frame.rotation * local.normal;
+  for (Vector3* const point : {&local.point1, &local.point2, &local.contact}) *point = frame.rotation * *point + frame.position;
+  return local;
+}
+
+// A body with none of the surface in it is above it or below. Below, it goes out the way of the plane above its middle.
+bool find_way_up(HeightfieldProbe& probe, const Visitor& visitor, Proximity& way_up) {
+  Facet facet;
+  if (!probe.find_facet(visitor.centre.x(), visitor.centre.z(), visitor.size(), facet)) return false;
+  if (visitor.centre.y() > facet.height) return false;
+  const Vector3 on_surface{facet.x, facet.height, facet.z};
+  way_up = find_plane_proximity(visitor.shape, visitor.pose, facet.normal, facet.normal.dot(on_surface));
+  return way_up.gap <= 0;
+}
+
+bool is_above_all(const HeightfieldProbe& probe, const Visitor& visitor) {
+  return visitor.centre.y() - visitor.extents.y() > probe.max_height();
+}
+
+// In the frame of the heightfield, deepest first.
+std::span<const Proximity> find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
+  Scratch& kept = scratch();
+  kept.contacts.clear();
+  const std::span<const MeshTriangle> triangles = kept.patch.read(probe, visitor.region());
+  for (const MeshContact& contact : kept.mesh.find(visitor.shape, visitor.pose, triangles, visitor.settings)) {
+    kept.contacts.push_back(contact.proximity);
+  }
+  Proximity way_up;
+  if (kept.contacts.empty() && find_way_up(probe, visitor, way_up)) kept.contacts.push_back(way_up);
+  Proximity all;
+  all.status = kept.contacts.empty() ? Status::Apart : kept.contacts.front().status;
+  all.evaluations = kept.mesh.evaluations();
+  count_query(all, false);
+  return kept.contacts;
+}
+
+// The nearest triangle of those below the body is not nearer than the nearest of all, which is therefore below the body widened by
+// that distance.
+Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
+  const Region region = visitor.region();
+  Settings settings = visitor.settings;
+  settings.stop_when_apart = false;
+  Scratch& kept = scratch();
+  const auto nearest_in = [&](const Region& searched) {
+    return find_nearest_triangle(visitor.shape, visitor.pose, kept.patch.read(probe, searched), settings).proximity;
+  };
+  const Proximity below = nearest_in(region);
+  if (below.status == Status::InvalidInput || below.gap <= 0) return below;
+  Proximity nearest = nearest_in(region.widened(below.gap));
+  nearest.evaluations += below.evaluations;
+  return nearest;
+}
+
+}  // namespace
+
+Proximity query_heightfield(dGeomID ours, dGeomID partner, Goal /*goal*/) {
+  const Pose frame = pose_of_heightfield(partner);
+  const Visitor visitor(require_body(ours), pose_of(ours), frame);
+  if (!visitor.is_finite()) return {};
+  HeightfieldProbe& probe = HeightfieldProbe::looking_at(partner);
+  if (!is_above_all(probe, visitor)) {
+    const std::span<const Proximity> contacts = find_contacts(probe, visitor);
+    if (!contacts.empty()) return to_world(contacts.front(), frame);
+  }
+  return to_world(find_nearest(probe, visitor), frame);
+}
+
+int collide_with_heightfield(dGeomID ours, dGeomID partner, int flags, dContactGeom* contacts, int skip) {
+  return guarded("dCollide", 0, [&] {
+    const Pose frame = pose_of_heightfield(partner);
+    const Visitor visitor(require_body(ours), pose_of(ours), frame);
+    HeightfieldProbe& probe = HeightfieldProbe::looking_at(partner);
+    if (!visitor.is_finite() || is_above_all(probe, visitor)) return 0;
+    int count = 0;
+    for (const Proximity& contact : find_contacts(probe, visitor)) {
+      count = append_contact(to_world(contact, frame), {ours, partner, flags, contacts, skip}, count);
+    }
+    return count;
+  });
+}
+
+}  // namespace supernormal::ode

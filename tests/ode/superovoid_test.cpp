@@ -1,0 +1,144 @@
+// snCreateSuperovoid: tapered bodies through the C interface.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+struct Parameters {
+  dReal a = 0, b = 0, c = 0, delta = 0, epsilon = 0, taper_x = 0, taper_y = 0;
+  explicit Parameters(dGeomID geom) {
+    REQUIRE(snGeomSuperovoidGetParams(geom, &a, &b, &c, &delta, &epsilon, &taper_x, &taper_y) == 1);
+  }
+  bool operator==(const Parameters&) const = default;
+};
+
+bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("superovoid: parameters are kept, changed and refused") {
+  OdeSession session;
+  const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2.5, 4, 0.5, 0.5));
+  REQUIRE(egg != nullptr);
+  const Parameters first(egg);
+  CHECK(first.c == 1);
+  CHECK(first.epsilon == 4);
+  CHECK(first.taper_y == dReal(0.5));
+  dReal box[6];
+  dGeomGetAABB(egg, box);
+  CHECK(box[5] == doctest::Approx(1));
+
+  CHECK(snGeomSuperovoidSetParams(egg, 1, 1, 2, 2, 2, dReal(-0.25), dReal(0.25)) == 1);
+  dGeomGetAABB(egg, box);
+  CHECK(box[5] == doctest::Approx(2));
+  const Parameters second(egg);
+  CHECK(snGeomSuperovoidSetParams(egg, 1, 1, 2, 2, 2, dReal(0.75), 0) == 0);
+  CHECK(refused_with("snGeomSuperovoidSetParams: taper_x = 0.75 is outside [-0.70710678118"));
+  CHECK(Parameters(egg) == second);
+  CHECK(snGeomSuperovoidGetParams(egg, box, box, box, box, box, box, nullptr) == 0);
+  CHECK(refused_with("taper_y = NULL"));
+
+  CHECK(snCreateSuperovoid(nullptr, 1, 1, 1, 2, 3, dReal(0.25), dReal(0.5)) == nullptr);
+  CHECK(refused_with("snCreateSuperovoid: taper_x = 0.25 and taper_y = 0.5 differ, but with epsilon = 3"));
+  CHECK(snCreateSuperovoid(nullptr, 1, -1, 1, 2, 3, 0, 0) == nullptr);
+  CHECK(refused_with("half-axis b = -1 m"));
+}
+
+TEST_CASE("superovoid: the functions of one kind of body refuse the other kinds") {
+  OdeSession session;
+  const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2, 2, 0, 0));
+  const Geom ellipsoid(snCreateEllipsoid(nullptr, 3, 2, 1));
+  CHECK(snGeomSuperovoidSetParams(ellipsoid, 1, 1, 1, 2, 2, 0, 0) == 0);
+  CHECK(refused_with("geom is a superellipsoid, but must be a superovoid"));
+  CHECK(snGeomSuperellipsoidSetParams(egg, 1, 1, 1, 2, 2) == 0);
+  CHECK(refused_with("geom is a superovoid, but must be an ellipsoid or a superellipsoid"));
+}
+
+TEST_CASE("superovoid: without taper it touches as the superellipsoid does") {
+  OdeSession session;
+  snSetWarmStart(0);
+  Random random(81);
+  const Geom ovoid(snCreateSuperovoid(nullptr, 1, dReal(0.75), dReal(0.5), 3, 5, 0, 0));
+  const Geom straight(snCreateSuperellipsoid(nullptr, 1, dReal(0.75), dReal(0.5), 3, 5));
+  const Geom other(snCreateEllipsoid(nullptr, 1, 1, 2));
+  for (int i = 0; i < 200; ++i) {
+    random.turn(other);
+    random.turn(ovoid);
+    place(other, random.uniform(1, 3) * random.direction());
+    dGeomSetRotation(straight, dGeomGetRotation(ovoid));
+    snProximity a{}, b{};
+    REQUIRE(snGeomProximity(ovoid, other, &a) == 1);
+    REQUIRE(snGeomProximity(straight, other, &b) == 1);
+    CHECK(a.gap == doctest::Approx(b.gap).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("superovoid: mass, and an egg that comes to rest on its side") {
+  OdeSession session;
+  const double a = 0.3, c = 0.4, taper = 0.3, density = 1000;
+  const dSpaceID space = dHashSpaceCreate(nullptr);
+  const dWorldID world = dWorldCreate();
+  dWorldSetGravity(world, 0, 0, dReal(-9.81));
+  dWorldSetLinearDamping(world, dReal(0.005));
+  dWorldSetAngularDamping(world, dReal(0.005));
+  const dGeomID egg = snCreateSuperovoid(space, dReal(a), dReal(a), dReal(c), 2, 2, dReal(taper), dReal(taper));
+  dCreatePlane(space, 0, 0, 1, 0);
+  dMass mass;
+  REQUIRE(snMassSet(&mass, dReal(density), egg) == 1);
+  CHECK(mass.mass == doctest::Approx(density * 4 / 3 * std::numbers::pi * a * a * c * (1 + taper * taper / 5)).epsilon(1e-6));
+  const double centroid = c * 2 * taper / 5 / (1 + taper * taper / 5);
+  CHECK(mass.c[2] == doctest::Approx(centroid).epsilon(1e-6));
+
+  // The centre of mass into the origin of the body, the geom as far below it.
+  dMassTranslate(&mass, 0, 0, -mass.c[2]);
+  mass.c[0] = mass.c[1] = mass.c[2] = 0;
+  const dBodyID body = dBodyCreate(world);
+  dBodySetMass(body, &mass);
+  dGeomSetBody(egg, body);
+  dGeomSetOffsetPosition(egg, 0, 0, dReal(-centroid));
+  dBodySetPosition(body, 0, 0, dReal(0.45));
+  dMatrix3 tilt;
+  dRFromAxisAndAngle(tilt, 1, 0, 0, dReal(1.2));
+  dBodySetRotation(body, tilt);
+
+  struct Scene {
+    dWorldID world;
+    dJointGroupID contacts;
+  } scene = {world, dJointGroupCreate(0)};
+  const auto collide = [](void* data, dGeomID g1, dGeomID g2) {
+    const Scene& s = *static_cast<Scene*>(data);
+    dContact contact[4] = {};
+    const int count = dCollide(g1, g2, 4, &contact[0].geom, sizeof(dContact));
+    for (int i = 0; i < count; ++i) {
+      contact[i].surface.mode = dContactApprox1;
+      contact[i].surface.mu = dReal(0.6);
+      dJointAttach(dJointCreateContact(s.world, s.contacts, &contact[i]), dGeomGetBody(g1), dGeomGetBody(g2));
+    }
+  };
+  for (int step = 0; step < 6000; ++step) {
+    dSpaceCollide(space, &scene, collide);
+    dWorldStep(world, dReal(0.002));
+    dJointGroupEmpty(scene.contacts);
+  }
+  // At rest the height of the centre of mass over the plane, h(n) + centroid n_z, is least: the axis leans a little, with the blunt
+  // end down, so that the centre of mass is over the contact point.
+  const dReal* R = dBodyGetRotation(body);
+  const double axis_up = R[10];
+  CHECK(std::abs(axis_up) < 0.5);
+  dVector3 down = {0, 0, -1}, lowest;
+  REQUIRE(snGeomSupport(egg, down, lowest) == 1);
+  const dReal* position = dBodyGetPosition(body);
+  CHECK(std::hypot(lowest[0] - position[0], lowest[1] - position[1]) < 2e-3 * a);
+  CHECK(norm(to_vec(dBodyGetAngularVel(body))) < 1e-2);
+
+  dJointGroupDestroy(scene.contacts);
+  dSpaceDestroy(space);
+  dWorldDestroy(world);
+}

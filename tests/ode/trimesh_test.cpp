@@ -1,0 +1,402 @@
+// Our bodies and dTriMesh.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "ode/mesh_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+void check_same_but_for_side(const std::vector<dContactGeom>& contacts, const std::vector<dContactGeom>& reference) {
+  REQUIRE(contacts.size() == reference.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    CHECK(contacts[i].depth == reference[i].depth);
+    CHECK(to_vec(contacts[i].normal) == to_vec(reference[i].normal));
+    CHECK(to_vec(contacts[i].pos) == to_vec(reference[i].pos));
+  }
+}
+
+// Of ours, and of the mesh: ODE swaps what the collider wrote when it was asked the other way round.
+void check_swapped(const std::vector<dContactGeom>& one, const std::vector<dContactGeom>& other) {
+  REQUIRE(one.size() == other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    CHECK(one[i].g1 == other[i].g2);
+    CHECK(one[i].g2 == other[i].g1);
+    CHECK(one[i].side1 == other[i].side2);
+    CHECK(one[i].side2 == other[i].side1);
+    CHECK(one[i].depth == other[i].depth);
+    CHECK(to_vec(one[i].normal) == -1.0 * to_vec(other[i].normal));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a floor of triangles is a dPlane, in both orders") {
+  OdeSession session;
+  Random random(31);
+  const MeshGeom floor(floor_arrays(60, 60, 0.125));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  std::size_t contacts = 0;
+  for (int i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    const Geom body(i % 3 == 0 ? snCreateSuperellipsoid(nullptr, 1, dReal(0.6), dReal(0.4), i % 2 == 0 ? 200 : dReal(1.02), 8)
+                               : random_body(random));
+    random.turn(body);
+    const bool is_on_vertex = i % 5 == 0;
+    place(body, is_on_vertex ? Vec{3.75, 3.5, 0} : Vec{random.uniform(2.5, 5), random.uniform(2.5, 5), 0});
+    if (is_on_vertex) {
+      const dQuaternion upright = {1, 0, 0, 0};
+      dGeomSetQuaternion(body, upright);
+    }
+    snProximity lowest;
+    REQUIRE(snGeomProximity(body, plane, &lowest) == 1);
+    move(body, {0, 0, random.uniform(-0.12, 0.02) - lowest.gap});
+    const auto on_floor = collide(body, floor);
+    check_same_but_for_side(on_floor, collide(body, plane));
+    check_swapped(on_floor, collide(floor, body));
+    contacts += on_floor.size();
+    for (const dContactGeom& contact : on_floor) {
+      CHECK(contact.side1 == -1);
+      CHECK(contact.side2 >= 0);
+      CHECK(contact.side2 < 7200);
+    }
+    snProximity of_plane;
+    snProximity of_floor;
+    REQUIRE(snGeomProximity(body, plane, &of_plane) == 1);
+    REQUIRE(snGeomProximity(body, floor, &of_floor) == 1);
+    CHECK(std::abs(of_plane.gap - of_floor.gap) < 1e-9);
+  }
+  CHECK(contacts > 1500);
+}
+
+namespace {
+
+/// Two equal bodies that slide in a running world of their own, one on a plane and one on a mesh, without gravity's help along it.
+struct Slide {
+  dWorldID world = dWorldCreate();
+  dJointGroupID joints = dJointGroupCreate(0);
+  dBodyID body = nullptr;
+
+  Slide() { dWorldSetGravity(world, 0, 0, dReal(-9.81)); }
+  ~Slide() {
+    dJointGroupDestroy(joints);
+    dWorldDestroy(world);
+  }
+  Slide(const Slide&) = delete;
+  Slide(Slide&&) = delete;
+  Slide& operator=(const Slide&) = delete;
+  Slide& operator=(Slide&&) = delete;
+
+  void add(dGeomID geom, const Vec& position, const Vec& velocity) {
+    body = dBodyCreate(world);
+    dMass mass;
+    REQUIRE(snMassSet(&mass, 1000, geom) == 1);
+    dBodySetMass(body, &mass);
+    dGeomSetBody(geom, body);
+    dBodySetPosition(body, dReal(position[0]), dReal(position[1]), dReal(position[2]));
+    dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), dReal(velocity[2]));
+  }
+
+  int step(dGeomID geom, dGeomID ground, double mu) {
+    std::array<dContact, 8> contacts{};
+    const int count = dCollide(geom, ground, 8, &contacts[0].geom, sizeof(dContact));
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = contacts[static_cast<std::size_t>(i)];
+      contact.surface.mode = dContactApprox1;
+      contact.surface.mu = dReal(mu);
+      dJointAttach(dJointCreateContact(world, joints, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
+    }
+    dWorldQuickStep(world, dReal(1e-3));
+    dJointGroupEmpty(joints);
+    return count;
+  }
+};
+
+dGeomID make_slider(const std::string& kind) {
+  if (kind == "ellipsoid") return snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.3), dReal(0.2));
+  if (kind == "wheel") return snCreateEllipsoid(nullptr, dReal(0.3), dReal(0.2), dReal(0.3));
+  return snCreateSuperellipsoid(nullptr, dReal(0.4), dReal(0.3), dReal(0.2), 4, 4);
+}
+
+}  // namespace
+
+TEST_CASE("10 m across 20 000 triangles: as on a plane") {
+  OdeSession session;
+  struct Case {
+    const char* kind;
+    double mu;
+    double height;
+  };
+  for (const Case& slider : {Case{"ellipsoid", 0, 0.2}, Case{"wheel", 0.5, 0.3}, Case{"superellipsoid", 0, 0.2}}) {
+    CAPTURE(slider.kind);
+    dRandSetSeed(1);
+    const MeshGeom floor(floor_arrays(100, 100, 0.125));
+    const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+    const Geom on_mesh(make_slider(slider.kind));
+    const Geom on_plane(make_slider(slider.kind));
+    Slide mesh_slide;
+    Slide plane_slide;
+    const Vec start = {1, 1.03, slider.height};
+    const Vec velocity = {4, slider.mu > 0 ? 0 : 0.9, 0};
+    mesh_slide.add(on_mesh, start, velocity);
+    plane_slide.add(on_plane, start, velocity);
+    double difference = 0;
+    double vertical = 0;
+    double travelled = 0;
+    for (int step = 0; step < 4000 && travelled < 10; ++step) {
+      REQUIRE(mesh_slide.step(on_mesh, floor, slider.mu) == plane_slide.step(on_plane, plane, slider.mu));
+      const Vec position = to_vec(dBodyGetPosition(mesh_slide.body));
+      difference = std::max(difference, norm(position - to_vec(dBodyGetPosition(plane_slide.body))));
+      vertical = std::max(vertical, std::abs(double{dBodyGetLinearVel(mesh_slide.body)[2]}));
+      travelled = norm(position - start);
+    }
+    CHECK(travelled >= 10);
+    CHECK(difference < 1e-6);
+    CHECK(vertical < 1e-6);
+  }
+}
+
+TEST_CASE("10 m across a turned and moved floor, whose vertices are rounded") {
+  OdeSession session;
+  Random random(32);
+  const MeshGeom floor(floor_arrays(100, 100, 0.1));  // 0.1 is no float
+  dQuaternion turn = {dReal(0.8), dReal(0.1), dReal(-0.3), dReal(0.5)};
+  dNormalize4(turn);
+  dGeomSetQuaternion(floor, turn);
+  place(floor, {100, -50, 20});
+  const dReal* const R = dGeomGetRotation(floor);
+  const Vec up = {R[2], R[6], R[10]};
+  const Vec along = {R[0], R[4], R[8]};
+  const Vec across = {R[1], R[5], R[9]};
+  const Geom body(make_slider("wheel"));
+  dGeomSetQuaternion(body, turn);
+  Slide slide;
+  dWorldSetGravity(slide.world, dReal(-9.81 * up[0]), dReal(-9.81 * up[1]), dReal(-9.81 * up[2]));
+  const Vec start = Vec{100, -50, 20} + 0.5 * along + 4.03 * across + 0.3 * up;
+  slide.add(body, start, 4.0 * along);
+  dBodySetQuaternion(slide.body, turn);
+  double vertical = 0;
+  double off_line = 0;
+  for (int step = 0; step < 2200; ++step) {
+    REQUIRE(slide.step(body, floor, 0) == 1);
+    const Vec way = to_vec(dBodyGetPosition(slide.body)) - start;
+    vertical = std::max(vertical, std::abs(dot(up, to_vec(dBodyGetLinearVel(slide.body)))));
+    off_line = std::max({off_line, std::abs(dot(up, way)), std::abs(dot(across, way))});
+    if (dot(along, way) > 9) break;
+  }
+  CHECK(vertical < 1e-6);
+  CHECK(off_line < 1e-6);
+}
+
+TEST_CASE("a turned and moved block against dBox: sphere-shaped bodies") {
+  OdeSession session;
+  Random random(33);
+  const MeshGeom block(box_arrays(1, 0.75, 0.5));
+  const Geom box(dCreateBox(nullptr, 2, dReal(1.5), 1));
+  std::size_t contacts = 0;
+  for (int i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    random.turn(block);
+    dGeomSetRotation(box, dGeomGetRotation(block));
+    const Vec where = 10.0 * random.direction();
+    for (const dGeomID geom : {dGeomID(block), dGeomID(box)}) place(geom, where);
+    const auto radius = dReal(random.uniform(0.2, 0.6));
+    const Geom ours(snCreateEllipsoid(nullptr, radius, radius, radius));
+    const Geom sphere(dCreateSphere(nullptr, radius));
+    const Vec there = where + random.uniform(0.9, 1.6) * random.direction();
+    place(ours, there);
+    place(sphere, there);
+    random.turn(ours);
+    const auto reference = collide(sphere, box);
+    if (!reference.empty() && reference[0].depth > 0.9 * radius) continue;  // the centre is in the box, or nearly
+    const auto found = collide(ours, block);
+    snProximity proximity;
+    REQUIRE(snGeomProximity(ours, block, &proximity) == 1);
+    if (reference.empty()) {
+      CHECK(found.empty());
+      CHECK(proximity.gap > -1e-9);
+      continue;
+    }
+    if (reference[0].depth < 1e-9) continue;
+    ++contacts;
+    REQUIRE(found.size() == 1);
+    CHECK(std::abs(found[0].depth - reference[0].depth) < 1e-9);
+    CHECK(norm(to_vec(found[0].normal) - to_vec(reference[0].normal)) < 1e-6);
+    CHECK(std::abs(proximity.gap + found[0].depth) < 1e-12);
+  }
+  CHECK(contacts > 500);
+}
+
+TEST_CASE("distances: the nearest triangle, however far") {
+  OdeSession session;
+  Random random(34);
+  const MeshGeom block(box_arrays(1, 0.75, 0.5));
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    const double radius = random.uniform(0.1, 0.6);
+    const Geom ball(snCreateEllipsoid(nullptr, dReal(radius), dReal(radius), dReal(radius)));
+    const Vec where = std::pow(10.0, random.uniform(0.3, 4)) * random.direction();
+    place(ball, where);
+    const Vec nearest = {std::clamp(where[0], -1.0, 1.0), std::clamp(where[1], -0.75, 0.75), std::clamp(where[2], -0.5, 0.5)};
+    snProximity one;
+    snProximity other;
+    REQUIRE(snGeomProximity(ball, block, &one) == 1);
+    REQUIRE(snGeomProximity(block, ball, &other) == 1);
+    CHECK(std::abs(one.gap - (norm(where - nearest) - radius)) < 1e-9);
+    CHECK(norm(to_vec(one.point2) - nearest) < 1e-4);
+    CHECK(one.gap == other.gap);
+    CHECK(to_vec(one.normal) == -1.0 * to_vec(other.normal));
+    CHECK(to_vec(one.point1) == to_vec(other.point2));
+  }
+  // Between two distant blocks of one mesh, nearer to the one that is not in the first box looked at.
+  MeshArrays two = box_arrays(0.5, 0.5, 0.5);
+  const auto count = static_cast<dTriIndex>(two.vertices.size());
+  const auto triangles = two.triangles;
+  for (std::size_t i = 0; i < count; ++i) two.add(two.vertices[i][0] + 100, two.vertices[i][1] + 3, two.vertices[i][2]);
+  for (const auto& t : triangles) two.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  const MeshGeom blocks(two);
+  const Geom body(snCreateEllipsoid(nullptr, 1, dReal(0.5), dReal(0.25)));
+  for (const double x : {20.0, 40.0, 49.0, 51.0, 80.0}) {
+    CAPTURE(x);
+    place(body, {x, 0, 0});
+    snProximity proximity;
+    REQUIRE(snGeomProximity(body, blocks, &proximity) == 1);
+    const double to_first = x - 1.5;
+    if (x < 50) {
+      CHECK(proximity.gap == doctest::Approx(to_first).epsilon(1e-9));
+    } else {
+      CHECK(proximity.gap < to_first);
+      CHECK(proximity.gap > 98.5 - x);
+      CHECK(proximity.point2[0] == doctest::Approx(99.5));
+    }
+  }
+}
+
+TEST_CASE("a room: one contact for each wall, the deepest when there is room for less") {
+  OdeSession session;
+  const MeshGeom room(box_arrays(3, 4, 5, true));
+  const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
+  place(body, {2.0625, -3.125, 4.25});
+  const auto contacts = collide(body, room);
+  REQUIRE(contacts.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(contacts[i].depth == doctest::Approx(std::array{0.25, 0.125, 0.0625}[i]));
+  CHECK(contacts[0].normal[2] == -1);  // into the body
+  CHECK(contacts[1].normal[1] == 1);
+  CHECK(contacts[2].normal[0] == -1);
+  for (const int room_for : {1, 2}) {
+    const auto fewer = collide(body, room, room_for);
+    REQUIRE(fewer.size() == static_cast<std::size_t>(room_for));
+    for (std::size_t i = 0; i < fewer.size(); ++i) CHECK(fewer[i].depth == contacts[i].depth);
+  }
+  // With a stride, nothing between the contacts is touched.
+  struct Spaced {
+    dContactGeom contact;
+    std::array<char, 40> between;
+  };
+  std::array<Spaced, 4> spaced;
+  for (Spaced& s : spaced) s.between.fill('x');
+  REQUIRE(dCollide(body, room, 4, &spaced[0].contact, sizeof(Spaced)) == 3);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(spaced[i].contact.depth == contacts[i].depth);
+  for (const Spaced& s : spaced) CHECK(std::all_of(s.between.begin(), s.between.end(), [](char c) { return c == 'x'; }));
+}
+
+TEST_CASE("meshes of one triangle, of none that is usable, and with repeated triangles") {
+  OdeSession session;
+  const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.7), dReal(0.3)));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  place(body, {0.1, 0.2, 0.28});
+
+  MeshArrays one;
+  one.triangles.push_back({one.add(-2, -2, 0), one.add(2, -2, 0), one.add(0, 3, 0)});
+  const MeshGeom triangle(one);
+  check_same_but_for_side(collide(body, triangle), collide(body, plane));
+  place(body, {0.1, 0.2, -0.28});  // from behind: as deep as it is
+  check_same_but_for_side(collide(body, triangle), collide(body, plane));
+  place(body, {0.1, 0.2, -0.31});
+  CHECK(collide(body, triangle).empty());
+  place(body, {0.1, 0.2, 0.28});
+
+  MeshArrays degenerate;
+  const dTriIndex a = degenerate.add(0, 0, 0);
+  const dTriIndex b = degenerate.add(1, 0, 0);
+  const dTriIndex c = degenerate.add(0.5, 0, 0);
+  degenerate.triangles = {{a, a, a}, {a, b, a}, {a, b, c}};
+  const MeshGeom flat(degenerate);
+  CHECK(collide(body, flat).empty());
+  snProximity proximity;
+  CHECK(snGeomProximity(body, flat, &proximity) == 1);
+
+  MeshArrays repeated = floor_arrays(4, 4, 0.25);
+  const auto once = repeated.triangles;
+  for (int i = 0; i < 3; ++i) repeated.triangles.insert(repeated.triangles.end(), once.begin(), once.end());
+  for (const auto& t : degenerate.triangles) repeated.triangles.push_back(t);
+  const MeshGeom floor(repeated);
+  place(body, {0.5, 0.5, 0.28});
+  check_same_but_for_side(collide(body, floor), collide(body, plane));
+}
+
+namespace {
+
+struct Told {
+  std::vector<int> indices;
+  dGeomID by = nullptr;
+};
+Told told;
+
+void tell(dGeomID /*mesh*/, dGeomID geom, const int* indices, int count) {
+  told.indices.assign(indices, indices + count);
+  told.by = geom;
+}
+
+int wants_even(dGeomID /*mesh*/, dGeomID /*geom*/, int index) { return index % 2 == 0 ? 1 : 0; }
+
+}  // namespace
+
+TEST_CASE("the callbacks of the mesh are heard and left in place") {
+  OdeSession session;
+  const MeshGeom floor(floor_arrays(8, 8, 0.5));
+  const Geom body(snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.4), dReal(0.4)));
+  dGeomTriMeshSetCallback(floor, wants_even);
+  dGeomTriMeshSetArrayCallback(floor, tell);
+  dGeomTriMeshEnableTC(floor, dBoxClass, 1);
+  std::size_t even = 0;
+  for (int i = 0; i < 100; ++i) {
+    told = {};
+    place(body, {1.5 + 0.01 * i, 1.7, 0.39});
+    const auto contacts = collide(body, floor);
+    CHECK(told.by == dGeomID(body));
+    CHECK(told.indices.size() >= 2);
+    for (const dContactGeom& contact : contacts) {
+      CHECK(contact.side2 % 2 == 0);
+      CHECK(std::find(told.indices.begin(), told.indices.end(), contact.side2) != told.indices.end());
+      ++even;
+    }
+    CHECK((dGeomTriMeshGetCallback(floor) == wants_even));
+    CHECK((dGeomTriMeshGetArrayCallback(floor) == tell));
+    CHECK(dGeomTriMeshIsTCEnabled(floor, dBoxClass) == 1);
+  }
+  CHECK(even > 20);
+  // A distance is no collision to tell of.
+  told = {};
+  snProximity proximity;
+  REQUIRE(snGeomProximity(body, floor, &proximity) == 1);
+  CHECK(told.by == nullptr);
+}
+
+TEST_CASE("ODE closed and opened again, and bodies that are no numbers") {
+  for (int round = 0; round < 2; ++round) {
+    OdeSession session;
+    const MeshGeom floor(floor_arrays(8, 8, 0.5));
+    const Geom body(snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.4), dReal(0.4)));
+    place(body, {2, 2, 0.39});
+    CHECK(collide(body, floor).size() == 1);
+    place(body, {std::numeric_limits<double>::quiet_NaN(), 2, 0.39});
+    CHECK(collide(body, floor).empty());
+    snProximity proximity;
+    CHECK(snGeomProximity(body, floor, &proximity) == 0);
+  }
+}
