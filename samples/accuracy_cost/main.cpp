@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "measurement.hpp"
+#include "partner_cost.hpp"
 #include "report.hpp"
 
 namespace {
@@ -19,16 +20,23 @@ struct Options {
   int rounds = Effort{}.rounds;
   double batch_us = Effort{}.batch * 1e6;
   std::string csv;
+  bool partners = false;
+  std::size_t poses = 200;
 };
 
 void run(const Options& options) {
+  const Effort effort{options.rounds, options.batch_us * 1e-6};
+  if (options.partners) {
+    write_partner_costs(options.poses, options.seed, effort, std::cout);
+    return;
+  }
   std::vector<Pair> pairs = draw_pairs(options.pairs, options.seed);
   Methods methods = supernormal_methods();
   for (Methods more = libccd_methods(); auto& method : more) methods.push_back(std::move(method));
   methods.push_back(evaluation_cost(supernormal::Order::Point));
   methods.push_back(evaluation_cost(supernormal::Order::Curvature));
 
-  const auto samples = measure(methods, pairs, {options.rounds, options.batch_us * 1e-6});
+  const auto samples = measure(methods, pairs, effort);
   // Wherever anybody's answer leads higher, the reference was not the highest maximum.
   for (const auto& of_method : samples) {
     for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -56,7 +64,11 @@ int main(int argc, char** argv) {
     app.add_option("--batch", options.batch_us, "microseconds for which each timing repeats its query; 0: asked once")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    app.add_option("--csv", options.csv, "file for the results");
+    CLI::Option* const csv = app.add_option("--csv", options.csv, "file for the results");
+    app.add_flag("--partners", options.partners, "times dCollide against every class of ODE instead")->excludes(csv);
+    app.add_option("--poses", options.poses, "with --partners: of each body at each partner")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     run(options);
   } catch (const std::exception& error) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "random.hpp"
+#include "random_geometry.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/solve.hpp"
@@ -24,20 +24,6 @@ constexpr double kReferenceTolerance = 1e-14;
 constexpr double kWarmDistance = 1e-3;     // m and rad
 constexpr double kEvaluationSpread = 0.1;  // rad
 constexpr int kReferenceStarts = 60;       // per overlapping pair
-
-double uniform(Random& random, double low, double high) { return low + (high - low) * random.uniform(); }
-
-Vector3 random_normal(Random& random) {
-  const double z = uniform(random, -1, 1);
-  const double angle = 2 * std::numbers::pi * random.uniform();
-  const double across = std::sqrt(1 - z * z);
-  return {across * std::cos(angle), across * std::sin(angle), z};
-}
-
-Matrix3 random_attitude(Random& random) {
-  const auto [w, x, y, z] = random.rotation();
-  return Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
-}
 
 std::shared_ptr<const Shape> random_body(Random& random, BodyClass body_class) {
   const double a = uniform(random, 0.5, 1.5);

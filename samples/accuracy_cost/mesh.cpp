@@ -1,0 +1,92 @@
+#include "mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace accuracy_cost {
+
+using supernormal::Vector3;
+
+namespace {
+
+double signed_power(double x, double exponent) { return std::copysign(std::pow(std::abs(x), exponent), x); }
+
+}  // namespace
+
+Mesh superellipsoid_mesh(const Vector3& half_axes, double exponent, unsigned meridians, unsigned rings) {
+  const double power = 2 / exponent;
+  Mesh mesh;
+  for (unsigned ring = 1; ring <= rings; ++ring) {
+    const double latitude = std::numbers::pi * (static_cast<double>(ring) / (rings + 1) - 0.5);
+    const double across = signed_power(std::cos(latitude), power);
+    for (unsigned k = 0; k < meridians; ++k) {
+      const double longitude = 2 * std::numbers::pi * k / meridians;
+      const Vector3 unit(across * signed_power(std::cos(longitude), power), across * signed_power(std::sin(longitude), power),
+                         signed_power(std::sin(latitude), power));
+      mesh.vertices.emplace_back(half_axes.cwiseProduct(unit));
+    }
+  }
+  const unsigned south = meridians * rings;
+  const unsigned north = south + 1;
+  mesh.vertices.emplace_back(0, 0, -half_axes.z());
+  mesh.vertices.emplace_back(0, 0, half_axes.z());
+  for (unsigned k = 0; k < meridians; ++k) {
+    const unsigned next = (k + 1) % meridians;
+    mesh.triangles.push_back({south, next, k});
+    for (unsigned low = 0; low + meridians < south; low += meridians) {
+      const unsigned high = low + meridians;
+      mesh.triangles.push_back({low + k, low + next, high + next});
+      mesh.triangles.push_back({low + k, high + next, high + k});
+    }
+    mesh.triangles.push_back({north, south - meridians + k, south - meridians + next});
+  }
+  return mesh;
+}
+
+Mesh icosahedron(double radius) {
+  Mesh mesh;
+  const double golden = std::numbers::phi;
+  for (const double one : {-1.0, 1.0}) {
+    for (const double other : {-golden, golden}) {
+      mesh.vertices.emplace_back(0, one, other);
+      mesh.vertices.emplace_back(one, other, 0);
+      mesh.vertices.emplace_back(other, 0, one);
+    }
+  }
+  // Its edges are 2 long; three vertices at that distance from one another are a face.
+  const auto is_edge = [&](unsigned i, unsigned j) { return (mesh.vertices[i] - mesh.vertices[j]).norm() < 2.1; };
+  const auto count = static_cast<unsigned>(mesh.vertices.size());
+  for (unsigned i = 0; i < count; ++i) {
+    for (unsigned j = i + 1; j < count; ++j) {
+      for (unsigned k = j + 1; k < count; ++k) {
+        if (!is_edge(i, j) || !is_edge(j, k) || !is_edge(i, k)) continue;
+        const bool is_outward = mesh.vertices[i].dot(mesh.vertices[j].cross(mesh.vertices[k])) > 0;
+        mesh.triangles.push_back(is_outward ? std::array{i, j, k} : std::array{i, k, j});
+      }
+    }
+  }
+  for (Vector3& vertex : mesh.vertices) vertex *= radius / vertex.norm();
+  return mesh;
+}
+
+Mesh terrain(unsigned cells, double cell, double amplitude) {
+  Mesh mesh;
+  const double half = 0.5 * cells * cell;
+  for (unsigned i = 0; i <= cells; ++i) {
+    for (unsigned j = 0; j <= cells; ++j) {
+      mesh.vertices.emplace_back(i * cell - half, j * cell - half, amplitude * std::sin(i) * std::sin(j));
+    }
+  }
+  for (unsigned i = 0; i < cells; ++i) {
+    for (unsigned j = 0; j < cells; ++j) {
+      const unsigned corner = i * (cells + 1) + j;
+      const unsigned across = corner + cells + 1;
+      mesh.triangles.push_back({corner, across, across + 1});
+      mesh.triangles.push_back({corner, across + 1, corner + 1});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace accuracy_cost

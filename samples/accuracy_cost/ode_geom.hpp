@@ -1,0 +1,35 @@
+// Geoms of ODE and of ours that outlive nothing they refer to.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+
+#include "mesh.hpp"
+
+namespace accuracy_cost {
+
+/// Owns a geom and the data that it looks at.
+class OdeGeom {
+ public:
+  /// std::runtime_error when `id` is null.
+  explicit OdeGeom(dGeomID id, std::shared_ptr<void> data = nullptr);
+  OdeGeom(OdeGeom&& other) noexcept;
+  OdeGeom& operator=(OdeGeom&&) = delete;
+  OdeGeom(const OdeGeom&) = delete;
+  OdeGeom& operator=(const OdeGeom&) = delete;
+  ~OdeGeom();
+
+  dGeomID id() const { return id_; }
+
+ private:
+  dGeomID id_;
+  std::shared_ptr<void> data_;
+};
+
+OdeGeom make_convex(const Mesh& mesh);
+
+/// With the face angles that ODE's collider with dConvex asserts.
+OdeGeom make_trimesh(const Mesh& mesh);
+
+}  // namespace accuracy_cost
