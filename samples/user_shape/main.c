@@ -1,0 +1,98 @@
+/* An egg and a lens, given to the library only by their support functions (bodies.c), against every class of geom that ODE has:
+ * and against bodies of this library, lowered onto the top of each partner by a little more than it takes to touch. Prints, for
+ * each pair, the gap, the contacts and the normal, and the mass of the two bodies. */
+#include <math.h>
+#include <stdio.h>
+
+#include "bodies.h"
+#include "partners.h"
+
+enum { MAX_CONTACTS = 8 };
+
+static const double kOverlap = 0.01; /* m */
+
+/* Whether the contacts are what ODE wants and what the gap promises: normals into the body, upwards. */
+static int is_sound(const dContactGeom* contacts, int count, const snProximity* gap, int is_ray) {
+  double deepest = 0;
+  for (int i = 0; i < count; ++i) {
+    const dReal* n = contacts[i].normal;
+    if (fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) > 1e-6 || n[2] < 0.999) return 0;
+    if (contacts[i].depth > deepest) deepest = contacts[i].depth;
+  }
+  if (is_ray) return count == 1; /* its depth is the distance along it */
+  return count > 0 && fabs(deepest + gap->gap) < 1e-6;
+}
+
+/* Prints as 0.000 and not -0.000. */
+static double unsigned_zero(double x) { return fabs(x) < 5e-4 ? 0 : x; }
+
+/* One line of the table. Returns whether the pair touches and agrees. */
+static int report(const char* name, dGeomID body, const Partner* partner) {
+  dContactGeom contacts[MAX_CONTACTS];
+  const int count = dCollide(body, partner->geom, MAX_CONTACTS, contacts, sizeof(dContactGeom));
+  snProximity gap = {0};
+  const int is_ray = dGeomGetClass(partner->geom) == dRayClass;
+  const int has_gap = snGeomProximity(body, partner->geom, &gap);
+  if (count == 0) {
+    printf("%-5s | %-14s | no contact: %s\n", name, partner->name, snLastError());
+    return 0;
+  }
+  char distance[32] = "-";
+  if (has_gap) snprintf(distance, sizeof distance, "%.6f", (double)gap.gap);
+  const dReal* n = contacts[0].normal;
+  printf("%-5s | %-14s | %9s | %d | %8.6f | %6.3f %6.3f %6.3f | %d\n", name, partner->name, distance, count,
+         (double)contacts[0].depth, unsigned_zero(n[0]), unsigned_zero(n[1]), unsigned_zero(n[2]), gap.evaluations);
+  return is_sound(contacts, count, &gap, is_ray);
+}
+
+/* The body so high above the origin that its lowest point is kOverlap below it. */
+static void lower_onto_origin(dGeomID body) {
+  const dVector3 down = {0, 0, -1};
+  dVector3 lowest;
+  dGeomSetPosition(body, 0, 0, 0);
+  snGeomSupport(body, down, lowest);
+  dGeomSetPosition(body, -lowest[0], -lowest[1], (dReal)(-lowest[2] - kOverlap));
+}
+
+static void print_masses(dGeomID egg, dGeomID lens_geom, Lens lens) {
+  dMass mass;
+  snMassSet(&mass, 1000, egg);
+  printf("egg: mass %.6f kg, centre of mass at z = %.6f m\n", (double)mass.mass, (double)mass.c[2]);
+  if (!snMassSet(&mass, 1000, lens_geom)) printf("lens: %s\n", snLastError());
+  set_lens_mass(&mass, 1000, lens);
+  printf("lens, by its own formula: mass %.6f kg\n", (double)mass.mass);
+}
+
+int main(void) {
+  dInitODE2(0);
+  dAllocateODEDataForThread(dAllocateMaskAll);
+  Partner partners[PARTNER_COUNT];
+  create_partners(partners);
+
+  const Egg egg = {0.4, 0.1};
+  const Lens lens = {0.6, 0.3};
+  const char* names[] = {"egg", "lens"};
+  dGeomID bodies[] = {create_egg(0, egg), create_lens(0, lens)};
+  dMatrix3 tilt;
+  dRFromAxisAndAngle(tilt, 1, 2, 0, (dReal)0.25);
+
+  int sound = 1;
+  printf("body  | partner        | gap (m)   | contacts, the first one's depth (m) and normal | evaluations\n");
+  for (int k = 0; k < 2; ++k) {
+    if (bodies[k] == NULL) {
+      printf("%s refused: %s\n", names[k], snLastError());
+      return 1;
+    }
+    dGeomSetRotation(bodies[k], tilt);
+    lower_onto_origin(bodies[k]);
+    for (int i = 0; i < PARTNER_COUNT; ++i) sound &= report(names[k], bodies[k], &partners[i]);
+  }
+  print_masses(bodies[0], bodies[1], lens);
+  printf(sound ? "every pair touches and agrees\n" : "some pair does not touch or does not agree\n");
+
+  for (int k = 0; k < 2; ++k) dGeomDestroy(bodies[k]);
+  destroy_partners(partners);
+  snClose();
+  dCloseODE();
+  return sound ? 0 : 1;
+}
