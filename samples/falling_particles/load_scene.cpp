@@ -6,6 +6,7 @@
 
 #include "catalogue.hpp"
 #include "input_error.hpp"
+#include "load_container.hpp"
 #include "nearest_word.hpp"
 #include "scene.hpp"
 #include "toml_input.hpp"
@@ -133,35 +134,24 @@ void read_effects(const TomlTable& root, Scene& scene) {
   }
 }
 
-/// The lattice needs room for one cell at least, whatever the attitude of the largest grain.
-void check_fit(const TomlTable& box, const Scene& scene) {
-  const double cell = 2 * scene.largest_bounding_radius() * (1 + scene.drop.gap);
-  const double narrowest = std::min(scene.box.width[0], scene.box.width[1]);
-  if (narrowest >= cell) return;
-  box.fail("width", "box.width is " + shortest(narrowest) + " at its narrowest; allowed: at least " + shortest(cell) +
-                        " m, so that the largest grain fits in any attitude");
-}
-
 }  // namespace
 
 Scene load_scene(const std::string& path) {
   const TomlTable root =
       TomlFile(path, "scene file")
-          .root({"seed", "catalogue", "box", "drop", "grain", "time", "solver", "contact", "gravity", "friction"});
+          .root({"seed", "catalogue", "container", "drop", "grain", "time", "solver", "contact", "gravity", "friction"});
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
-  const TomlTable box = root.table("box", {"width"});
-  const std::vector<double> width = box.numbers("width", 2, Interval::positive(1000, "m"));
-  scene.box = {{width[0], width[1]}};
+  scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
+  scene.container = read_container(root, scene.time);
   const TomlTable drop = root.table("drop", {"height", "gap", "total"});
   scene.drop = {drop.number("height", Interval::closed(0, 1000, "m")), drop.number("gap", Interval::closed(0, 10, ""))};
   scene.grains = read_grains(root, drop, path);
-  scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.contact = read_contact(root.table("contact", {"surface_layer", "max_correcting_velocity"}));
   read_effects(root, scene);
-  check_fit(box, scene);
+  check_fit(root, scene);
   return scene;
 }
 

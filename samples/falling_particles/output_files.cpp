@@ -45,4 +45,14 @@ void Energies::write(double time, const Energy& energy, std::size_t contacts) {
 
 void Energies::close() { close_or_throw(stream_, path_); }
 
+DischargeFile::DischargeFile(const std::filesystem::path& path) : path_(path), stream_(path) {
+  stream_ << "time_s,discharged_kg,discharged_grains\n";
+}
+
+void DischargeFile::write(double time, double mass, std::size_t count) {
+  stream_ << shortest(time) << ',' << shortest(mass) << ',' << count << '\n';
+}
+
+void DischargeFile::close() { close_or_throw(stream_, path_); }
+
 }  // namespace falling_particles

@@ -13,7 +13,8 @@ namespace falling_particles {
 inline constexpr std::string_view kTrajectoryFile = "trajectory.csv";
 inline constexpr std::string_view kEnergiesFile = "energies.csv";
 inline constexpr std::string_view kSummaryFile = "summary.toml";
-inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile, kSummaryFile};
+inline constexpr std::string_view kDischargeFile = "discharge.csv";
+inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile, kSummaryFile, kDischargeFile};
 
 /// trajectory.csv: a line per frame and body. Numbers are the shortest text that reads back exactly.
 class Trajectory {
@@ -33,6 +34,18 @@ class Energies {
   explicit Energies(const std::filesystem::path& path);
   void write(double time, const Energy& energy, std::size_t contacts);
   void close();  ///< throws when anything could not be written
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream stream_;
+};
+
+/// discharge.csv, of a hopper: a line per frame.
+class DischargeFile {
+ public:
+  explicit DischargeFile(const std::filesystem::path& path);
+  void write(double time, double mass, std::size_t count);  ///< s; kg and grains that have passed the outlet up to then
+  void close();                                             ///< throws when anything could not be written
 
  private:
   std::filesystem::path path_;

@@ -39,11 +39,8 @@ Overlap measure_overlap(const World& world) {
   return overlap;
 }
 
-std::size_t count_outside(const World& world, const Box& box) {
-  const auto inside = [&box](const Body& body) {
-    const dReal* p = dBodyGetPosition(body.body);
-    return p[0] > 0 && p[0] < box.width[0] && p[1] > 0 && p[1] < box.width[1] && p[2] > 0 && p[2] < INFINITY;
-  };
+std::size_t count_outside(const World& world, const Container& container) {
+  const auto inside = [&container](const Body& body) { return contains(container, body.position()); };
   return world.bodies().size() - static_cast<std::size_t>(std::ranges::count_if(world.bodies(), inside));
 }
 

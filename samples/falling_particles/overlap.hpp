@@ -17,6 +17,6 @@ struct Overlap {
 Overlap measure_overlap(const World& world);
 
 /// Grains whose centre is beyond a wall or the floor, or nowhere (not a number).
-std::size_t count_outside(const World& world, const Box& box);
+std::size_t count_outside(const World& world, const Container& container);
 
 }  // namespace falling_particles

@@ -11,7 +11,7 @@ namespace falling_particles {
 
 struct Placement {
   std::size_t kind;                  ///< index into Scene::grains
-  std::array<double, 3> position;    ///< m
+  Point position;                    ///< m
   std::array<double, 4> quaternion;  ///< w, x, y, z
 };
 

@@ -6,9 +6,12 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <variant>
 
+#include "discharge.hpp"
 #include "energy.hpp"
 #include "interrupt.hpp"
+#include "leaks.hpp"
 #include "output_files.hpp"
 #include "output_folder.hpp"
 #include "placement.hpp"
@@ -21,36 +24,60 @@
 namespace falling_particles {
 namespace {
 
+/// What is looked at after every step.
+struct Watches {
+  Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene.container) {
+    if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
+  }
+  void after_step(double time) {
+    leaks.after_step(time);
+    if (discharge) discharge->after_step(time);
+  }
+
+  LeakWatch leaks;
+  std::optional<Discharge> discharge;  // of a hopper
+};
+
 /// The frames of a run, written as it goes.
 class Recorder {
  public:
-  Recorder(const OutputFolder& folder, const World& world, const Scene& scene)
+  Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const std::optional<Discharge>& discharge)
       : world_(world),
         scene_(scene),
+        discharge_(discharge),
         trajectory_(folder.file(std::string(kTrajectoryFile))),
-        energies_(folder.file(std::string(kEnergiesFile))) {}
+        energies_(folder.file(std::string(kEnergiesFile))) {
+    if (discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
+  }
 
-  void record(int step, std::size_t contacts) {
-    const double time = std::round(step * scene_.time.step * 1e9) / 1e9;  // 0.7 and not 0.7000000000000001
+  void record(double time, std::size_t contacts) {
     trajectory_.write(time, world_);
     energies_.write(time, measure_energy(world_, scene_), contacts);
+    if (discharge_file_) discharge_file_->write(time, discharge_->mass(), discharge_->count());
   }
 
   void close() {
     trajectory_.close();
     energies_.close();
+    if (discharge_file_) discharge_file_->close();
   }
 
  private:
   const World& world_;
   const Scene& scene_;
+  const std::optional<Discharge>& discharge_;
   Trajectory trajectory_;
   Energies energies_;
+  std::optional<DischargeFile> discharge_file_;
 };
+
+double time_after(int step, const Time& time) {
+  return std::round(step * time.step * 1e9) / 1e9;  // 0.7 and not 0.7000000000000001
+}
 
 /// Steps until the end or until the user interrupts; a frame at the start, at every interval and at the end. Returns the steps
 /// done.
-int advance(Stepper& stepper, Recorder& recorder, const Time& time, bool quiet) {
+int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& time, bool quiet) {
   const int steps = time.steps();
   std::optional<Progress> progress;
   if (!quiet) progress.emplace(stderr, steps);
@@ -59,9 +86,11 @@ int advance(Stepper& stepper, Recorder& recorder, const Time& time, bool quiet) 
   while (step < steps && !interrupted()) {
     stepper.step();
     ++step;
+    const double now = time_after(step, time);
+    watches.after_step(now);
     const bool last = step == steps || interrupted();
-    if (last || step % time.steps_per_frame() == 0) recorder.record(step, stepper.contacts());
-    if (progress) progress->update(step, step * time.step, stepper.contacts());
+    if (last || step % time.steps_per_frame() == 0) recorder.record(now, stepper.contacts());
+    if (progress) progress->update(step, now, stepper.contacts());
     if (last) break;
   }
   recorder.close();
@@ -81,17 +110,19 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet) {
   OutputFolder folder(out, scene.name);
   Random random(scene.seed);
-  const World world(scene, place(scene, random));
+  World world(scene, place(scene, random));
   Stepper stepper(world, scene);
-  Recorder recorder(folder, world, scene);
+  Watches watches(world, scene, random);
+  Recorder recorder(folder, world, scene, watches.discharge);
   snResetStatistics();
   const auto start = std::chrono::steady_clock::now();
-  const int steps = advance(stepper, recorder, scene.time, quiet);
+  const int steps = advance(stepper, watches, recorder, scene.time, quiet);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   snStatistics statistics;  // before the measurements at the end add to them
   snGetStatistics(&statistics);
 
   const bool early = steps < scene.time.steps();
+  const Box* box = std::get_if<Box>(&scene.container);
   const Summary summary{scene,
                         early,
                         steps,
@@ -103,15 +134,21 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet) {
                         stepper.deepest_contact(),
                         kinetic_height(world, scene),
                         measure_overlap(world),
-                        count_outside(world, scene.box),
-                        measure_bed(world, scene.box, random)};
+                        count_outside(world, scene.container),
+                        watches.leaks.count(),
+                        box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, random)),
+                        watches.discharge ? &*watches.discharge : nullptr};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);
   folder.commit();
   std::fputs(text.c_str(), stdout);
   if (early) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", steps, scene.time.steps());
+  if (watches.leaks.first()) {
+    std::fprintf(stderr, "Leak: %zu of %d grains; the first: %s\n", watches.leaks.count(), scene.bodies(),
+                 describe(*watches.leaks.first()).c_str());
+  }
   if (!quiet) std::fprintf(stderr, "Results: %s\n", folder.path().c_str());
-  return early ? RunEnd::Interrupted : RunEnd::Completed;
+  return {early, watches.leaks.count() > 0};
 }
 
 }  // namespace falling_particles

@@ -6,9 +6,12 @@
 
 namespace falling_particles {
 
-enum class RunEnd { Completed, Interrupted };
+struct RunEnd {
+  bool interrupted;
+  bool leaked;  ///< a grain was outside the container at some time
+};
 
-/// Simulates the scene and writes `out`/<scene>/; prints the summary to stdout and, unless quiet, progress to stderr.
+/// Simulates the scene and writes `out`/<scene>/; prints the summary to stdout, warnings to stderr and, unless quiet, progress too.
 RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet);
 
 }  // namespace falling_particles

@@ -26,4 +26,6 @@ double Scene::largest_bounding_radius() const {
   return largest;
 }
 
+double Scene::smallest_cell() const { return 2 * largest_bounding_radius() * (1 + drop.gap); }
+
 }  // namespace falling_particles

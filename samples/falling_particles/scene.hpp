@@ -6,14 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "container/container.hpp"
 #include "grain.hpp"
 
 namespace falling_particles {
-
-/// The container: a floor at z = 0 and four walls without upper end, at x = 0, x = width[0], y = 0 and y = width[1].
-struct Box {
-  std::array<double, 2> width;  ///< m
-};
 
 struct GrainCount {
   Grain grain;
@@ -22,7 +18,7 @@ struct GrainCount {
 
 /// How the grains start: on a lattice whose cells hold the largest grain in any attitude.
 struct Drop {
-  double height;  ///< m, of the lowest cells above the floor
+  double height;  ///< m, of the lowest cells above the floor, a hopper's outlet or a terrain's highest peak
   double gap;     ///< free part of a cell, relative to the largest grain; the grains are placed at random within it
 };
 
@@ -56,7 +52,7 @@ struct Friction {
 struct Scene {
   std::string name;  ///< of the file, without folder and extension
   std::uint64_t seed;
-  Box box;
+  Container container;
   std::vector<GrainCount> grains;
   Drop drop;
   Time time;
@@ -68,6 +64,7 @@ struct Scene {
   int bodies() const;
   double smallest_half_axis() const;       ///< m, of all grains
   double largest_bounding_radius() const;  ///< m, of all grains
+  double smallest_cell() const;            ///< m, width and height of the cell that holds the largest grain
 };
 
 /// Throws InputError.

@@ -1,7 +1,11 @@
 #include "summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <variant>
+
+#include "beverloo.hpp"
 
 namespace falling_particles {
 namespace {
@@ -14,7 +18,7 @@ class Lines {
     text_ += padded(key, 32) + "= " + (*comment == '\0' ? value : padded(value, 12) + "# " + comment) + '\n';
   }
   void add(const char* key, unsigned long long value, const char* comment = "") { add(key, std::to_string(value), comment); }
-  void add(const char* key, bool value, const char* comment) { add(key, std::string(value ? "true" : "false"), comment); }
+  void add(const char* key, bool value, const char* comment = "") { add(key, std::string(value ? "true" : "false"), comment); }
   void add(const char* key, double value, const char* comment = "") {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", value);
@@ -40,6 +44,7 @@ void add_run(Lines& lines, const Summary& s) {
   lines.section("run");
   lines.add("scene", '"' + s.scene.name + '"');
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
+  lines.add("container", '"' + std::string(kind_of(s.scene.container)) + '"');
   lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()));
   for (const GrainCount& kind : s.scene.grains) {
     lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));
@@ -54,7 +59,7 @@ void add_queries(Lines& lines, const Summary& s) {
   const auto steps = static_cast<unsigned long long>(s.steps);
   lines.section("collision");
   lines.add("pairs_tested", s.costs.pairs_tested, "whose bounding boxes met, in all steps");
-  lines.add("queries_cold", n.queries_cold, "pairs of two bodies without a remembered normal");
+  lines.add("queries_cold", n.queries_cold, "pairs without a remembered normal; mesh and ground have none");
   lines.add("queries_warm", n.queries_warm, "with one");
   lines.add("evaluations_per_cold_query", ratio(n.evaluations_cold, n.queries_cold), "of the gap function, mean");
   lines.add("evaluations_per_warm_query", ratio(n.evaluations_warm, n.queries_warm));
@@ -66,6 +71,13 @@ void add_queries(Lines& lines, const Summary& s) {
   lines.add("deepest_contact", s.deepest_contact, "m, of all steps: grains hit one another in flight");
 }
 
+void add_bed(Lines& lines, const Bed& bed, const char* about_height) {
+  lines.add("bed_height", bed.height, about_height);
+  lines.add("volume_fraction", bed.volume_fraction,
+            "of the slab from 5 % to 80 % of bed_height, from wall to wall; overlaps count once");
+  lines.add("volume_fraction_standard_error", bed.standard_error, "of the sampling (stratified points, snGeomPointDepth)");
+}
+
 void add_end_state(Lines& lines, const Summary& s) {
   const double size = s.scene.smallest_half_axis();
   lines.section("end");
@@ -75,14 +87,42 @@ void add_end_state(Lines& lines, const Summary& s) {
   lines.add("deepest_overlap_of_pair", s.overlap.relative_to_pair, "largest of depth / smallest half-axis of the pair itself");
   lines.add("overlapping_pairs", static_cast<unsigned long long>(s.overlap.pairs));
   lines.add("bodies_outside", static_cast<unsigned long long>(s.outside), "centre beyond a wall or the floor");
+  lines.add("bodies_leaked", static_cast<unsigned long long>(s.leaked), "outside after any step");
   if (s.scene.gravity) {
     lines.add("kinetic_height", s.kinetic_height, "m, to which the kinetic energy would lift all grains");
     lines.add("settled", s.kinetic_height < kSettledHeight * size, "kinetic_height below 0.1 % of smallest_half_axis");
   }
-  lines.add("bed_height", s.bed.height, "m, twice the mean height of the grains' volume");
-  lines.add("volume_fraction", s.bed.volume_fraction,
-            "of the slab from 5 % to 80 % of bed_height, from wall to wall; overlaps count once");
-  lines.add("volume_fraction_standard_error", s.bed.standard_error, "of the sampling (stratified points, snGeomPointDepth)");
+  if (s.bed) add_bed(lines, *s.bed, "m, twice the mean height of the grains' volume");
+}
+
+/// Against Beverloo's law. Keys whose value does not exist (nothing discharged, say) are left out.
+void add_mass_flow(Lines& lines, const Scene& scene, const Hopper& hopper, const Discharge& discharge) {
+  const Charge& charge = *discharge.charge();
+  const std::optional<double> flow = discharge.mass_flow();
+  if (flow) lines.add("mass_flow", *flow, "kg/s, mean from 20 % to 60 % of the charge");
+  if (!scene.gravity) return;
+  const auto [x, y, z] = scene.gravity->acceleration;
+  const double predicted = beverloo_mass_flow(hopper.outlet, charge.grain_diameter, charge.bed.bulk_density, std::hypot(x, y, z));
+  lines.add("beverloo", predicted, "kg/s, 0.58 rho_b sqrt(g) (D - 1.4 d)^2.5 (Beverloo et al. 1961), flat bottom");
+  if (flow && predicted > 0) lines.add("mass_flow_relative", *flow / predicted, "to beverloo");
+}
+
+void add_discharge(Lines& lines, const Scene& scene, const Discharge& discharge) {
+  const auto& hopper = std::get<Hopper>(scene.container);
+  lines.section("discharge");
+  lines.add("opened", discharge.charge().has_value());
+  if (!discharge.charge()) return;
+  const Charge& charge = *discharge.charge();
+  lines.add("opened_at", charge.time, "s");
+  lines.add("charge", charge.mass, "kg, all grains");
+  lines.add("grain_diameter", charge.grain_diameter, "m, d: of the sphere of the grains' mean volume");
+  lines.add("outlet_relative", hopper.outlet / charge.grain_diameter, "diameter D of the outlet / d");
+  add_bed(lines, charge.bed, "m, above the outlet when it opens, of a level bed with the grains' mean height");
+  lines.add("bulk_density", charge.bed.bulk_density, "kg/m^3, rho_b, of the same slab");
+  lines.add("discharged", discharge.mass(), "kg");
+  lines.add("discharged_grains", static_cast<unsigned long long>(discharge.count()), "whose centre has passed the outlet");
+  if (discharge.count() > 0) lines.add("last_passage", discharge.last_passage(), "s");
+  add_mass_flow(lines, scene, hopper, discharge);
 }
 
 void add_costs(Lines& lines, const Summary& s) {
@@ -108,6 +148,7 @@ std::string to_toml(const Summary& summary) {
   add_run(lines, summary);
   add_queries(lines, summary);
   add_end_state(lines, summary);
+  if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);
   add_costs(lines, summary);
   return lines.text();
 }

@@ -2,9 +2,11 @@
 
 #include <supernormal/supernormal.h>
 
+#include <optional>
 #include <string>
 
 #include "bed.hpp"
+#include "discharge.hpp"
 #include "overlap.hpp"
 #include "scene.hpp"
 #include "stepper.hpp"
@@ -27,8 +29,10 @@ struct Summary {
   double deepest_contact;  ///< m, of all steps
   double kinetic_height;   ///< m
   Overlap overlap;
-  std::size_t outside;
-  Bed bed;
+  std::size_t outside;         ///< at the end
+  std::size_t leaked;          ///< at any time
+  std::optional<Bed> bed;      ///< of a box
+  const Discharge* discharge;  ///< of a hopper, or null
 };
 
 /// As TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.

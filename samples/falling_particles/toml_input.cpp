@@ -91,6 +91,13 @@ std::string TomlTable::text(std::string_view key) const {
   return *text;
 }
 
+std::string TomlTable::choice(std::string_view key, const std::vector<std::string>& allowed) const {
+  if (!has(key)) fail_missing(key, join(allowed));
+  const std::string word = text(key);
+  if (std::ranges::find(allowed, word) != allowed.end()) return word;
+  fail(key, full_name(key) + " is " + in_quotes(word) + did_you_mean(word, allowed) + "; allowed: " + join(allowed));
+}
+
 double TomlTable::number(std::string_view key, const Interval& allowed) const {
   const toml::node* value = node_->table->get(key);
   if (value == nullptr) fail_missing(key, allowed.describe());
@@ -127,14 +134,19 @@ std::int64_t TomlTable::integer(std::string_view key, std::int64_t lowest, std::
 }
 
 TomlTable TomlTable::table(std::string_view key, std::vector<std::string> keys) const {
-  const std::string allowed = "a table with " + join(keys);
-  const toml::node* value = node_->table->get(key);
-  if (value == nullptr) fail_missing(key, allowed);
-  const toml::table* part = value->as_table();
-  if (part == nullptr) fail_value(key, allowed);
-  TomlTable result(std::make_shared<const Node>(node_->child(*part, full_name(key))));
+  TomlTable result = part(key, "a table with " + join(keys));
   result.refuse_unknown_keys(keys);
   return result;
+}
+
+TomlTable TomlTable::table(std::string_view key) const { return part(key, "a table"); }
+
+TomlTable TomlTable::part(std::string_view key, const std::string& allowed) const {
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const toml::table* table = value->as_table();
+  if (table == nullptr) fail_value(key, allowed);
+  return TomlTable(std::make_shared<const Node>(node_->child(*table, full_name(key))));
 }
 
 std::optional<TomlTable> TomlTable::find_table(std::string_view key, std::vector<std::string> keys) const {

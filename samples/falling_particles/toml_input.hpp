@@ -19,16 +19,21 @@ class TomlTable {
   std::string text(std::string_view key) const;
   double number(std::string_view key, const Interval& allowed) const;
   std::vector<double> numbers(std::string_view key, std::size_t count, const Interval& allowed) const;
+  std::string choice(std::string_view key, const std::vector<std::string>& allowed) const;
   std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest) const;
 
   bool has(std::string_view key) const;
 
   /// The table under `key`, which may hold `keys` and nothing else.
   TomlTable table(std::string_view key, std::vector<std::string> keys) const;
+  /// The table under `key`, for those whose keys depend on what is in it: refuse_unknown_keys() has to follow.
+  TomlTable table(std::string_view key) const;
   std::optional<TomlTable> find_table(std::string_view key, std::vector<std::string> keys) const;
 
   /// The array of tables ([[key]]), not empty.
   std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& keys) const;
+
+  void refuse_unknown_keys(const std::vector<std::string>& keys) const;
 
   /// All keys, for tables whose keys are names that the user chooses; in the order of the file.
   std::vector<std::string> names() const;
@@ -43,7 +48,7 @@ class TomlTable {
   friend class TomlFile;
   struct Node;
   explicit TomlTable(std::shared_ptr<const Node> node);
-  void refuse_unknown_keys(const std::vector<std::string>& keys) const;
+  TomlTable part(std::string_view key, const std::string& allowed) const;
   [[noreturn]] void fail_missing(std::string_view key, const std::string& allowed) const;
   [[noreturn]] void fail_value(std::string_view key, const std::string& allowed) const;
 

@@ -9,12 +9,12 @@
 namespace falling_particles {
 namespace {
 
-constexpr unsigned long kPlaneBit = 1;
+constexpr unsigned long kWallBit = 1;
 constexpr unsigned long kGrainBit = 2;
 
 /// Hash space: its cost grows as the number of grains, where sweep and prune sorts along one axis on which a settled bed overlaps
 /// throughout. One level per power of two from the smallest to the largest bounding box, so that every grain sits in a cell of its
-/// own size; ODE's default range is for metres. The planes, infinite, are tested against everybody in any space.
+/// own size; ODE's default range is for metres. The walls, larger, are tested against everybody.
 dSpaceID create_space(const Scene& scene) {
   dSpaceID space = dHashSpaceCreate(nullptr);
   const int finest = static_cast<int>(std::ceil(std::log2(2 * scene.smallest_half_axis())));
@@ -45,12 +45,13 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
   // Quickstep shuffles its constraints with ODE's global generator.
   dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
   set_parameters(scene);
-  add_planes(scene.box);
+  walls_.emplace(space_, scene.container, kWallBit, kGrainBit);  // walls overlap one another, which is nobody's business
   bodies_.reserve(placements.size());
   for (const Placement& placement : placements) add_body(scene.grains[placement.kind].grain, placement);
 }
 
 World::~World() {
+  walls_.reset();
   dSpaceDestroy(space_);
   dWorldDestroy(world_);
   snClose();
@@ -69,16 +70,6 @@ void World::set_parameters(const Scene& scene) {
   }
 }
 
-void World::add_planes(const Box& box) {
-  // A plane's solid side is where its normal points away from: a x + b y + c z < d.
-  planes_ = {dCreatePlane(space_, 0, 0, 1, 0), dCreatePlane(space_, 1, 0, 0, 0), dCreatePlane(space_, -1, 0, 0, -box.width[0]),
-             dCreatePlane(space_, 0, 1, 0, 0), dCreatePlane(space_, 0, -1, 0, -box.width[1])};
-  for (dGeomID plane : planes_) {  // the planes overlap one another, which is no business of the near callback
-    dGeomSetCategoryBits(plane, kPlaneBit);
-    dGeomSetCollideBits(plane, kGrainBit);
-  }
-}
-
 void World::add_body(const Grain& grain, const Placement& placement) {
   Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), create_geom(space_, grain), &grain, {}});
   if (snMassSet(&entry.mass, grain.density, entry.geom) == 0) {
@@ -88,7 +79,7 @@ void World::add_body(const Grain& grain, const Placement& placement) {
   dGeomSetBody(entry.geom, entry.body);
   dGeomSetData(entry.geom, &entry);  // bodies_ is reserved: entries stay where they are
   dGeomSetCategoryBits(entry.geom, kGrainBit);
-  dGeomSetCollideBits(entry.geom, kGrainBit | kPlaneBit);
+  dGeomSetCollideBits(entry.geom, kGrainBit | kWallBit);
   const auto [x, y, z] = placement.position;
   dBodySetPosition(entry.body, x, y, z);
   const dQuaternion q = {placement.quaternion[0], placement.quaternion[1], placement.quaternion[2], placement.quaternion[3]};

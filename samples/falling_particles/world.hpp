@@ -2,9 +2,10 @@
 
 #include <ode/ode.h>
 
-#include <array>
+#include <optional>
 #include <vector>
 
+#include "container/walls.hpp"
 #include "placement.hpp"
 #include "scene.hpp"
 
@@ -17,6 +18,10 @@ struct Body {
   dMass mass;
 
   double volume() const { return mass.mass / grain->density; }  ///< m^3
+  Point position() const {                                      ///< m, of the centre
+    const dReal* p = dBodyGetPosition(body);
+    return {p[0], p[1], p[2]};
+  }
 };
 
 /// The body of a geom in a World; null for a wall.
@@ -35,17 +40,19 @@ class World {
   dWorldID id() const { return world_; }
   dSpaceID space() const { return space_; }
   const std::vector<Body>& bodies() const { return bodies_; }
-  const std::array<dGeomID, 5>& planes() const { return planes_; }
+  const Walls& walls() const { return *walls_; }
+
+  /// Takes the lid off a hopper's outlet; once.
+  void open_outlet() { walls_->open_outlet(); }
 
  private:
   void set_parameters(const Scene& scene);
-  void add_planes(const Box& box);
   void add_body(const Grain& grain, const Placement& placement);
 
   dWorldID world_;
   dSpaceID space_;
   std::vector<Body> bodies_;
-  std::array<dGeomID, 5> planes_{};
+  std::optional<Walls> walls_;
 };
 
 }  // namespace falling_particles

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The program from outside: the same result twice, exit codes, nothing left behind after bad input, Ctrl-C.
+# The program from outside: the same result twice, containers, exit codes, nothing left behind after bad input, Ctrl-C.
 # Usage: falling_particles_cli_test.sh PROGRAM SAMPLES_FOLDER
 set -euo pipefail
 program=$1
@@ -36,7 +36,6 @@ same_seed_same_result() {
 }
 
 other_seed_other_result() {
-  mkdir -p "$work/scenes" && cp -r "$samples/data" "$work/data"
   sed 's/^seed = .*/seed = 4711/' "$samples/scenes/short.toml" >"$work/scenes/short.toml"
   expect 0 "$program" -q --scene "$work/scenes/short.toml" --out "$work/third"
   ! cmp -s "$work/first/short/trajectory.csv" "$work/third/short/trajectory.csv" || fail "the seed has no effect"
@@ -52,6 +51,42 @@ bad_input_leaves_nothing() {
   expect 2 "$program" --scene "$work/scenes/short.toml" --out "$work/bad" --speed 3
   [ ! -e "$work/bad" ] || fail "an output folder after bad input"
   expect 0 "$program" --help
+}
+
+# The scene with fewer grains and less time. $1: name, then sed expressions
+shortened() {
+  local name=$1 && shift
+  sed "$@" -e 's/^frame = .*/frame = 0.01/' "$samples/scenes/$name.toml" >"$work/scenes/$name.toml"
+}
+
+# A number of $work/containers/$1/summary.toml. $2: its key
+value() { sed -n "s/^$2 *= *\([^ ]*\).*/\1/p" "$work/containers/$1/summary.toml"; }
+
+other_containers() {
+  shortened hopper -e 's/^count = .*/count = 30/' -e 's/^opens_at = [^ ]*/opens_at = 0.3/' -e 's/^duration = .*/duration = 0.8/'
+  expect 0 "$program" -q --check-leaks --scene "$work/scenes/hopper.toml" --out "$work/containers"
+  [ "$(value hopper container)" = '"hopper"' ] || fail "the summary does not name the hopper"
+  [ "$(value hopper bodies_leaked)" = 0 ] || fail "grains leaked out of the hopper"
+  [ "$(value hopper discharged_grains)" = 60 ] || fail "the hopper did not run empty"
+  awk "BEGIN { exit !($(value hopper mass_flow) > 0 && $(value hopper beverloo) > 0) }" || fail "no mass flow"
+  local csv=$work/containers/hopper/discharge.csv
+  [ "$(wc -l <"$csv")" -eq 82 ] || fail "discharge.csv is not a head and 81 frames"
+  [ "$(tail -1 "$csv" | cut -d, -f3)" = 60 ] || fail "discharge.csv does not end with all grains"
+  awk -F, 'NR > 1 { if ($2 < mass || $1 < 0.3 && $3 > 0) exit 1; mass = $2 }' "$csv" || fail "discharge.csv falls, or starts early"
+
+  shortened terrain -e 's/^count = .*/count = 4/' -e 's/^duration = .*/duration = 0.4/'
+  expect 0 "$program" -q --check-leaks --scene "$work/scenes/terrain.toml" --out "$work/containers"
+  [ "$(value terrain bodies_leaked)" = 0 ] || fail "grains leaked through the terrain"
+  [ ! -e "$work/containers/terrain/discharge.csv" ] || fail "discharge.csv without a hopper"
+}
+
+leaks_are_told() {
+  # A step so long that what falls passes the floor within one.
+  sed -e 's/^step = .*/step = 0.15/' -e 's/^frame = .*/frame = 0.15/' "$samples/scenes/short.toml" >"$work/scenes/leaky.toml"
+  expect 3 "$program" -q --check-leaks --scene "$work/scenes/leaky.toml" --out "$work/leaky"
+  grep -q '^Leak: [0-9]* of 60 grains; the first: grain [0-9]* (.*) left the container at t = ' "$work/log" || fail "leaks are not told"
+  ! grep -q '^bodies_leaked *= 0 ' "$work/leaky/leaky/summary.toml" || fail "the summary does not count the leaks"
+  expect 0 "$program" -q --scene "$work/scenes/leaky.toml" --out "$work/leaky"
 }
 
 ctrl_c_writes_what_there_is() {
@@ -75,8 +110,11 @@ ctrl_c_writes_what_there_is() {
   [ -z "$(find "$work/stopped" -name '.*' -mindepth 1)" ] || fail "unfinished folder left behind"
 }
 
+mkdir "$work/scenes" && cp -r "$samples/data" "$work/data"
 same_seed_same_result
 other_seed_other_result
 bad_input_leaves_nothing
+other_containers
+leaks_are_told
 ctrl_c_writes_what_there_is
 echo "all passed"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catalogue.hpp"
+#include "complaint.hpp"
 #include "input_error.hpp"
 #include "scene.hpp"
 #include "scene_text.hpp"
@@ -12,48 +13,13 @@
 
 using namespace falling_particles;
 
-namespace {
-
-/// What loading the scene says, with the temporary folder's name taken out; "" when it is accepted.
-std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText) {
-  const TemporaryFolder folder;
-  folder.write("grains.toml", catalogue);
-  const std::string path = folder.write("scene.toml", scene);
-  try {
-    load_scene(path);
-  } catch (const InputError& error) {
-    std::string text = error.what();
-    const std::string prefix = folder.path().string() + "/";
-    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
-    return text;
-  }
-  return "";
-}
-
-struct Mistake {
-  const char* from;
-  const char* to;
-  std::vector<const char*> says;  // where, what, and what is allowed
-};
-
-void check_says(const std::string& text, const std::vector<const char*>& says) {
-  CAPTURE(text);
-  CHECK(text.find('\n') == std::string::npos);
-  for (const std::string part : says) {
-    CAPTURE(part);
-    CHECK(text.find(part) != std::string::npos);
-  }
-}
-
-}  // namespace
-
 TEST_CASE("a scene file is read as it is written") {
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);
   const Scene scene = load_scene(folder.write("my.scene.toml", kSceneText));
   CHECK(scene.name == "my.scene");
   CHECK(scene.seed == 7);
-  CHECK(scene.box.width == std::array<double, 2>{0.05, 0.06});
+  CHECK(std::get<Box>(scene.container).width == std::array<double, 2>{0.05, 0.06});
   CHECK(scene.bodies() == 7);
   REQUIRE(scene.grains.size() == 2);
   CHECK(scene.grains[1].grain.name == "die");
@@ -92,27 +58,37 @@ TEST_CASE("every mistake in a scene file ends with one line: file, line, what is
   const std::vector<Mistake> mistakes = {
       {"width = [0.05, 0.06]",
        "widht = [0.05, 0.06]",
-       {"scene.toml:4: unknown key \"widht\" in [box]", "did you mean \"width\"?", "allowed: width"}},
-      {"[friction]", "[frction]", {"scene.toml:27: unknown key \"frction\" at the top", "did you mean \"friction\"?"}},
-      {"width = [0.05, 0.06]", "width = [0.05, -0.06]", {"scene.toml:4: box.width[1] is -0.06", "(0, 1000] m"}},
-      {"width = [0.05, 0.06]", "width = [0.05]", {"scene.toml:4: box.width is an array of 1", "an array of 2"}},
-      {"width = [0.05, 0.06]", "width = [0.05, 0.015]", {"scene.toml:4: box.width is 0.015", "at least 0.018", "largest grain"}},
-      {"width = [0.05, 0.06]", "", {"scene.toml:3: box.width is missing"}},
-      {"step = 0.0005", "step = 0", {"scene.toml:16: time.step is 0;", "(0, 0.1] s"}},
-      {"step = 0.0005", "step = nan", {"scene.toml:16: time.step is nan"}},
-      {"step = 0.0005", "step = \"fast\"", {"scene.toml:16: time.step is the string \"fast\"; allowed: a number"}},
-      {"step = 0.0005", "step = true", {"scene.toml:16: time.step is true"}},
-      {"duration = 0.1", "duration = inf", {"scene.toml:15: time.duration is inf"}},
-      {"frame = 0.01", "frame = 0.0001", {"scene.toml:17: time.frame is 1e-04", "[5e-04, 0.1]"}},
-      {"iterations = 20", "iterations = 2.5", {"scene.toml:19: solver.iterations is 2.5; allowed: a whole number"}},
-      {"coefficient = 0.4", "coefficient = 0", {"scene.toml:28: friction.coefficient is 0", "(0, 100]"}},
+       {"scene.toml:5: unknown key \"widht\" in [container]", "did you mean \"width\"?", "allowed: kind, width"}},
+      {"[friction]", "[frction]", {"scene.toml:28: unknown key \"frction\" at the top", "did you mean \"friction\"?"}},
+      {"width = [0.05, 0.06]", "width = [0.05, -0.06]", {"scene.toml:5: container.width[1] is -0.06", "(0, 1000] m"}},
+      {"width = [0.05, 0.06]", "width = [0.05]", {"scene.toml:5: container.width is an array of 1", "an array of 2"}},
+      {"width = [0.05, 0.06]",
+       "width = [0.05, 0.015]",
+       {"scene.toml:5: container.width is 0.015", "at least 0.018", "largest grain"}},
+      {"kind = \"box\"",
+       "kind = \"bx\"",
+       {"scene.toml:4: container.kind is \"bx\"", "did you mean \"box\"?", "allowed: box, hopper, terrain"}},
+      {"kind = \"box\"", "", {"scene.toml:3: container.kind is missing; allowed: box, hopper, terrain"}},
+      {"kind = \"box\"", "kind = 3", {"scene.toml:4: container.kind is 3; allowed: a string"}},
+      {"kind = \"box\"",
+       "kind = \"terrain\"\namplitud = 1",
+       {"scene.toml:5: unknown key \"amplitud\" in [container]", "did you mean \"amplitude\"?"}},
+      {"width = [0.05, 0.06]", "", {"scene.toml:3: container.width is missing"}},
+      {"step = 0.0005", "step = 0", {"scene.toml:17: time.step is 0;", "(0, 0.1] s"}},
+      {"step = 0.0005", "step = nan", {"scene.toml:17: time.step is nan"}},
+      {"step = 0.0005", "step = \"fast\"", {"scene.toml:17: time.step is the string \"fast\"; allowed: a number"}},
+      {"step = 0.0005", "step = true", {"scene.toml:17: time.step is true"}},
+      {"duration = 0.1", "duration = inf", {"scene.toml:16: time.duration is inf"}},
+      {"frame = 0.01", "frame = 0.0001", {"scene.toml:18: time.frame is 1e-04", "[5e-04, 0.1]"}},
+      {"iterations = 20", "iterations = 2.5", {"scene.toml:20: solver.iterations is 2.5; allowed: a whole number"}},
+      {"coefficient = 0.4", "coefficient = 0", {"scene.toml:29: friction.coefficient is 0", "(0, 100]"}},
       {"seed = 7", "seed = -1", {"scene.toml:1: seed is -1"}},
       {"seed = 7", "seed = 7\nseed = 8", {"scene.toml:2: ", "seed"}},
       {"seed = 7", "seed = ", {"scene.toml:1: ", "valid TOML"}},
-      {"name = \"pea\"", "name = \"pae\"", {"scene.toml:9: unknown grain \"pae\"", "did you mean \"pea\"?", "pea, die"}},
-      {"name = \"pea\"", "name = \"die\"", {"scene.toml:12: grain \"die\" is listed twice"}},
-      {"count = 2", "fraction = 0.5", {"scene.toml:13: grain.fraction is mixed with count"}},
-      {"count = 2", "count = 0", {"scene.toml:13: grain.count is 0; allowed: a whole number from 1"}},
+      {"name = \"pea\"", "name = \"pae\"", {"scene.toml:10: unknown grain \"pae\"", "did you mean \"pea\"?", "pea, die"}},
+      {"name = \"pea\"", "name = \"die\"", {"scene.toml:13: grain \"die\" is listed twice"}},
+      {"count = 2", "fraction = 0.5", {"scene.toml:14: grain.fraction is mixed with count"}},
+      {"count = 2", "count = 0", {"scene.toml:14: grain.count is 0; allowed: a whole number from 1"}},
       {"catalogue = \"grains.toml\"", "catalogue = \"grain.toml\"", {"scene.toml:2: catalogue: there is no file", "grain.toml"}},
   };
   for (const Mistake& mistake : mistakes) check_says(complaint(replaced(kSceneText, mistake.from, mistake.to)), mistake.says);
@@ -122,8 +98,8 @@ TEST_CASE("fractions that do not sum to one are refused") {
   std::string text = replaced(kSceneText, "count = 5", "fraction = 0.5");
   text = replaced(text, "count = 2", "fraction = 0.4");
   check_says(complaint(replaced(text, "gap = 0.1", "gap = 0.1\ntotal = 10")),
-             {"scene.toml:11: ", "sum to 0.9", "allowed: a sum of 1"});
-  check_says(complaint(text), {"scene.toml:5: drop.total is missing"});
+             {"scene.toml:12: ", "sum to 0.9", "allowed: a sum of 1"});
+  check_says(complaint(text), {"scene.toml:6: drop.total is missing"});
 }
 
 TEST_CASE("every mistake in a catalogue ends with one line too") {
@@ -162,5 +138,6 @@ TEST_CASE("the catalogue of real grains is valid and names its sources") {
     CHECK_FALSE(grain.source.empty());
     CHECK(grain.bounding_radius() < 0.05);
   }
-  for (const char* scene : {"mixture", "short"}) load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
+  for (const char* scene : {"mixture", "short", "hopper", "terrain"})
+    load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
 }

@@ -17,7 +17,8 @@ namespace {
 Grain ellipsoid() { return {"ellipsoid", {0.02, 0.03, 0.01}, 2, 2, 0, 1000, "typical"}; }
 
 Scene scene_of(const Grain& grain, int count) {
-  return {"test", 1, {{0.2, 0.2}}, {{grain, count}}, {0, 0}, {1, 1e-3, 0.1}, {50, 0.2, 1e-10}, {1e-3, 1}, Gravity{{0, 0, -10}}, {}};
+  return {"test", 1, Box{{0.2, 0.2}}, {{grain, count}}, {0, 0}, {1, 1e-3, 0.1}, {50, 0.2, 1e-10}, {1e-3, 1}, Gravity{{0, 0, -10}},
+          {}};
 }
 
 Placement upright(double x, double y, double z) { return {0, {x, y, z}, {1, 0, 0, 0}}; }
@@ -46,9 +47,9 @@ TEST_CASE("the deepest overlap is found, between grains and with walls") {
   CHECK(overlap.pairs == 2);
   CHECK(overlap.depth == doctest::Approx(3e-3).epsilon(1e-9));
   CHECK(overlap.relative_to_pair == doctest::Approx(0.3).epsilon(1e-9));
-  CHECK(count_outside(world, scene.box) == 0);
+  CHECK(count_outside(world, scene.container) == 0);
   dBodySetPosition(world.bodies()[0].body, 0.05, 0.1, -0.001);
-  CHECK(count_outside(world, scene.box) == 1);
+  CHECK(count_outside(world, scene.container) == 1);
 }
 
 TEST_CASE("nothing overlaps when all are apart") {
@@ -66,7 +67,7 @@ TEST_CASE("the volume fraction is that of a known bed") {
   const World world(scene,
                     {upright(0.05, 0.05, 0.05), upright(0.15, 0.05, 0.05), upright(0.05, 0.15, 0.05), upright(0.15, 0.15, 0.05)});
   Random random(1);
-  const Bed bed = measure_bed(world, scene.box, random);
+  const Bed bed = measure_bed(world, std::get<Box>(scene.container), random);
   CHECK(bed.height == doctest::Approx(0.1).epsilon(1e-12));  // twice the height of the centres
   // The slab reaches from 0.005 to 0.08, the boxes from 0.01 to 0.09: 14/15 of it.
   const double expected = 0.64 * 14 / 15;
@@ -80,7 +81,8 @@ TEST_CASE("a grain that overlaps another counts once") {
   const World twice(scene, {upright(0.1, 0.1, 0.05), upright(0.1, 0.1, 0.05)});
   Random first(1);
   Random second(1);
-  CHECK(measure_bed(once, scene.box, first).volume_fraction == measure_bed(twice, scene.box, second).volume_fraction);
+  CHECK(measure_bed(once, std::get<Box>(scene.container), first).volume_fraction ==
+        measure_bed(twice, std::get<Box>(scene.container), second).volume_fraction);
 }
 
 TEST_CASE("a dropped grain falls freely, comes to rest on the floor and touches it in one contact") {

@@ -33,7 +33,7 @@ TEST_CASE("grains start apart from one another and from the walls") {
     const double radius = scene.grains[p.kind].grain.bounding_radius();
     for (std::size_t axis : {0U, 1U}) {
       CHECK(p.position[axis] >= radius);
-      CHECK(p.position[axis] <= scene.box.width[axis] - radius);
+      CHECK(p.position[axis] <= std::get<Box>(scene.container).width[axis] - radius);
     }
     CHECK(p.position[2] >= scene.drop.height + radius);
     const auto [w, x, y, z] = p.quaternion;

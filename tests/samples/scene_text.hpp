@@ -23,7 +23,8 @@ source = "typical"
 
 inline constexpr const char* kSceneText = R"(seed = 7
 catalogue = "grains.toml"
-[box]
+[container]
+kind = "box"
 width = [0.05, 0.06]
 [drop]
 height = 0.01
@@ -51,6 +52,24 @@ acceleration = [0, 0, -9.81]
 coefficient = 0.4
 )";
 
+inline constexpr const char* kHopperText = R"(kind = "hopper"
+outlet = 0.05
+wall_angle = 30
+diameter = 0.1
+cylinder_height = 0.1
+segments = 12
+clearance = 0.05
+tray_width = 0.15
+opens_at = 0.05)";
+
+inline constexpr const char* kTerrainText = R"(kind = "terrain"
+width = [0.05, 0.06]
+amplitude = 0.004
+wavelength = 0.03
+ridge_height = 0.002
+samples = 21
+seed = 3)";
+
 /// `text` with the only occurrence of `from` replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -58,4 +77,9 @@ inline std::string replaced(std::string text, const std::string& from, const std
     throw std::logic_error("\"" + from + "\" does not occur exactly once");
   }
   return text.replace(at, from.size(), to);
+}
+
+/// The scene above with another container.
+inline std::string scene_in(const std::string& container) {
+  return replaced(kSceneText, "kind = \"box\"\nwidth = [0.05, 0.06]", container);
 }

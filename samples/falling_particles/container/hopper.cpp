@@ -1,0 +1,93 @@
+#include "container/hopper.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace falling_particles {
+namespace {
+
+double angle_of(int side, int segments) { return 2 * std::numbers::pi * side / segments; }
+
+/// A horizontal ring of corners, midway between the directions of the sides.
+void append_ring(Mesh& mesh, int segments, double radius, double z) {
+  const double to_corner = radius / std::cos(std::numbers::pi / segments);
+  for (int side = 0; side < segments; ++side) {
+    const double angle = angle_of(side, segments) - std::numbers::pi / segments;
+    mesh.vertices.push_back(
+        {static_cast<float>(to_corner * std::cos(angle)), static_cast<float>(to_corner * std::sin(angle)), static_cast<float>(z)});
+  }
+}
+
+/// The band between two successive rings, seen from inside.
+void append_band(Mesh& mesh, unsigned int segments, unsigned int lower_ring) {
+  const unsigned int lower = lower_ring * segments;
+  const unsigned int upper = lower + segments;
+  for (unsigned int i = 0; i < segments; ++i) {
+    const unsigned int next = (i + 1) % segments;
+    mesh.triangles.push_back({lower + i, upper + i, upper + next});
+    mesh.triangles.push_back({lower + i, upper + next, lower + next});
+  }
+}
+
+struct Moments {
+  double volume = 0, first = 0;  // up to the polygon's constant factor
+};
+
+/// Adds the part from height a to b, over which the radius is linear: Simpson's rule is then exact.
+void add_part(const Hopper& hopper, double a, double b, Moments& moments) {
+  const double middle = (a + b) / 2;
+  for (const auto& [height, weight] : std::array<std::array<double, 2>, 3>{{{a, 1}, {middle, 4}, {b, 1}}}) {
+    const double radius = hopper.radius_at(hopper.clearance + height);
+    moments.volume += (b - a) / 6 * weight * radius * radius;
+    moments.first += (b - a) / 6 * weight * radius * radius * height;
+  }
+}
+
+}  // namespace
+
+double Hopper::cone_height() const { return (diameter - outlet) / 2 / std::tan(wall_angle * std::numbers::pi / 180); }
+
+double Hopper::top() const { return clearance + cone_height() + cylinder_height; }
+
+double Hopper::radius_at(double z) const {
+  const double share = (z - clearance) / cone_height();
+  return share < 1 ? std::lerp(outlet, diameter, share) / 2 : diameter / 2;
+}
+
+bool Hopper::is_within(double x, double y, double radius) const {
+  const double side = std::round(std::atan2(y, x) / angle_of(1, segments));  // the nearest one
+  const double angle = side * angle_of(1, segments);
+  return x * std::cos(angle) + y * std::sin(angle) < radius;
+}
+
+bool Hopper::is_in_tray(const Point& p) const {
+  const Rectangle tray{{-tray_width / 2, -tray_width / 2}, {tray_width, tray_width}};
+  return tray.contains(p[0], p[1]) && p[2] > 0 && p[2] < clearance;
+}
+
+double Hopper::mean_height(double level) const {
+  const double height = level - clearance;
+  const double in_cone = std::fmin(height, cone_height());
+  Moments moments;
+  add_part(*this, 0, in_cone, moments);
+  if (height > in_cone) add_part(*this, in_cone, height, moments);
+  return moments.first / moments.volume;
+}
+
+bool Hopper::contains(const Point& p) const {
+  if (!(p[2] >= clearance)) return is_in_tray(p);
+  return p[2] < INFINITY && is_within(p[0], p[1], radius_at(p[2]));
+}
+
+Mesh make_mesh(const Hopper& hopper) {
+  Mesh mesh;
+  append_ring(mesh, hopper.segments, hopper.outlet / 2, hopper.clearance);
+  append_ring(mesh, hopper.segments, hopper.diameter / 2, hopper.clearance + hopper.cone_height());
+  append_ring(mesh, hopper.segments, hopper.diameter / 2, hopper.top());
+  append_band(mesh, static_cast<unsigned int>(hopper.segments), 0);
+  append_band(mesh, static_cast<unsigned int>(hopper.segments), 1);
+  return mesh;
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "container/geometry.hpp"
+
+namespace falling_particles {
+
+/// A cone with an outlet, a cylinder on top of it, both with `segments` flat sides around the z-axis, and a tray below: a floor at
+/// z = 0 and four walls. Radii are those of the inscribed circles (to the flat sides). A lid, the plane z = clearance, closes the
+/// outlet until `opens_at`.
+struct Hopper {
+  double outlet;           ///< m, diameter
+  double wall_angle;       ///< degrees, of the cone from the vertical
+  double diameter;         ///< m, of the cylinder
+  double cylinder_height;  ///< m
+  int segments;
+  double clearance;   ///< m, of the outlet above the floor of the tray
+  double tray_width;  ///< m, the tray is square
+  double opens_at;    ///< s
+
+  double cone_height() const;                               ///< m
+  double top() const;                                       ///< m, z of the upper rim
+  double radius_at(double z) const;                         ///< m, from the outlet upwards; the cylinder's beyond the rim
+  bool is_within(double x, double y, double radius) const;  ///< of the regular polygon with that inscribed circle
+  bool is_in_tray(const Point& p) const;                    ///< below the outlet
+  double mean_height(double level) const;                   ///< m, of the volume between outlet and z = level, above the outlet
+
+  Rectangle plan() const { return {{-diameter / 2, -diameter / 2}, {diameter, diameter}}; }
+  double lowest() const { return clearance; }
+  /// In the hopper, above it within the cylinder's continuation, or in the tray.
+  bool contains(const Point& p) const;
+};
+
+/// The cone and the cylinder, closed but for outlet and top; bodies are inside.
+Mesh make_mesh(const Hopper& hopper);
+
+}  // namespace falling_particles

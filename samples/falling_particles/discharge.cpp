@@ -1,0 +1,55 @@
+#include "discharge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace falling_particles {
+
+Discharge::Discharge(World& world, const Hopper& hopper, Random& random)
+    : world_(world), hopper_(hopper), random_(random), has_passed_(world.bodies().size(), false) {
+  passages_.reserve(has_passed_.size());
+}
+
+void Discharge::after_step(double time) {
+  if (!charge_) {
+    if (time >= hopper_.opens_at) open(time);
+    return;
+  }
+  for (std::size_t i = 0; i < has_passed_.size(); ++i) {
+    const Body& body = world_.bodies()[i];
+    const Point p = body.position();
+    // One that comes down beside the outlet has not come through it: that is a leak (leaks.hpp).
+    if (has_passed_[i] || !(p[2] < hopper_.clearance) || !hopper_.is_within(p[0], p[1], hopper_.outlet / 2)) continue;
+    has_passed_[i] = true;
+    passages_.push_back({time, mass() + body.mass.mass});
+  }
+}
+
+void Discharge::open(double time) {
+  double mass = 0;
+  double volume = 0;
+  for (const Body& body : world_.bodies()) {
+    mass += body.mass.mass;
+    volume += body.volume();
+  }
+  const double mean_volume = volume / static_cast<double>(world_.bodies().size());
+  charge_ = Charge{time, mass, std::cbrt(6 / std::numbers::pi * mean_volume), measure_bed(world_, hopper_, random_)};
+  world_.open_outlet();
+}
+
+const Discharge::Passage* Discharge::find_passage(double share) const {
+  const auto found = std::ranges::lower_bound(passages_, share * charge_->mass, {}, &Passage::total_mass);
+  return found == passages_.end() ? nullptr : &*found;
+}
+
+std::optional<double> Discharge::mass_flow() const {
+  if (!charge_) return std::nullopt;
+  const Passage* from = find_passage(kSteadyFrom);
+  const Passage* to = find_passage(kSteadyTo);
+  // All in one step (a handful of grains): no flow to speak of.
+  if (to == nullptr || !(to->time > from->time)) return std::nullopt;
+  return (to->total_mass - from->total_mass) / (to->time - from->time);
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "scene.hpp"
+#include "toml_input.hpp"
+
+namespace falling_particles {
+
+/// The [container] of a scene file. Throws InputError.
+Container read_container(const TomlTable& root, const Time& time);
+
+/// Throws InputError unless the grains of the scene find room in its container at the start.
+void check_fit(const TomlTable& root, const Scene& scene);
+
+}  // namespace falling_particles
