@@ -181,7 +181,11 @@ void ConvexHull::add_face_normals(std::vector<Vector3>& normals) {
     faces_[k].is_visited = false;
     if (!faces_[k].is_removed) order_.push_back(k);
   }
-  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return area(a) > area(b); });
+  // As a stable sort, which would allocate.
+  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    const double area_a = area(a), area_b = area(b);
+    return area_a > area_b || (area_a == area_b && a < b);
+  });
   for (const std::size_t largest : order_) {
     if (faces_[largest].is_visited || is_narrow(faces_[largest])) continue;
     const Vector3 normal = to_vector(faces_[largest].normal).normalized();
