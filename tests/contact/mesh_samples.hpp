@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/mesh_triangle.hpp"
+#include "contact/mesh_contacts.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/pose.hpp"
@@ -152,5 +152,17 @@ class Draw {
  private:
   std::mt19937_64 engine_;
 };
+
+/// Copied, from one query object that is used again and again.
+inline std::vector<MeshContact> contacts_of(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
+  static MeshContacts query;
+  const std::span<const MeshContact> found = query.find(shape, pose, triangles, {});
+  return {found.begin(), found.end()};
+}
+
+/// Outward, unit.
+inline Vector3 normal_of(const MeshTriangle& t) {
+  return (t.vertices[1] - t.vertices[0]).cross(t.vertices[2] - t.vertices[0]).normalized();
+}
 
 }  // namespace supernormal::test
