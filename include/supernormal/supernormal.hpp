@@ -1,6 +1,7 @@
 // Supernormal's C++ core: shapes, gap function and solvers; no ODE needed.
 #pragma once
 
+#include "supernormal/contact_patch.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/capsule.hpp"

@@ -9,8 +9,6 @@
 namespace supernormal::ode {
 namespace {
 
-constexpr int kContactLimitBits = 0xffff;
-
 // ODE's assertions abort on a normal that is not a unit vector or not a number, so nothing gets past this on trust.
 bool is_contact(const Proximity& proximity) {
   if (proximity.status == Status::Apart || proximity.status == Status::InvalidInput) return false;
@@ -21,11 +19,23 @@ bool is_contact(const Proximity& proximity) {
 
 }  // namespace
 
-int write_contacts(const Proximity& proximity, const ContactArray& out) { return append_contact(proximity, out, 0); }
+int write_contacts(const ContactPatch& patch, const ContactArray& out) {
+  const int count = append_contact(patch.deepest, out, 0);
+  return count == 0 ? 0 : append_corners(patch, out, count);
+}
+
+int append_corners(const ContactPatch& patch, const ContactArray& out, int count, int side2) {
+  Proximity corner = patch.deepest;
+  corner.gap = 0;
+  for (int k = 0; k < patch.corner_count; ++k) {
+    corner.contact = patch.corners[static_cast<std::size_t>(k)];
+    count = append_contact(corner, out, count, side2);
+  }
+  return count;
+}
 
 int append_contact(const Proximity& proximity, const ContactArray& out, int count, int side2) {
-  const int room = out.flags & kContactLimitBits;
-  if (count >= room || !is_contact(proximity)) return count;
+  if (count >= out.room() || !is_contact(proximity)) return count;
   auto* const place = reinterpret_cast<char*>(out.first) + std::ptrdiff_t{count} * out.skip;
   dContactGeom& contact = *reinterpret_cast<dContactGeom*>(place);
   from_vector(proximity.contact, contact.pos);

@@ -23,7 +23,7 @@ Proximity query(dGeomID ours, dGeomID partner) {
         "the partner is " + geom_class_name(partner) +
         ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
   }
-  Proximity result = pair_query(ours, partner, Goal::Distance);
+  Proximity result = pair_query(ours, partner, Goal::Distance).deepest;
   if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {
     throw std::invalid_argument("the pose of a geom, or what a user-defined body returned, is not finite");
   }

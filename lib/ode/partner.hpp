@@ -8,13 +8,13 @@
 #include <string>
 
 #include "ode/solver_settings.hpp"
-#include "supernormal/solvers/proximity.hpp"
+#include "supernormal/contact_patch.hpp"
 
 namespace supernormal::ode {
 
-/// The proximity of a geom of ours and a partner, in the world frame, the normal from ours to the partner. Counts itself in the
-/// statistics. Throws what the core throws.
-using PairQuery = Proximity(dGeomID ours, dGeomID partner, Goal goal);
+/// The proximity of a geom of ours and a partner, in the world frame, the normal from ours to the partner, and for Goal::Contacts
+/// the corners of the overlap. Counts itself in the statistics. Throws what the core throws.
+using PairQuery = ContactPatch(dGeomID ours, dGeomID partner, Goal goal);
 
 PairQuery query_body;  // ours and ours
 PairQuery query_plane;
@@ -28,7 +28,7 @@ PairQuery query_trimesh;
 PairQuery query_heightfield;
 
 /// dColliderFn for a geom of ours and a partner, in this order: ODE turns the contacts around when it was asked the other way.
-/// Those that make one contact of their query are made by collide_by (solve_pair.hpp).
+/// Those that write the contacts of their query are made by collide_by (solve_pair.hpp).
 dColliderFn collide_with_ray;
 dColliderFn collide_with_trimesh;
 dColliderFn collide_with_heightfield;

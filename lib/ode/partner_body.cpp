@@ -11,7 +11,7 @@
 namespace supernormal::ode {
 namespace {
 
-Proximity query_in_order(const Body& body1, const Pose& pose1, const Body& body2, const Pose& pose2, Goal goal) {
+ContactPatch query_in_order(const Body& body1, const Pose& pose1, const Body& body2, const Pose& pose2, Goal goal) {
   const PairKey key = PairKey::of_bodies(body1.serial(), body2.serial());
   const RelativePose relative_pose = RelativePose::of(pose1, pose2);
   Vector3 first_normal;
@@ -20,20 +20,20 @@ Proximity query_in_order(const Body& body1, const Pose& pose1, const Body& body2
   const Proximity result = find_proximity(body1.shape(), pose1, body2.shape(), pose2, settings, warm ? &first_normal : nullptr);
   count_query(result, warm);
   if (result.status != Status::InvalidInput) remember_normal(key, relative_pose, pose1.rotation.transpose() * result.normal);
-  return result;
+  return goal == Goal::Contacts ? find_contact_patch(body1.shape(), pose1, body2.shape(), pose2, result) : ContactPatch(result);
 }
 
-Proximity seen_from_other(Proximity proximity) {
-  proximity.normal = -proximity.normal;
-  proximity.point1.swap(proximity.point2);
-  return proximity;
+ContactPatch seen_from_other(ContactPatch patch) {
+  patch.deepest.normal = -patch.deepest.normal;
+  patch.deepest.point1.swap(patch.deepest.point2);
+  return patch;
 }
 
 }  // namespace
 
 // The older body is body 1 whatever the caller's order: spaces pass a pair now in one order and now in the other, and both give
 // the same digits this way.
-Proximity query_body(dGeomID ours, dGeomID partner, Goal goal) {
+ContactPatch query_body(dGeomID ours, dGeomID partner, Goal goal) {
   const Body& body1 = require_body(ours);
   const Body& body2 = require_body(partner);
   if (body1.serial() < body2.serial()) return query_in_order(body1, pose_of(ours), body2, pose_of(partner), goal);

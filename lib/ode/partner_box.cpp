@@ -7,13 +7,14 @@
 
 namespace supernormal::ode {
 
-Proximity query_box(dGeomID ours, dGeomID partner, Goal goal) {
+ContactPatch query_box(dGeomID ours, dGeomID partner, Goal goal) {
   dVector3 lengths;
   dGeomBoxGetLengths(partner, lengths);
   const Box box(0.5 * to_vector(lengths));
-  Proximity result = solve_pair(ours, {box, pose_of(partner), partner_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})}, goal);
+  const PartnerShape shape{box, pose_of(partner), partner_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
+  Proximity result = solve_pair(ours, shape, goal);
   result.contact += 0.5 * result.gap * result.normal;  // onto the box, where ODE's own contacts of dSphere and dBox are
-  return result;
+  return patch_of_pair(ours, shape, result, goal);
 }
 
 }  // namespace supernormal::ode

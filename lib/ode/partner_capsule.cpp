@@ -7,12 +7,13 @@
 
 namespace supernormal::ode {
 
-Proximity query_capsule(dGeomID ours, dGeomID partner, Goal goal) {
+ContactPatch query_capsule(dGeomID ours, dGeomID partner, Goal goal) {
   dReal radius = 0;
   dReal length = 0;
   dGeomCapsuleGetParams(partner, &radius, &length);
   const Capsule capsule(radius, 0.5 * double{length});
-  return solve_pair(ours, {capsule, pose_of(partner), partner_kind(dCapsuleClass, {radius, length})}, goal);
+  const PartnerShape shape{capsule, pose_of(partner), partner_kind(dCapsuleClass, {radius, length})};
+  return patch_of_pair(ours, shape, solve_pair(ours, shape, goal), goal);
 }
 
 }  // namespace supernormal::ode

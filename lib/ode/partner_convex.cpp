@@ -23,12 +23,13 @@ Scratch& scratch() {
 
 }  // namespace
 
-Proximity query_convex(dGeomID ours, dGeomID partner, Goal goal) {
+ContactPatch query_convex(dGeomID ours, dGeomID partner, Goal goal) {
   ConvexVertices& vertices = scratch().vertices;
   if (!vertices.read(partner)) return {};
   const Polytope hull(vertices.points(), scratch().face_normals.find(vertices.points()));
   const auto count = static_cast<double>(vertices.points().size());
-  return solve_pair(ours, {hull, vertices.pose(), partner_kind(dConvexClass, {count})}, goal);
+  const PartnerShape shape{hull, vertices.pose(), partner_kind(dConvexClass, {count})};
+  return patch_of_pair(ours, shape, solve_pair(ours, shape, goal), goal);
 }
 
 }  // namespace supernormal::ode

@@ -7,12 +7,13 @@
 
 namespace supernormal::ode {
 
-Proximity query_cylinder(dGeomID ours, dGeomID partner, Goal goal) {
+ContactPatch query_cylinder(dGeomID ours, dGeomID partner, Goal goal) {
   dReal radius = 0;
   dReal length = 0;
   dGeomCylinderGetParams(partner, &radius, &length);
   const Cylinder cylinder(radius, 0.5 * double{length});
-  return solve_pair(ours, {cylinder, pose_of(partner), partner_kind(dCylinderClass, {radius, length})}, goal);
+  const PartnerShape shape{cylinder, pose_of(partner), partner_kind(dCylinderClass, {radius, length})};
+  return patch_of_pair(ours, shape, solve_pair(ours, shape, goal), goal);
 }
 
 }  // namespace supernormal::ode

@@ -4,6 +4,7 @@
 
 #include "contact/body_box.hpp"
 #include "contact/mesh_contacts.hpp"
+#include "contact/mesh_patch.hpp"
 #include "contact/nearest_triangle.hpp"
 #include "ode/body.hpp"
 #include "ode/contact.hpp"
@@ -92,8 +93,13 @@ bool is_above_all(const HeightfieldProbe& probe, const Visitor& visitor) {
   return visitor.centre.y() - visitor.extents.y() > probe.max_height();
 }
 
-// In the frame of the heightfield, deepest first.
-std::span<const Proximity> find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
+/// In the frame of the heightfield.
+struct Found {
+  std::span<const Proximity> contacts;  // deepest first
+  std::span<const MeshTriangle> triangles;
+};
+
+Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
   Scratch& kept = scratch();
   kept.contacts.clear();
   const std::span<const MeshTriangle> triangles = kept.patch.read(probe, visitor.region());
@@ -106,7 +112,7 @@ std::span<const Proximity> find_contacts(HeightfieldProbe& probe, const Visitor&
   all.status = kept.contacts.empty() ? Status::Apart : kept.contacts.front().status;
   all.evaluations = kept.mesh.evaluations();
   count_query(all, false);
-  return kept.contacts;
+  return {kept.contacts, triangles};
 }
 
 // The nearest triangle of those below the body is not nearer than the nearest of all, which is therefore below the body widened by
@@ -128,13 +134,13 @@ Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
 
 }  // namespace
 
-Proximity query_heightfield(dGeomID ours, dGeomID partner, Goal /*goal*/) {
+ContactPatch query_heightfield(dGeomID ours, dGeomID partner, Goal /*goal*/) {
   const Pose frame = pose_of_heightfield(partner);
   const Visitor visitor(require_body(ours), pose_of(ours), frame);
   if (!visitor.is_finite()) return {};
   HeightfieldProbe& probe = HeightfieldProbe::looking_at(partner);
   if (!is_above_all(probe, visitor)) {
-    const std::span<const Proximity> contacts = find_contacts(probe, visitor);
+    const std::span<const Proximity> contacts = find_contacts(probe, visitor).contacts;
     if (!contacts.empty()) return to_world(contacts.front(), frame);
   }
   return to_world(find_nearest(probe, visitor), frame);
@@ -146,9 +152,17 @@ int collide_with_heightfield(dGeomID ours, dGeomID partner, int flags, dContactG
     const Visitor visitor(require_body(ours), pose_of(ours), frame);
     HeightfieldProbe& probe = HeightfieldProbe::looking_at(partner);
     if (!visitor.is_finite() || is_above_all(probe, visitor)) return 0;
+    const ContactArray out{ours, partner, flags, contacts, skip};
+    const Found found = find_contacts(probe, visitor);
     int count = 0;
-    for (const Proximity& contact : find_contacts(probe, visitor)) {
-      count = append_contact(to_world(contact, frame), {ours, partner, flags, contacts, skip}, count);
+    for (const Proximity& contact : found.contacts) count = append_contact(to_world(contact, frame), out, count);
+    for (const Proximity& contact : found.contacts) {
+      if (count >= out.room()) break;
+      ContactPatch patch = find_plane_contact_patch(visitor.shape, visitor.pose, contact);
+      draw_in_corners(patch, found.triangles);
+      patch.deepest = to_world(contact, frame);
+      for (Vector3& corner : patch.corners) corner = frame.rotation * corner + frame.position;
+      count = append_corners(patch, out, count);
     }
     return count;
   });

@@ -7,13 +7,14 @@
 
 namespace supernormal::ode {
 
-Proximity query_plane(dGeomID ours, dGeomID partner, Goal /*goal*/) {
+ContactPatch query_plane(dGeomID ours, dGeomID partner, Goal goal) {
   const Body& body = require_body(ours);
   dVector4 plane;
   dGeomPlaneGetParams(partner, plane);
-  const Proximity result = find_plane_proximity(body.shape(), pose_of(ours), to_vector(plane), plane[3]);
+  const Pose pose = pose_of(ours);
+  const Proximity result = find_plane_proximity(body.shape(), pose, to_vector(plane), plane[3]);
   count_closed_form();
-  return result;
+  return goal == Goal::Contacts ? find_plane_contact_patch(body.shape(), pose, result) : ContactPatch(result);
 }
 
 }  // namespace supernormal::ode

@@ -5,6 +5,7 @@
 
 #include "contact/body_box.hpp"
 #include "contact/mesh_contacts.hpp"
+#include "contact/mesh_patch.hpp"
 #include "contact/nearest_triangle.hpp"
 #include "ode/body.hpp"
 #include "ode/contact.hpp"
@@ -51,9 +52,9 @@ struct Visit {
   }
 };
 
-std::span<const MeshContact> find_contacts(const Visit& visit, bool is_collision) {
+std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const MeshTriangle> triangles) {
   const std::span<const MeshContact> found =
-      scratch().contacts.find(visit.body.shape(), visit.pose, visit.triangles_within(0, is_collision), visit.body.settings());
+      scratch().contacts.find(visit.body.shape(), visit.pose, triangles, visit.body.settings());
   Proximity all;
   all.status = found.empty() ? Status::Apart : found.front().proximity.status;
   all.evaluations = scratch().contacts.evaluations();
@@ -108,10 +109,10 @@ MeshContact find_nearest(const Visit& visit) {
 
 // Of several contacts the deepest, as in dCollide. Where there is none, the distance of the nearest triangle from either side. It
 // is negative only for a body that touches the mesh from behind, at the border of a sheet: that makes no contact.
-Proximity query_trimesh(dGeomID ours, dGeomID partner, Goal /*goal*/) {
+ContactPatch query_trimesh(dGeomID ours, dGeomID partner, Goal /*goal*/) {
   const Visit visit(ours, partner);
   if (!visit.is_usable()) return {};
-  const std::span<const MeshContact> contacts = find_contacts(visit, false);
+  const std::span<const MeshContact> contacts = find_contacts(visit, visit.triangles_within(0));
   if (!contacts.empty()) return contacts.front().proximity;
   const MeshContact nearest = find_nearest(visit);
   if (nearest.proximity.status == Status::InvalidInput) throw std::invalid_argument("the dTriMesh has no triangles");
@@ -123,9 +124,16 @@ int collide_with_trimesh(dGeomID ours, dGeomID partner, int flags, dContactGeom*
   return guarded("dCollide", 0, [&] {
     const Visit visit(ours, partner);
     if (!visit.is_usable()) return 0;
+    const ContactArray out{ours, partner, flags, contacts, skip};
+    const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
     int count = 0;
-    for (const MeshContact& contact : find_contacts(visit, true)) {
-      count = append_contact(contact.proximity, {ours, partner, flags, contacts, skip}, count, contact.triangle);
+    for (const MeshContact& contact : found) count = append_contact(contact.proximity, out, count, contact.triangle);
+    for (const MeshContact& contact : found) {
+      if (count >= out.room()) break;
+      ContactPatch patch = find_plane_contact_patch(visit.body.shape(), visit.pose, contact.proximity);
+      if (patch.corner_count == 0) continue;
+      draw_in_corners(patch, visit.triangles_within(patch.margin));
+      count = append_corners(patch, out, count, contact.triangle);
     }
     return count;
   });

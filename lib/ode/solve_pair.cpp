@@ -26,4 +26,9 @@ Proximity solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
   return result;
 }
 
+ContactPatch patch_of_pair(dGeomID ours, const PartnerShape& partner, const Proximity& proximity, Goal goal) {
+  if (goal != Goal::Contacts) return proximity;
+  return find_contact_patch(require_body(ours).shape(), pose_of(ours), partner.shape, partner.pose, proximity);
+}
+
 }  // namespace supernormal::ode

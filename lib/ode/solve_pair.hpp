@@ -26,11 +26,15 @@ struct PartnerShape {
 /// dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
 Proximity solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal);
 
-/// The dColliderFn that makes a contact of what the query finds.
+/// What the query of the pair is to return: its proximity and, if the goal is Contacts, the corners of the overlap.
+ContactPatch patch_of_pair(dGeomID ours, const PartnerShape& partner, const Proximity& proximity, Goal goal);
+
+/// The dColliderFn that makes contacts of what the query finds.
 template <PairQuery kQuery>
 int collide_by(dGeomID ours, dGeomID partner, int flags, dContactGeom* contacts, int skip) {
   return guarded("dCollide", 0, [&] {
-    return write_contacts(kQuery(ours, partner, Goal::Contact), {ours, partner, flags, contacts, skip});
+    const ContactArray out{ours, partner, flags, contacts, skip};
+    return write_contacts(kQuery(ours, partner, out.room() > 1 ? Goal::Contacts : Goal::OneContact), out);
   });
 }
 

@@ -5,8 +5,12 @@
 
 namespace supernormal::ode {
 
-/// What a query is for. A collider wants overlaps only: it stops at the first normal that proves separation.
-enum class Goal { Contact, Distance };
+/// What a query is for. Colliders want overlaps only: they stop at the first normal that proves separation.
+enum class Goal {
+  OneContact,  ///< the deepest point
+  Contacts,    ///< and the corners of a wide overlap
+  Distance,
+};
 
 /// Of the geoms created from now on; any thread may ask.
 Settings default_settings();
@@ -15,7 +19,7 @@ Settings default_settings();
 Settings combined(const Settings& settings1, const Settings& settings2);
 
 inline Settings for_goal(Settings settings, Goal goal) {
-  settings.stop_when_apart = goal == Goal::Contact;
+  settings.stop_when_apart = goal != Goal::Distance;
   return settings;
 }
 

@@ -1,6 +1,7 @@
 // Colliders do not allocate. An executable of its own, because it replaces operator new for everybody in it.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -67,20 +68,20 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
 
   long contacts_seen = 0;
   const auto everything = [&] {
-    dContactGeom contact;
+    std::array<dContactGeom, 8> contacts;
     snProximity answer;
     dReal aabb[6];
     for (const Geom& g1 : bodies) {
       for (const Geom& g2 : bodies) {
-        contacts_seen += dCollide(g1, g2, 1, &contact, sizeof contact);
+        contacts_seen += dCollide(g1, g2, 8, contacts.data(), sizeof contacts[0]);
         if (dGeomID(g1) != dGeomID(g2)) snGeomProximity(g1, g2, &answer);
       }
       for (const PartnerGeom& partner : partners) {
-        contacts_seen += dCollide(g1, partner, 1, &contact, sizeof contact);
+        contacts_seen += dCollide(g1, partner, 8, contacts.data(), sizeof contacts[0]);
         snGeomProximity(g1, partner, &answer);
       }
-      contacts_seen += dCollide(g1, crowded, 1, &contact, sizeof contact);
-      contacts_seen += dCollide(g1, mesh, 1, &contact, sizeof contact);
+      contacts_seen += dCollide(g1, crowded, 8, contacts.data(), sizeof contacts[0]);
+      contacts_seen += dCollide(g1, mesh, 8, contacts.data(), sizeof contacts[0]);
       snGeomProximity(g1, mesh, &answer);
       snGeomPointDepth(g1, 1, 2, 3);
       dGeomMoved(g1);

@@ -39,7 +39,7 @@ TEST_CASE("out of an overlap by 0.96 of the depth: still touching; by another 0.
       ++touching;
       const Vec out = (body_first ? 1.0 : -1.0) * double{contacts[0].depth} * to_vec(contacts[0].normal);
       move(body, 0.96 * out);
-      CHECK(collide(g1, g2).size() == 1);
+      CHECK(!collide(g1, g2).empty());
       move(body, 0.08 * out);
       CHECK(collide(g1, g2).empty());
     }

@@ -60,15 +60,19 @@ TEST_CASE("a contact moves the geoms apart, and nothing less does") {
         const auto contacts = collide(g1, g2);
         if (contacts.empty()) continue;
         ++overlapping;
-        REQUIRE(contacts.size() == 1);
         check_contact(contacts[0], g1, g2);
+        // The corners of a wide overlap.
+        for (std::size_t k = 1; k < contacts.size(); ++k) {
+          CHECK(contacts[k].depth == 0);
+          CHECK(to_vec(contacts[k].normal) == to_vec(contacts[0].normal));
+        }
 
         // Move our body: along the normal when it is g1, against it otherwise.
         const double sign = ours_first ? 1 : -1;
         const Vec out = sign * double{contacts[0].depth} * to_vec(contacts[0].normal);
         const Vec start = to_vec(dGeomGetPosition(body));
         place(body, start + 0.96 * out);
-        CHECK(collide(g1, g2).size() == 1);
+        CHECK(!collide(g1, g2).empty());
         place(body, start + (1 + 1e-6) * out);
         CHECK(collide(g1, g2).empty());
         place(body, start);

@@ -215,8 +215,10 @@ TEST_CASE("any body on rough ground: the contacts with all triangles") {
     const auto& shape = require_body(body).shape();
     const std::span<const MeshContact> expected = reference.find(shape, pose_of(body), triangles, {});
     const Contacts contacts = collide(body, heightfield, 100);
-    REQUIRE(contacts.size() == expected.size());
-    for (std::size_t i = 0; i < contacts.size(); ++i, ++count) {
+    REQUIRE(contacts.size() >= expected.size());
+    // Behind them the corners of wide overlaps.
+    for (std::size_t i = expected.size(); i < contacts.size(); ++i) CHECK(contacts[i].depth == 0);
+    for (std::size_t i = 0; i < expected.size(); ++i, ++count) {
       const Proximity& proximity = expected[i].proximity;
       CHECK(std::abs(contacts[i].depth + proximity.gap) < 1e-9);
       CHECK((to_vector(contacts[i].normal) + proximity.normal).norm() < 1e-6);

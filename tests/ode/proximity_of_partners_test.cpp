@@ -115,7 +115,7 @@ TEST_CASE("points on both surfaces, a gap apart along the normal; moved by the g
       CHECK(overlapping.gap < 0);
       CHECK(overlapping.gap > -depth - 3e-9);
       check_answer(body, partner, overlapping);
-      const auto contacts = collide(body, partner);
+      const auto contacts = collide(body, partner, 1);
       REQUIRE(contacts.size() == 1);
       CHECK(std::abs(contacts[0].depth + overlapping.gap) < 3e-9);
       CHECK(norm(to_vec(contacts[0].normal) + to_vec(overlapping.normal)) < 1e-4);

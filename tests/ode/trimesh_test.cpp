@@ -16,7 +16,8 @@ void check_same_but_for_side(const std::vector<dContactGeom>& contacts, const st
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     CHECK(contacts[i].depth == reference[i].depth);
     CHECK(to_vec(contacts[i].normal) == to_vec(reference[i].normal));
-    CHECK(to_vec(contacts[i].pos) == to_vec(reference[i].pos));
+    // The corners of a wide overlap are found about the deepest point, whose last digits differ.
+    CHECK(norm(to_vec(contacts[i].pos) - to_vec(reference[i].pos)) <= (contacts[i].depth > 0 ? 0 : 1e-12));
   }
 }
 

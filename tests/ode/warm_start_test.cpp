@@ -171,7 +171,7 @@ TEST_CASE("a pair that was moved by the program starts afresh and finds what it 
       CAPTURE(partner == dGeomID(sphere));
       snSetWarmStart(0);
       place(partner, deep_inside);
-      const auto cold = collide(g1, partner);
+      const auto cold = collide(g1, partner, 1);
       REQUIRE(cold.size() == 1);
       snSetWarmStart(1);
       for (const Vec& start : starts) {
@@ -179,7 +179,7 @@ TEST_CASE("a pair that was moved by the program starts afresh and finds what it 
         collide(g1, partner);
         place(partner, deep_inside);
         snResetStatistics();
-        const auto moved = collide(g1, partner);
+        const auto moved = collide(g1, partner, 1);
         // The sphere has an entry for each direction it was seen in, and may be back where it has been: the same answer,
         // remembered.
         if (partner == dGeomID(g2)) CHECK(statistics().queries_cold == 1);
