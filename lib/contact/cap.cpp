@@ -7,7 +7,7 @@ namespace supernormal {
 namespace {
 
 // Of the body's extent along a direction: how exactly the corners of a cap are found.
-constexpr double kReachTolerance = 0.02;
+constexpr double kReachTolerance = 0.01;
 
 // Two or three suffice for most; the chords halve what is left at worst.
 constexpr int kMaxEvaluations = 24;
@@ -15,11 +15,17 @@ constexpr int kMaxEvaluations = 24;
 // A search for depth T aims at this share of it: just inside, where the tangent tells that it is near.
 constexpr double kAim = 0.95;
 
-// The first guess of the slope where a cap ends, in units of depth over extent: right for exponents about 5.
-constexpr double kFirstSlope = 8;
+// The first guess of the slope where a cap ends, in units of depth over extent.
+constexpr double kFirstSteepness = 12;
+
+// Of the extent: farther beyond its corners no cap bulges that is as good as a rectangle.
+constexpr double kBulge = 0.15;
 
 // Where the drop tells nothing about the slope: times the last.
 constexpr double kSteeper = 4;
+
+// Of the depth: a lesser drop says nothing about the shape, and its powers overflow.
+constexpr double kLeastDrop = 1e-30;
 
 // As a slope this is sideways: beyond it the cap is the whole body.
 constexpr double kSteepest = 1e6;
@@ -39,13 +45,13 @@ struct ProfilePoint {
 /// curve, drop over x. Finds where it is `depth` below.
 class Profile {
  public:
-  Profile(const ProfilePoint& highest, double depth, double extent)
-      : start_(highest), inner_(highest), depth_(depth), extent_(extent) {}
+  Profile(const ProfilePoint& highest, double depth, double extent, double first_slope)
+      : start_(highest), inner_(highest), depth_(depth), extent_(extent), first_slope_(first_slope) {}
 
   double next_slope() const {
-    if (!has_last_) return kFirstSlope * depth_ / extent_;
+    if (!has_last_) return first_slope_;
     // As if the drop were a power of x; from a single point, since the exponent is x slope / drop.
-    const double exponent = last_.drop > 0 ? (last_.x - start_.x) * last_.slope / last_.drop : 0;
+    const double exponent = last_.drop > kLeastDrop * depth_ ? (last_.x - start_.x) * last_.slope / last_.drop : 0;
     const double by_power = exponent > 1 ? last_.slope * std::pow(kAim * depth_ / last_.drop, 1 - 1 / exponent) : 0;
     if (!has_outer_) return std::max(by_power, kSteeper * inner_.slope);
     const bool is_between = by_power > inner_.slope && by_power < outer_.slope;
@@ -70,6 +76,9 @@ class Profile {
     return farthest_possible() - x_inside() <= kReachTolerance * extent_;
   }
 
+  /// Where the cap ends, or a little before.
+  double slope() const { return inner_.slope; }
+
   /// On the chord, and so in the body.
   Vector3 point() const {
     if (!has_outer_) return inner_.point;
@@ -93,6 +102,7 @@ class Profile {
   ProfilePoint last_;
   double depth_;
   double extent_;
+  double first_slope_;
   bool has_outer_ = false;
   bool has_last_ = false;
   bool uses_power_ = true;
@@ -113,7 +123,8 @@ Cap::Cap(const Shape& shape, const Pose& pose, const Vector3& n, double depth)
       n_(n),
       depth_(depth),
       half_extents_(shape.half_extents()),
-      axes_(tangent_axes(pose.rotation, n)) {
+      axes_(tangent_axes(pose.rotation, n)),
+      steepness_(kFirstSteepness) {
   shape.evaluate(pose.rotation.transpose() * n, Order::Point, highest_);
 }
 
@@ -122,15 +133,17 @@ double Cap::extent(const Vector3& direction) const {
   return (pose_.rotation.transpose() * direction).cwiseProduct(half_extents_).norm();
 }
 
-double Cap::wide_from(const Vector3& direction) const {
+double Cap::wide_from(const Vector3& direction, double share) const {
   const double relative_depth = std::min(1.0, depth_ / extent(n_));
-  return 2 * (kWide + std::sqrt(relative_depth * (2 - relative_depth))) * extent(direction);
+  return 2 * (share + std::sqrt(relative_depth * (2 - relative_depth))) * extent(direction);
 }
 
 Vector3 Cap::farthest(const Vector3& direction) {
   const Vector3 n = pose_.rotation.transpose() * n_;
   const Vector3 u = pose_.rotation.transpose() * direction;
-  Profile profile({highest_.r, u.dot(highest_.r), 0, 0}, depth_, extent(direction));
+  const double reach = extent(direction);
+  // The last direction's end is a good guess for the next one's.
+  Profile profile({highest_.r, u.dot(highest_.r), 0, 0}, depth_, reach, steepness_ * depth_ / reach);
   Jet jet;
   for (int k = 0; k < kMaxEvaluations && !profile.is_found(); ++k) {
     const double slope = profile.next_slope();
@@ -139,33 +152,39 @@ Vector3 Cap::farthest(const Vector3& direction) {
     ++evaluations_;
     profile.add({jet.r, u.dot(jet.r), std::max(0.0, n.dot(highest_.r - jet.r)), slope});
   }
+  if (profile.slope() > 0) steepness_ = profile.slope() * reach / depth_;
   return pose_.position + pose_.rotation * profile.point();
 }
 
+double Cap::width(const Vector3& direction) const {
+  const auto [low, high] = std::minmax_element(corners_.begin(), corners_.end(), [&](const Vector3& one, const Vector3& other) {
+    return direction.dot(one) < direction.dot(other);
+  });
+  return direction.dot(*high - *low);
+}
+
 bool Cap::is_narrow() {
-  bool narrow = true;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    along_axes_[axis] = farthest(axes_[axis]);
-    along_axes_[axis + 2] = farthest(-axes_[axis]);
-    narrow = narrow && !(axes_[axis].dot(along_axes_[axis] - along_axes_[axis + 2]) > wide_from(axes_[axis]));
-  }
-  return narrow;
+  const Vector3 a = extent(axes_[0]) * axes_[0];
+  const Vector3 b = extent(axes_[1]) * axes_[1];
+  corners_ = {farthest((a + b).normalized()), farthest((b - a).normalized()), farthest((-a - b).normalized()),
+              farthest((a - b).normalized())};
+  return !(width(axes_[0]) > wide_from(axes_[0], kWide)) && !(width(axes_[1]) > wide_from(axes_[1], kWide));
 }
 
 Footprint Cap::footprint(const PatchFrame& frame) {
-  const double a = extent(axes_[0]);
-  const double b = extent(axes_[1]);
-  const std::array<Vector3, 4> diagonals = {a * axes_[0] + b * axes_[1], b * axes_[1] - a * axes_[0], -a * axes_[0] - b * axes_[1],
-                                            a * axes_[0] - b * axes_[1]};
-  std::array<Vector2, 8> corners;
+  std::array<Vector3, 8> corners;
+  std::size_t count = 0;
+  const Vector3 ahead = farthest(axes_[0]);
+  const bool is_box_like = axes_[0].dot(ahead - corners_[0]) < kBulge * extent(axes_[0]);
   for (std::size_t k = 0; k < 4; ++k) {
-    corners[2 * k] = frame.project(along_axes_[k]);
-    corners[2 * k + 1] = frame.project(farthest(diagonals[k].normalized()));
+    // Counter-clockwise about n: the axis before the diagonal.
+    if (!is_box_like) corners[count++] = k == 0 ? ahead : farthest(k < 2 ? axes_[k] : Vector3(-axes_[k - 2]));
+    corners[count++] = corners_[k];
   }
-  // Counter-clockwise about n; the frame may see them from the other side.
-  if (frame.plane.n.dot(n_) < 0) std::reverse(corners.begin(), corners.end());
+  // The frame may see them from the other side.
+  if (frame.plane.n.dot(n_) < 0) std::reverse(corners.begin(), corners.begin() + count);
   Footprint footprint;
-  for (const Vector2& corner : corners) footprint.add(corner);
+  for (std::size_t k = 0; k < count; ++k) footprint.add(frame.project(corners[k]));
   return footprint;
 }
 

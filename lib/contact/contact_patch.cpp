@@ -15,12 +15,17 @@ namespace {
 constexpr double kMargin = 5;
 constexpr double kLargestMargin = 0.2;
 
+// Of the bodies: what two flat faces have in common can be less than either and still be something to stand on.
+constexpr double kWideOverlap = 0.125;
+
 // Of the smallest half-extent: a lesser depth is rounding.
 constexpr double kLeastDepth = 1e-12;
 
-bool has_depth(const Shape& shape, const Proximity& proximity) {
+// Not a plate or a segment, which has no thickness to be deep in.
+bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
-  return is_answer && -proximity.gap > kLeastDepth * shape.half_extents().minCoeff();
+  const double thickness = shape.half_extents().minCoeff();
+  return is_answer && !shape.is_round() && thickness > 0 && -proximity.gap > kLeastDepth * thickness;
 }
 
 double margin_of(const Shape& shape, const Proximity& proximity) {
@@ -59,7 +64,7 @@ class Region {
  private:
   double width_over_wide(const TangentPlane& plane, const Vector2& direction) const {
     double wide = HUGE_VAL;
-    for (const Cap* cap : caps_) wide = std::min(wide, cap->wide_from(plane.lift(direction)));
+    for (const Cap* cap : caps_) wide = std::min(wide, cap->wide_from(plane.lift(direction), kWideOverlap));
     return footprint_.range(direction).width() / wide;
   }
 
@@ -77,19 +82,19 @@ void add_corners(const Footprint& corners, const PatchFrame& frame, ContactPatch
 ContactPatch find_contact_patch(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                 const Proximity& proximity) {
   ContactPatch patch(proximity);
-  if (!has_depth(shape1, proximity) || !has_depth(shape2, proximity)) return patch;
+  if (!may_have_corners(shape1, proximity) || !may_have_corners(shape2, proximity)) return patch;
   const double depth = -proximity.gap;
   const double margin1 = margin_of(shape1, proximity);
   const double margin2 = margin_of(shape2, proximity);
   patch.margin = depth + margin1 + margin2;
   Cap cap1(shape1, pose1, proximity.normal, depth + margin1);
   Cap cap2(shape2, pose2, -proximity.normal, depth + margin2);
-  // The smaller body first: it is more often the round one.
+  // The smaller body first: it is more often the round one, and the order of the arguments does not matter then.
   std::array<Cap*, 2> caps = {&cap1, &cap2};
   if (cap2.shadow() < cap1.shadow()) std::swap(caps[0], caps[1]);
   // A round body has one contact, also with a small flat one, as dSphere has.
   if (!caps[0]->is_narrow() && !caps[1]->is_narrow()) {
-    const PatchFrame frame{TangentPlane(proximity.normal, cap1.axes()[0]), proximity.contact};
+    const PatchFrame frame{TangentPlane(caps[0]->normal(), caps[0]->axes()[0]), proximity.contact};
     const Footprint overlap = caps[0]->footprint(frame).intersected(caps[1]->footprint(frame));
     add_corners(Region(overlap, caps).corners(frame.plane), frame, patch);
   }
@@ -99,7 +104,7 @@ ContactPatch find_contact_patch(const Shape& shape1, const Pose& pose1, const Sh
 
 ContactPatch find_plane_contact_patch(const Shape& shape, const Pose& pose, const Proximity& proximity) {
   ContactPatch patch(proximity);
-  if (!has_depth(shape, proximity)) return patch;
+  if (!may_have_corners(shape, proximity)) return patch;
   patch.margin = margin_of(shape, proximity);
   Cap cap(shape, pose, proximity.normal, patch.margin - proximity.gap);
   std::array<Cap*, 1> caps = {&cap};

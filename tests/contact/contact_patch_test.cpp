@@ -97,6 +97,15 @@ TEST_CASE("bodies that are apart or only touch have no corners") {
   CHECK(find_contact_patch(brick, {}, brick, {}, Proximity{}).corner_count == 0);
 }
 
+TEST_CASE("a plate without thickness has one contact") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
+  const Box plate(Vector3(2, 2, 0));
+  const Pose pose{Vector3(0, 0, 0.0499), Matrix3::Identity()};
+  const ContactPatch patch = find_contact_patch(brick, pose, plate, {}, find_proximity(brick, pose, plate, {}));
+  CHECK(patch.deepest.gap < 0);
+  CHECK(patch.corner_count == 0);
+}
+
 TEST_CASE("a flat body has four corners on the floor, with little between them and it") {
   Random random(2);
   for (int repetition = 0; repetition < 500; ++repetition) {

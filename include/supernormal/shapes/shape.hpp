@@ -114,6 +114,10 @@ class SUPERNORMAL_API Shape {
   /// The normals of the flat faces of a polytope, as far as they are known; otherwise none.
   virtual std::span<const Vector3> face_normals() const { return {}; }
 
+  /// Whether no cap of the body is wider than one of an ellipsoid is, but for a little: it never rests on more than one point
+  /// (contact_patch.hpp). False where it is not known.
+  virtual bool is_round() const { return false; }
+
   /// Half of the extent along the three axes of the body's frame, m.
   virtual Vector3 half_extents() const;
 

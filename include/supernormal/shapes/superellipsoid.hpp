@@ -1,6 +1,8 @@
 // Superellipsoid: from octahedron (exponents near 1) through ellipsoid (2) to box (large exponents).
 #pragma once
 
+#include <algorithm>
+
 #include "supernormal/shapes/power_norm.hpp"
 #include "supernormal/shapes/shape.hpp"
 
@@ -27,6 +29,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
 
+  bool is_round() const override { return std::min(delta_, epsilon_) >= 2 && std::max(delta_, epsilon_) <= kMostRound; }
   Vector3 half_extents() const override { return half_axes_; }
   SharpFeatures sharp_features() const override;
   MassProperties mass_properties() const override;
@@ -36,6 +39,9 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   double epsilon() const { return epsilon_; }
 
  private:
+  // At most 0.21 of the body's width wider than an ellipsoid's are the caps of a superellipsoid with such exponents.
+  static constexpr double kMostRound = 3;
+
   Vector3 half_axes_;
   double delta_, epsilon_;
   PowerNorm inner_potential_, outer_potential_;  // of (a nx, b ny) and of (inner, c nz): exponents p and q
