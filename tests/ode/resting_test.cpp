@@ -137,8 +137,11 @@ struct Tilt {
   double angle;
 };
 
-const std::array<Tilt, 5> kTilts = {
-    {{{1, 0.3, 0}, 0.05}, {{1, 0, 0}, 0.03}, {{0, 1, 0}, 0.04}, {{1, 1, 0}, 0.05}, {{-0.2, 1, 0}, 0.1}}};
+/// Number 0 is the one that the README names; the others go once around and from 1 to 6.5 degrees.
+Tilt tilt_of_drop(int k) {
+  if (k == 0) return {{1, 0.3, 0}, 0.05};
+  return {{std::cos(2.4 * k), std::sin(2.4 * k), 0}, 0.02 + 0.004 * k};
+}
 
 /// Of a brick dropped from 0.15 m, s; the end of the run if it does not sleep.
 double time_to_sleep(const Brick& brick, Floor floor, const Tilt& tilt) {
@@ -151,6 +154,20 @@ double time_to_sleep(const Brick& brick, Floor floor, const Tilt& tilt) {
     ++step;
   }
   return kStep * step;
+}
+
+struct Times {
+  double first;    // of drop 0, s
+  double median;   // s
+  double longest;  // s
+};
+
+Times times_to_sleep(const Brick& brick, Floor floor) {
+  std::array<double, 24> times{};
+  for (std::size_t k = 0; k < times.size(); ++k) times[k] = time_to_sleep(brick, floor, tilt_of_drop(static_cast<int>(k)));
+  const double first = times[0];
+  std::sort(times.begin(), times.end());
+  return {first, times[times.size() / 2], times.back()};
 }
 
 /// From 5 s to 10 s, without auto-disable.
@@ -174,7 +191,7 @@ Residue residue(Scene& scene) {
 
 Residue residue_of_one(const Brick& brick, Floor floor) {
   Scene scene(floor);
-  scene.add(brick, {0, 0, 0.15}, kTilts[0].axis, kTilts[0].angle);
+  scene.add(brick, {0, 0, 0.15}, tilt_of_drop(0).axis, tilt_of_drop(0).angle);
   return residue(scene);
 }
 
@@ -191,16 +208,15 @@ constexpr std::array<double, 4> kExponents = {8, 12, 20, 60};
 TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
   const OdeSession session;
   for (const Floor floor : {Floor::Plane, Floor::Box, Floor::Mesh}) {
+    const Times box = times_to_sleep({}, floor);
+    MESSAGE("floor ", static_cast<int>(floor), ", dBox: ", box.first, " s; median ", box.median, " s, longest ", box.longest, " s");
     for (const double exponent : kExponents) {
-      // One drop is a matter of luck: how the first corner hits. The median is not.
-      std::vector<double> ratios;
-      ratios.reserve(kTilts.size());
-      for (const Tilt& tilt : kTilts) ratios.push_back(time_to_sleep({exponent}, floor, tilt) / time_to_sleep({}, floor, tilt));
-      std::sort(ratios.begin(), ratios.end());
-      CAPTURE(static_cast<int>(floor));
-      CAPTURE(exponent);
-      CHECK(ratios[ratios.size() / 2] <= 2);
-      CHECK(ratios.back() <= 4);
+      const Times ours = times_to_sleep({exponent}, floor);
+      MESSAGE("exponent ", exponent, ": ", ours.first, " s; median ", ours.median, " s, longest ", ours.longest, " s");
+      // One drop is a matter of luck: how the first corner hits.
+      CHECK(ours.median <= 2 * box.median);
+      CHECK(ours.longest <= 3 * box.longest);
+      if (floor == Floor::Plane) CHECK(ours.first <= 2 * box.first);
     }
   }
 }
@@ -222,8 +238,10 @@ TEST_CASE("a flat body lies as still as a dBox on a plane") {
 TEST_CASE("a stack of five stands as still as five dBoxes") {
   const OdeSession session;
   const Residue boxes = residue_of_stack({});
+  MESSAGE("dBox: ", 1e6 * boxes.energy, " uJ, ", 1e3 * boxes.drift, " mm");
   for (const double exponent : kExponents) {
     const Residue ours = residue_of_stack({exponent});
+    MESSAGE("exponent ", exponent, ": ", 1e6 * ours.energy, " uJ, ", 1e3 * ours.drift, " mm");
     CAPTURE(exponent);
     CHECK(ours.energy <= 10 * boxes.energy);
     CHECK(ours.drift <= std::max(3 * boxes.drift, 0.002));
