@@ -1,5 +1,6 @@
 #include "energy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace falling_particles {
@@ -37,6 +38,21 @@ double kinetic_height(const World& world, const Scene& scene) {
   for (const Body& body : world.bodies()) mass += body.mass.mass;
   const double weight = mass * std::hypot(x, y, z);
   return weight > 0 ? measure_energy(world, scene).kinetic / weight : 0;
+}
+
+double largest_kinetic_energy(const World& world) {
+  double largest = 0;
+  for (const Body& body : world.bodies()) largest = std::max(largest, kinetic_energy(body));
+  return largest;
+}
+
+EnergyWatch::EnergyWatch(const World& world, const Scene& scene)
+    : world_(world), scene_(scene), start_(measure_energy(world, scene).total()), least_(start_) {}
+
+void EnergyWatch::after_step() {
+  const double now = measure_energy(world_, scene_).total();
+  gained_ = std::max(gained_, now - least_);
+  least_ = std::min(least_, now);
 }
 
 }  // namespace falling_particles

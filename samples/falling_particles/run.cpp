@@ -26,15 +26,17 @@ namespace {
 
 /// What is looked at after every step.
 struct Watches {
-  Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene.container) {
+  Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene.container), energy(world, scene) {
     if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
   }
   void after_step(double time) {
     leaks.after_step(time);
+    energy.after_step();
     if (discharge) discharge->after_step(time);
   }
 
   LeakWatch leaks;
+  EnergyWatch energy;
   std::optional<Discharge> discharge;  // of a hopper
 };
 
@@ -133,6 +135,8 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet) {
                         stepper.contacts(),
                         stepper.deepest_contact(),
                         kinetic_height(world, scene),
+                        largest_kinetic_energy(world),
+                        watches.energy,
                         measure_overlap(world),
                         count_outside(world, scene.container),
                         watches.leaks.count(),

@@ -92,6 +92,9 @@ void add_end_state(Lines& lines, const Summary& s) {
     lines.add("kinetic_height", s.kinetic_height, "m, to which the kinetic energy would lift all grains");
     lines.add("settled", s.kinetic_height < kSettledHeight * size, "kinetic_height below 0.1 % of smallest_half_axis");
   }
+  lines.add("largest_kinetic_energy", s.largest_kinetic_energy, "J, of the grain that has most");
+  lines.add("energy_lost", s.energy.lost(), "J, from the start to the least of all steps");
+  lines.add("energy_gained", s.energy.gained(), "J, largest rise over any step before");
   if (s.bed) add_bed(lines, *s.bed, "m, twice the mean height of the grains' volume");
 }
 

@@ -7,6 +7,7 @@
 
 #include "bed.hpp"
 #include "discharge.hpp"
+#include "energy.hpp"
 #include "overlap.hpp"
 #include "scene.hpp"
 #include "stepper.hpp"
@@ -26,8 +27,10 @@ struct Summary {
   const StepCosts& costs;
   snStatistics statistics;  ///< of the steps
   std::size_t contacts_at_end;
-  double deepest_contact;  ///< m, of all steps
-  double kinetic_height;   ///< m
+  double deepest_contact;         ///< m, of all steps
+  double kinetic_height;          ///< m
+  double largest_kinetic_energy;  ///< J, of a grain
+  const EnergyWatch& energy;
   Overlap overlap;
   std::size_t outside;         ///< at the end
   std::size_t leaked;          ///< at any time

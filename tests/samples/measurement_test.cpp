@@ -39,6 +39,23 @@ TEST_CASE("energy of a moving ellipsoid") {
   CHECK(kinetic_height(world, scene) == doctest::Approx(energy.kinetic / (mass * 10)).epsilon(1e-12));
 }
 
+TEST_CASE("the energy that grains gain and lose is watched over all steps") {
+  const Scene scene = scene_of(ellipsoid(), 2);
+  const World world(scene, {upright(0.05, 0.05, 0.05), upright(0.15, 0.15, 0.05)});
+  const Body& body = world.bodies().back();
+  EnergyWatch watch(world, scene);
+  // Heights of one of the two: down by 20 mm, up by 5, down by 10, up by 8.
+  for (const double height : {0.03, 0.035, 0.025, 0.033}) {
+    dBodySetPosition(body.body, 0.15, 0.15, height);
+    watch.after_step();
+  }
+  const double weight = body.mass.mass * 10;
+  CHECK(watch.lost() == doctest::Approx(weight * 0.025).epsilon(1e-12));
+  CHECK(watch.gained() == doctest::Approx(weight * 0.008).epsilon(1e-12));
+  dBodySetLinearVel(body.body, 0, 0, 3);
+  CHECK(largest_kinetic_energy(world) == doctest::Approx(0.5 * body.mass.mass * 9).epsilon(1e-12));
+}
+
 TEST_CASE("the deepest overlap is found, between grains and with walls") {
   const Scene scene = scene_of(ellipsoid(), 3);
   // Half-axis 0.02 along x: the first two overlap by 1 mm, the third is 3 mm deep in the wall x = 0.2.

@@ -1,0 +1,46 @@
+// Small worlds to try settings on.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <vector>
+
+namespace quickstep_settings {
+
+/// Bodies over a floor, z = 0.
+class Scene {
+ public:
+  /// `size`: smallest half-axis of the bodies, m.
+  explicit Scene(double size);
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene(Scene&&) = delete;
+  Scene& operator=(const Scene&) = delete;
+  Scene& operator=(Scene&&) = delete;
+
+  /// A body with half-axes 2, 1.4 and 1 times the size and both exponents alike; position in sizes, density in kg/m^3.
+  void add(double exponent, double density, std::array<double, 3> position, std::array<double, 4> quaternion = {1, 0, 0, 0});
+  void add_walls(double half_width);  ///< in sizes
+
+  dWorldID world() const { return world_; }
+  dSpaceID space() const { return space_; }
+  const std::vector<dBodyID>& bodies() const { return bodies_; }
+  double size() const { return size_; }
+  double mass() const;  ///< kg, of the first body
+
+ private:
+  double size_;
+  dWorldID world_;
+  dSpaceID space_;
+  std::vector<dBodyID> bodies_;
+};
+
+void fill_brick(Scene& scene);   ///< a boxy body (exponents 20), dropped tilted
+void fill_stack(Scene& scene);   ///< ten boxy bodies dropped on one another, a little tilted
+void fill_heavy(Scene& scene);   ///< likewise two boxy bodies and on them one that is twenty times as heavy
+void fill_pebble(Scene& scene);  ///< an ellipsoid, dropped tilted
+void fill_sunk(Scene& scene);    ///< a boxy body that starts 30 % of its smallest half-axis deep in the floor
+void fill_grains(Scene& scene);  ///< forty grains, round and boxy, dropped between walls
+
+}  // namespace quickstep_settings

@@ -1,0 +1,134 @@
+// What the tests of motion share: an ODE world that steps our bodies as a program does, and the energies of its bodies.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "ode/ode_fixture.hpp"
+
+namespace supernormal::test {
+
+inline constexpr double kGravity = 9.81;  // m/s^2
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+/// A world, a space and the near callback of every ODE program. ODE's defaults unless a test says otherwise.
+class World {
+ public:
+  World() : id_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)), joints_(dJointGroupCreate(0)) {
+    dWorldSetGravity(id_, 0, 0, dReal(-kGravity));
+    dRandSetSeed(1);  // quickstep shuffles its rows with ODE's global generator
+  }
+  ~World() {
+    dJointGroupDestroy(joints_);
+    dSpaceDestroy(space_);
+    dWorldDestroy(id_);
+  }
+  World(const World&) = delete;
+  World(World&&) = delete;
+  World& operator=(const World&) = delete;
+  World& operator=(World&&) = delete;
+
+  dWorldID id() const { return id_; }
+  dSpaceID space() const { return space_; }
+
+  /// A body of the geom's mass for a density in kg/m^3.
+  dBodyID add(dGeomID geom, double density) const {
+    dMass mass;
+    REQUIRE(snMassSet(&mass, dReal(density), geom) == 1);
+    return add(geom, mass);
+  }
+  dBodyID add(dGeomID geom, const dMass& mass) const {
+    const dBodyID body = dBodyCreate(id_);
+    dBodySetMass(body, &mass);
+    dGeomSetBody(geom, body);
+    return body;
+  }
+
+  /// The plane z = 0, rising along x at an angle (rad).
+  void add_plane(double incline = 0) const { dCreatePlane(space_, dReal(-std::sin(incline)), 0, dReal(std::cos(incline)), 0); }
+
+  void quick_step(double dt) {
+    make_contacts();
+    dWorldQuickStep(id_, dReal(dt));
+    dJointGroupEmpty(joints_);
+  }
+  /// With ODE's exact solver.
+  void exact_step(double dt) {
+    make_contacts();
+    dWorldStep(id_, dReal(dt));
+    dJointGroupEmpty(joints_);
+  }
+
+  dSurfaceParameters surface{};  ///< of every contact; frictionless unless set
+  int contacts = 0;              ///< in the last step
+  int most_of_a_pair = 0;        ///< contacts in any step
+  double depth = 0;              ///< m, the deepest contact of the last step
+
+ private:
+  static constexpr int kRoom = 8;
+
+  void make_contacts() {
+    contacts = 0;
+    depth = 0;
+    dSpaceCollide(space_, this, near_callback);
+  }
+
+  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
+    World& world = *static_cast<World*>(self);
+    std::array<dContact, kRoom> found;
+    const int count = dCollide(o1, o2, kRoom, &found[0].geom, sizeof(dContact));
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = found[static_cast<std::size_t>(i)];
+      contact.surface = world.surface;
+      world.depth = std::max(world.depth, double{contact.geom.depth});
+      dJointAttach(dJointCreateContact(world.id_, world.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
+    }
+    world.contacts += count;
+    world.most_of_a_pair = std::max(world.most_of_a_pair, count);
+  }
+
+  dWorldID id_;
+  dSpaceID space_;
+  dJointGroupID joints_;
+};
+
+/// R I R^T w: the angular momentum about the body's centre of mass, world frame, kg m^2/s.
+inline Vec spin_momentum(dBodyID body) {
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  const dReal* const w = dBodyGetAngularVel(body);
+  dVector3 spin;
+  dBodyVectorFromWorld(body, w[0], w[1], w[2], spin);
+  dVector3 momentum;
+  dMultiply0_331(momentum, mass.I, spin);
+  dVector3 world;
+  dBodyVectorToWorld(body, momentum[0], momentum[1], momentum[2], world);
+  return to_vec(world);
+}
+
+inline double mass_of(dBodyID body) {
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  return mass.mass;
+}
+
+/// J
+inline double kinetic_energy(dBodyID body) {
+  const Vec v = to_vec(dBodyGetLinearVel(body));
+  return 0.5 * (mass_of(body) * dot(v, v) + dot(to_vec(dBodyGetAngularVel(body)), spin_momentum(body)));
+}
+
+/// Kinetic and in the field of gravity, from z = 0; J
+inline double energy(dBodyID body) { return kinetic_energy(body) + mass_of(body) * kGravity * dBodyGetPosition(body)[2]; }
+
+/// Turned by an angle (rad) about an axis.
+inline void turn(dBodyID body, const Vec& axis, double angle) {
+  dMatrix3 R;
+  dRFromAxisAndAngle(R, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));
+  dBodySetRotation(body, R);
+}
+
+}  // namespace supernormal::test

@@ -1,0 +1,132 @@
+// Many bodies on one another: a wall and a pile come to rest, and nothing sinks, creeps or gains energy.
+#include <doctest/doctest.h>
+
+#include "dynamics/dynamics_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+/// ODE's auto-disable as README.md advises it: thresholds of the bodies' size, over the mean of ten steps.
+void let_sleep(const World& world, double size) {
+  dWorldSetAutoDisableFlag(world.id(), 1);
+  dWorldSetAutoDisableAverageSamplesCount(world.id(), 10);
+  dWorldSetAutoDisableLinearThreshold(world.id(), dReal(0.01));
+  dWorldSetAutoDisableAngularThreshold(world.id(), dReal(0.01 / size));
+}
+
+struct Watch {
+  double start;
+  double least;
+  double gained = 0;   ///< J
+  double deepest = 0;  ///< m
+  int steps = 0;
+  bool asleep = false;
+};
+
+/// Steps until all sleep, at most for a time, s.
+Watch settle(World& world, const std::vector<dBodyID>& bodies, double dt, double patience) {
+  const auto energy_of_all = [&] {
+    double sum = 0;
+    for (const dBodyID body : bodies) sum += energy(body);
+    return sum;
+  };
+  const double start = energy_of_all();
+  Watch watch{start, start};
+  while (!watch.asleep && watch.steps * dt < patience) {
+    world.quick_step(dt);
+    ++watch.steps;
+    const double now = energy_of_all();
+    watch.gained = std::max(watch.gained, now - watch.least);
+    watch.least = std::min(watch.least, now);
+    watch.deepest = std::max(watch.deepest, world.depth);
+    watch.asleep = std::none_of(bodies.begin(), bodies.end(), [](dBodyID body) { return dBodyIsEnabled(body) != 0; });
+  }
+  return watch;
+}
+
+}  // namespace
+
+TEST_CASE("a wall of 50 bricks stands and sleeps as soon as one of dBoxes") {
+  const double a = 0.1;
+  const double b = 0.06;
+  const double c = 0.04;
+  const auto build_and_settle = [&](bool boxes) {
+    OdeSession session;
+    World world;
+    let_sleep(world, c);
+    dWorldSetQuickStepNumIterations(world.id(), 40);
+    world.surface.mode = dContactApprox1;
+    world.surface.mu = dReal(0.5);
+    world.add_plane();
+    std::vector<dBodyID> bricks;
+    std::vector<Vec> start;
+    for (int course = 0; course < 10; ++course) {
+      for (int i = 0; i < 5; ++i) {
+        dMass mass;
+        dMassSetBox(&mass, 1000, dReal(2 * a), dReal(2 * b), dReal(2 * c));
+        const dGeomID geom = boxes ? dCreateBox(world.space(), dReal(2 * a), dReal(2 * b), dReal(2 * c))
+                                   : snCreateSuperellipsoid(world.space(), dReal(a), dReal(b), dReal(c), 20, 20);
+        if (!boxes) REQUIRE(snMassSet(&mass, 1000, geom) == 1);
+        bricks.push_back(world.add(geom, mass));
+        start.push_back({(2 * a + 0.002) * (i + 0.25 * (course % 2)), 0, c + (2 * c + 1e-4) * course});
+        place(geom, start.back());
+      }
+    }
+    const Watch watch = settle(world, bricks, 1e-3, 3);
+    CHECK(watch.asleep);
+    CHECK(watch.gained < 1e-3 * watch.start);
+    CHECK(watch.deepest < 0.005 * c);
+    for (std::size_t i = 0; i < bricks.size(); ++i) {
+      // The gaps of 0.1 mm between the courses have closed, and that is all.
+      const auto course = static_cast<int>(i) / 5;
+      const Vec moved = to_vec(dBodyGetPosition(bricks[i])) - start[i];
+      CHECK(std::hypot(moved[0], moved[1]) < 0.01 * c);
+      CHECK(std::abs(moved[2] + 1e-4 * course) < 0.01 * c);
+    }
+    return watch.steps;
+  };
+  const int steps_of_boxes = build_and_settle(true);
+  CHECK(build_and_settle(false) <= 2 * steps_of_boxes);
+}
+
+TEST_CASE("a pile of mixed grains comes to rest") {
+  // samples/scenes/pile.toml is the long run: 1000 grains, 1e5 steps.
+  OdeSession session;
+  World world;
+  dHashSpaceSetLevels(world.space(), -8, -6);  // cells of 4…16 mm
+  let_sleep(world, 0.003);
+  dWorldSetQuickStepNumIterations(world.id(), 40);
+  world.surface.mode = dContactApprox1;
+  world.surface.mu = dReal(0.5);
+  const double wall = 0.025;
+  world.add_plane();
+  for (const double side : {-1.0, 1.0}) {
+    dCreatePlane(world.space(), dReal(-side), 0, 0, dReal(-wall));
+    dCreatePlane(world.space(), 0, dReal(-side), 0, dReal(-wall));
+  }
+  const std::array<double, 6> exponents = {1.3, 2, 2, 3, 8, 30};
+  Random random(11);
+  std::vector<dBodyID> grains;
+  for (int i = 0; i < 90; ++i) {
+    const auto exponent = [&] { return dReal(exponents[static_cast<std::size_t>(random.uniform(0, 5.999))]); };
+    const double c = random.uniform(2.5e-3, 3.5e-3);
+    const std::array<dReal, 4> p = {dReal(c * random.uniform(1, 1.8)), dReal(c * random.uniform(1, 1.4)), exponent(), exponent()};
+    const dGeomID geom = snCreateSuperellipsoid(world.space(), p[0], p[1], dReal(c), p[2], p[3]);
+    grains.push_back(world.add(geom, 1200));
+    random.turn(geom);
+    const int layer = i / 9;
+    const int row = i / 3 % 3 - 1;
+    place(geom, {0.0145 * (i % 3 - 1), 0.0145 * row, 0.009 + 0.0145 * layer});
+  }
+  const Watch watch = settle(world, grains, 5e-4, 3);
+  CHECK(watch.asleep);
+  CHECK(watch.gained < 1e-4 * watch.start);
+  CHECK(watch.deepest < 0.5 * 2.5e-3);  // in flight: 1.6 m/s in a step
+  CHECK(world.depth < 0.01 * 2.5e-3);   // at rest
+  for (const dBodyID grain : grains) {
+    const Vec p = to_vec(dBodyGetPosition(grain));
+    CHECK(std::max(std::abs(p[0]), std::abs(p[1])) < wall);
+    CHECK(p[2] > 0);
+  }
+}
