@@ -38,7 +38,7 @@ SUPERNORMAL_API const char* snLastError(void);
  *
  * dCollide knows our geoms among themselves and with all of ODE's own: dSphere, dBox, dCapsule, dCylinder, dPlane, dConvex, dRay,
  * dTriMesh and dHeightfield; inside spaces and dGeomTransform as everywhere. With a user class of another program it asks that
- * class. A geom with a length that is not finite, or above 1e30, makes no contacts, and snLastError says so.
+ * class. A geom with a length that is not finite, or above 1e30 (but for a dRay), makes no contacts, and snLastError says so.
  * Contacts: the deepest point of the overlap first, with its depth. Where flat bodies overlap in a wide region its corners follow,
  * two or four, with depth 0, if there is room for them: what a body rests on (README, "Resting"). Round bodies make one contact,
  * and so does everything with room for one.
@@ -73,10 +73,10 @@ typedef struct snShape {
 } snShape;
 
 /* The callbacks are tried in 26 directions: results must be finite and the size in [1e-30, 1e30]; to 1e-6 of the size,
- * point(n).n = support(n) and no point lies outside the tangent plane of another; support(n) + support(-n) > 0; the Hessian is
- * symmetric, has n in its kernel and no negative eigenvalue. Otherwise refused: 0, and snLastError names the direction. Flat faces
- * and sharp edges are allowed (any point of the face will do); smooth bodies are solved with fewer evaluations. `shape` itself is
- * copied. samples/user_shape shows an egg and a lens. */
+ * point(n).n = support(n) and no point lies outside the tangent plane of another; support(n) + support(-n) >= 2e-30 m; the Hessian
+ * is symmetric, has n in its kernel and no negative eigenvalue. Otherwise refused: 0, and snLastError names the direction. Flat
+ * faces and sharp edges are allowed (any point of the face will do); smooth bodies are solved with fewer evaluations. `shape`
+ * itself is copied. samples/user_shape shows an egg and a lens. */
 SUPERNORMAL_API dGeomID snCreateConvex(dSpaceID space, const snShape* shape);
 
 /* Set and get refuse (return 0, set snLastError) when the geom is not an ellipsoid or superellipsoid. Set keeps the rounding;
@@ -136,6 +136,7 @@ typedef struct snProximity {
   dVector3 point1, point2; /* m, world frame, on the two boundaries */
   int evaluations;         /* of the gap function; 0 for closed forms */
   int converged;           /* 1: the error is within the tolerance */
+  int is_global;           /* 1: proved that no shorter translation than -gap separates the geoms; always when apart or touching */
 } snProximity;
 
 /* Signed distance of two geoms, apart or overlapping, in either order; at least one is ours, the other ours or one of ODE's own

@@ -1,18 +1,47 @@
 #include "contact/contact_point.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "solvers/local_model.hpp"
 
 namespace supernormal {
+namespace {
+
+/// What rounding leaves of the radii of curvature, m: the basis is aligned with the flatter body, not with the other.
+double curvature_rounding(const Symmetric2& A1, const Symmetric2& A2) {
+  return 4 * std::numeric_limits<double>::epsilon() * std::min(A1.xx + A1.yy, A2.xx + A2.yy);
+}
+
+/// How far the contact lies from the middle of the witness points. Where edges are nearly parallel, the place where they would meet
+/// may be outside the bodies; it cannot be farther from the witness points than these are apart and the smaller body is long.
+Vector2 within_reach(const GapFunction& gap, const Vector2& shift, double half_distance) {
+  const double length = shift.norm();
+  if (length <= half_distance) return shift;
+  const double radius = std::min(gap.shape1().half_extents().norm(), gap.shape2().half_extents().norm());
+  const double reach = half_distance + 2 * radius;
+  return length <= reach ? shift : Vector2(shift * (reach / length));
+}
+
+}  // namespace
 
 Vector3 contact_point(const GapFunction& gap, const GapJet& jet) {
   const Vector3 middle = jet.jet1.r + 0.5 * jet.d;
   if (!gap.has_curvature()) return middle;
   const LocalModel local = LocalModel::of(gap, jet);
+  // The same added to both gives half the weight to each where neither has a curvature that is known.
+  const double rounding = curvature_rounding(local.A1, local.A2);
+  const Symmetric2 A1 = local.A1.plus_identity(rounding), A2 = local.A2.plus_identity(rounding);
+  const Vector2 across = local.plane1.project(jet.d);
   // The turn of the normal that would bring both points together, and how far it moves point 1.
-  const Vector2 turn = (local.A1 + local.A2).solve(local.plane1.project(jet.d));
-  const Vector2 from_point1 = local.A1 * turn;
-  if (!from_point1.allFinite()) return middle;
-  return jet.jet1.r + local.plane1.lift(from_point1) + 0.5 * jet.s * jet.n;
+  const Vector2 turn = (A1 + A2).solve(across);
+  // Where no finite turn does, at two vertices; asked before anything is computed with it, which would raise an exception.
+  if (!std::isfinite(turn.x()) || !std::isfinite(turn.y())) return middle;
+  const Vector2 from_point1 = A1 * turn;
+  if (!std::isfinite(from_point1.x()) || !std::isfinite(from_point1.y())) return middle;
+  const Vector2 from_middle = within_reach(gap, from_point1 - 0.5 * across, 0.5 * across.norm());
+  return jet.jet1.r + local.plane1.lift(0.5 * across + from_middle) + 0.5 * jet.s * jet.n;
 }
 
 }  // namespace supernormal

@@ -5,7 +5,7 @@
 
 #include "contact/arc_search.hpp"
 #include "contact/mesh_contacts.hpp"
-#include "solvers/global_search.hpp"
+#include "solvers/other_maxima.hpp"
 
 namespace supernormal {
 namespace {

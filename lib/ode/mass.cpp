@@ -35,8 +35,14 @@ void set_mass(dMass* mass, const MassProperties& properties, double density) {
   const auto real = [](double value) { return static_cast<dReal>(value); };
   dMassSetParameters(&result, real(density * properties.volume), real(c.x()), real(c.y()), real(c.z()), real(inertia(0, 0)),
                      real(inertia(1, 1)), real(inertia(2, 2)), real(inertia(0, 1)), real(inertia(0, 2)), real(inertia(1, 2)));
-  if (dMassCheck(&result) == 0)
-    throw std::invalid_argument("ODE does not accept the mass (dMassCheck): too small or too large a body");
+  // dMassCheck lets infinite ones pass.
+  const bool is_finite =
+      std::isfinite(result.mass) && std::isfinite(result.I[0]) && std::isfinite(result.I[5]) && std::isfinite(result.I[10]);
+  if (!is_finite || dMassCheck(&result) == 0) {
+    throw std::invalid_argument("mass = " + to_text(result.mass) +
+                                " kg: ODE does not accept it (dMassCheck), or a moment of inertia is " +
+                                "not finite: too small, too large or too heavy a body");
+  }
   *mass = result;
 }
 

@@ -39,6 +39,7 @@ void write(const Proximity& proximity, bool swapped, snProximity& out) {
   out.normal[3] = out.point1[3] = out.point2[3] = 0;
   out.evaluations = proximity.evaluations;
   out.converged = proximity.status == Status::Converged ? 1 : 0;
+  out.is_global = proximity.is_global ? 1 : 0;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "shapes/finite.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -53,7 +54,7 @@ double check_points(const std::array<Trial, kDirections>& trials) {
   double size = 0;
   for (const Trial& trial : trials) {
     if (!std::isfinite(trial.h)) refuse("support = " + supernormal::to_text(trial.h) + " is not finite", trial.n);
-    if (!trial.r.allFinite()) refuse("point = " + to_text(trial.r) + " is not finite", trial.n);
+    if (!all_finite(trial.r)) refuse("point = " + to_text(trial.r) + " is not finite", trial.n);
     size = std::max({size, trial.r.lpNorm<Eigen::Infinity>(), std::abs(trial.h)});
   }
   require_in("size of the body", size, kMinLength, kMaxLength, "m");
@@ -67,12 +68,14 @@ double check_points(const std::array<Trial, kDirections>& trials) {
   return size;
 }
 
-/// A width above zero, and every boundary point behind every supporting plane.
+/// A width that is a length as other shapes have it, and every boundary point behind every supporting plane.
 void check_convex(const std::array<Trial, kDirections>& trials, double size) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const Trial& trial = trials[i];
     const double width = trial.h + trials[trials.size() - 1 - i].h;
-    if (!(width > 0)) refuse("the width support(n) + support(-n) = " + supernormal::to_text(width) + " m is not above 0", trial.n);
+    if (!(width >= 2 * kMinLength)) {
+      refuse("the width support(n) + support(-n) = " + supernormal::to_text(width) + " m is below 2e-30 m", trial.n);
+    }
     for (const Trial& other : trials) {
       const double excess = trial.n.dot(other.r) - trial.h;
       if (excess > kTolerance * size) {
@@ -85,7 +88,7 @@ void check_convex(const std::array<Trial, kDirections>& trials, double size) {
 }
 
 void check_hessian(const Matrix3& hessian, const Vector3& n) {
-  if (!hessian.allFinite()) refuse("hessian is not finite", n);
+  if (!all_finite(hessian)) refuse("hessian is not finite", n);
   const double largest = hessian.cwiseAbs().maxCoeff();
   if (largest == 0) return;  // a vertex
   const Matrix3 H = hessian / largest;

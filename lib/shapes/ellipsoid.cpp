@@ -7,6 +7,11 @@ namespace supernormal {
 Ellipsoid::Ellipsoid(const Vector3& half_axes)
     : half_axes_(require_half_axes(half_axes)), squares_(half_axes.cwiseProduct(half_axes)) {}
 
+double Ellipsoid::rolling_radius() const {
+  const double smallest = half_axes_.minCoeff();
+  return smallest * (smallest / half_axes_.maxCoeff());
+}
+
 void Ellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.h = half_axes_.cwiseProduct(n).norm();
   if (order == Order::Value) return;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "shapes/finite.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -17,7 +18,7 @@ constexpr double kLargestRatio = 1e12;
 
 LinearImage::LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matrix) : shape_(std::move(shape)), matrix_(matrix) {
   if (!shape_) throw std::invalid_argument("shape is null; a shape is needed");
-  if (!matrix.allFinite()) throw std::invalid_argument("matrix has an entry that is not finite");
+  if (!all_finite(matrix)) throw std::invalid_argument("matrix has an entry that is not finite");
   const Eigen::JacobiSVD<Matrix3> svd(matrix, Eigen::ComputeFullU);
   axes_ = svd.matrixU();
   largest_ = require_in("largest singular value of matrix", svd.singularValues()[0], kMinLength, kMaxLength);

@@ -16,6 +16,9 @@ namespace {
 
 constexpr double kSphere = 4 * std::numbers::pi / 3;  // volume of the unit sphere
 
+// A layer thinner than this share of the body adds nothing that a double can hold, and products of its moments would underflow.
+constexpr double kThinnestLayer = 0x1p-60;
+
 /// Of a body with three planes of symmetry, from its volume and mean squares <x^2>, <y^2>, <z^2>.
 MassProperties symmetric(double volume, const Vector3& mean_squares) {
   MassProperties mass;
@@ -38,7 +41,7 @@ std::shared_ptr<const Shape> borrowed(const Shape& shape) { return {std::shared_
 
 /// The core swept by a sphere; by closed form and spectral quadrature where the kind of core is known.
 MassProperties swept(const Shape& core, double radius) {
-  if (radius == 0) return core.mass_properties();
+  if (radius <= kThinnestLayer * core.half_extents().minCoeff()) return core.mass_properties();
   if (const auto* rounded = dynamic_cast<const Rounded*>(&core)) return swept(rounded->core(), rounded->radius() + radius);
   if (const auto* sphere = dynamic_cast<const Sphere*>(&core)) return Sphere(sphere->radius() + radius).mass_properties();
   if (const auto* capsule = dynamic_cast<const Capsule*>(&core)) {

@@ -22,6 +22,34 @@ double relative_radius(double exponent) {
 /// diagonals.
 double relative_roundness(double exponent) { return 1 - std::exp2(exponent >= 2 ? -1 / exponent : 1 / exponent - 1); }
 
+/// A ball of this radius rolls freely inside the superellipsoid with half-axes 1; 0 if there is none, as at the vertices and edges
+/// of an exponent below 2.
+///
+/// Twice, the support function is a p-norm with dual exponent p in (1, 2]. Its radius of curvature (p-1) (c s)^(p-2) / (c^p + s^p)^
+/// (2 - 1/p), c and s the cosine and sine of the normal's angle, is least at 45 degrees: (p-1) 2^(1/p - 1/2), and its own value is
+/// between 1 and 2^(1/p - 1/2) there. Let t be the inner norm over a unit vector, and of a unit tangent vector let mu be the part
+/// along the meridian and gamma the part across. By the chain rule the second derivative along it is at least
+///     along (mu - slope gamma)^2 + across gamma^2,    slope = |t'|/t <= 2 - p,
+/// (t'/t = (x^(p-1) - x)/(1 + x^p) for the tangent x <= 1 of the angle, convex in p and 0 for p = 2), which in turn is at least
+/// the smaller eigenvalue of that quadratic form.
+double unit_rolling_radius(double delta, double epsilon) {
+  if (delta < 2 || epsilon < 2) return 0;
+  const double p = delta / (delta - 1), q = epsilon / (epsilon - 1);
+  const double largest_inner = std::exp2(1 / p - 0.5), largest_outer = std::exp2(1 / q - 0.5);
+  const double along = largest_outer / (epsilon - 1) / largest_inner;
+  const double across = largest_inner / (delta - 1) / std::pow(largest_inner * largest_outer, q - 1);
+  const double slope = 2 - p;
+  const double along_both = along * (1 + slope * slope);
+  const double discriminant = std::hypot(along_both - across, 2 * slope * std::sqrt(along * across));
+  return 2 * along * across / (along_both + across + discriminant);
+}
+
+/// The same of half-axes a, whose smallest and largest stretch the ball to an ellipsoid.
+double rolling_radius_of(const Vector3& half_axes, double delta, double epsilon) {
+  const double smallest = half_axes.minCoeff();
+  return smallest * (smallest / half_axes.maxCoeff()) * unit_rolling_radius(delta, epsilon);
+}
+
 }  // namespace
 
 Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double epsilon)
@@ -31,7 +59,8 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
       inner_potential_(PowerNorm::dual_to_exponent(delta)),
       outer_potential_(PowerNorm::dual_to_exponent(epsilon)),
       inner_gauge_(PowerNorm::of_exponent(delta)),
-      outer_gauge_(PowerNorm::of_exponent(epsilon)) {}
+      outer_gauge_(PowerNorm::of_exponent(epsilon)),
+      rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)) {}
 
 void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const Vector3 scaled = half_axes_.cwiseProduct(n).cwiseAbs();

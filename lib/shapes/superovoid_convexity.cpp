@@ -65,7 +65,7 @@ void require_convex_taper(double delta, double epsilon, double taper_x, double t
   const char* const names[] = {"taper_x", "taper_y"};
   const double tapers[] = {taper_x, taper_y};
   for (int axis = 0; axis < 2; ++axis) {
-    if (tapers[axis] >= -largest && tapers[axis] <= largest) continue;  // false for NaN
+    if (std::islessequal(std::abs(tapers[axis]), largest)) continue;  // false for NaN, and quiet about it
     throw std::invalid_argument(std::string(names[axis]) + " = " + to_text(tapers[axis]) + " is outside [" + to_text(-largest) +
                                 ", " + to_text(largest) + "], where a body with epsilon = " + to_text(epsilon) +
                                 " is convex: |taper| <= 2^(1/epsilon) (epsilon - 1)/epsilon");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -21,9 +22,9 @@ inline std::string to_text(double value) {
 }
 
 /// Returns `value`, or throws std::invalid_argument, such as "radius = -1 m is outside [0, 1e+30] m", unless low <= value <= high;
-/// a NaN is outside. `unit` is "" for a number without one.
+/// a NaN is outside, and raises no floating-point exception, as the operator >= would. `unit` is "" for a number without one.
 inline double require_in(const char* name, double value, double low, double high, const char* unit = "") {
-  if (value >= low && value <= high) return value;  // false for NaN
+  if (std::isgreaterequal(value, low) && std::islessequal(value, high)) return value;
   const std::string tail = *unit == '\0' ? std::string() : std::string(" ") + unit;
   throw std::invalid_argument(std::string(name) + " = " + to_text(value) + tail + " is outside [" + to_text(low) + ", " +
                               to_text(high) + "]" + tail);

@@ -9,7 +9,11 @@ double absolute_tolerance(const GapFunction& gap, const Settings& settings) {
   return std::max(settings.tolerance * gap.length_unit() - gap.rounding(), gap.rounding());
 }
 
-Proximity answer(const GapFunction& gap, const GapJet& jet, double model_error, Status status) {
+double largest_excess(const GapJet& jet, double rolling_radius) {
+  return (jet.d + rolling_radius * jet.n).norm() - (jet.s + rolling_radius);
+}
+
+Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status) {
   Proximity out;
   out.gap = jet.s;
   out.normal = jet.n;
@@ -18,10 +22,16 @@ Proximity answer(const GapFunction& gap, const GapJet& jet, double model_error, 
   out.contact = 0.5 * (out.point1 + out.point2);
   out.evaluations = gap.evaluations();
   out.status = status;
-  // Two points of separated bodies are never closer than the gap.
-  const double witness_error = jet.s > 0 ? jet.d.norm() - jet.s : std::numeric_limits<double>::infinity();
   if (status == Status::Apart || status == Status::Diverged) model_error = std::numeric_limits<double>::infinity();
-  out.error = std::min(model_error, witness_error) + gap.rounding();
+  const double excess = largest_excess(jet, gap.rolling_radius());
+  out.error = std::min(model_error, excess) + gap.rounding();
+  // Without the balls that roll inside them the bodies are apart, and s is concave on the cone of the normals that separate them.
+  // And where bodies are apart, s >= -x at any of its stationary points bounds the gap by x: s extended to all vectors is concave.
+  const bool is_concave = jet.s + gap.rolling_radius() > 0;
+  const bool is_touching = jet.s >= -absolute_tolerance(gap, settings);
+  out.is_global = jet.s > 0 || (status != Status::Diverged && (is_concave || is_touching));
+  const double least = absolute_tolerance(gap, settings) + gap.rounding();
+  out.global_error = out.is_global ? std::max(out.error, least) : excess + gap.rounding();
   return out;
 }
 

@@ -10,8 +10,14 @@ namespace supernormal {
 /// less than rounding itself.
 double absolute_tolerance(const GapFunction& gap, const Settings& settings);
 
+/// m; no normal is higher than jet.n by more: s(m) <= m.d <= |d|. With a ball of this radius taken out of the difference of the
+/// bodies (GapFunction::rolling_radius) the bound is tighter; of bodies apart, with or without the ball, it vanishes at the
+/// maximum.
+double largest_excess(const GapJet& jet, double rolling_radius);
+
 /// The answer at jet.n, in body 1's frame. `model_error` (m) bounds what is left to the local maximum in exact arithmetic; the
-/// answer adds rounding and takes the distance of the witness points where that is the better bound (bodies apart).
-Proximity answer(const GapFunction& gap, const GapJet& jet, double model_error, Status status);
+/// answer adds rounding and takes largest_excess() where that is the better bound. It is known to
+/// be global when the bodies, or what is left of them without the balls that roll inside them, are apart or touching.
+Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status);
 
 }  // namespace supernormal

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "shapes/finite.hpp"
+#include "solvers/answer.hpp"
+
 namespace supernormal {
 namespace {
 
@@ -48,6 +51,10 @@ constexpr double kGrazing = 1e-15;
 // distance (radians): the slope may go on that far, as it does along the normals of a sharp edge.
 constexpr double kSecantReach = 0.6;
 
+// Where a level maximum of the cuts is probed: a normal that is turned by sqrt(2 tolerance / depth) may be higher by the tolerance
+// without bending. A cut of there reaches from 0.6 to more than 2 times as far.
+constexpr double kProbe = 2;
+
 // A radius of curvature beyond this, in units of the bodies' size, is that of a flat face.
 constexpr double kFlatRadius = 1e8;
 
@@ -74,6 +81,7 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
       cuts_(cuts),
       settings_(settings),
       tolerance_(tolerance),
+      rolling_radius_(gap.rolling_radius()),
       has_flat_faces_(gap.has_curvature() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())),
       has_kinks_(gap.shape2().has_kinks()),
       known_(gap) {}
@@ -103,8 +111,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
 }
 
 bool Ascent::finished(double worth, Status& status) const {
-  // Two points of separated bodies are never closer than the gap.
-  const bool is_proved = current_.s > 0 && current_.d.norm() - current_.s <= tolerance_;
+  const bool is_proved = largest_excess(current_, rolling_radius_) <= tolerance_;
   if (error_ <= tolerance_ || is_proved) {
     status = Status::Converged;
   } else if (gap_.evaluations() >= settings_.max_evaluations) {
@@ -132,15 +139,37 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
   step = {current_.n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current_.s, 0.0)};
   // The cuts bound s over the whole plane where their maximum is not on the rim.
-  if (top.is_interior) error_ = std::min(error_, kGainSafety * step.gain + top.uncertainty);
+  if (!top.is_interior) return;
+  const double error = kGainSafety * step.gain + top.uncertainty;
+  if (current_.s >= 0 || Eigen2(local.model.A).low > 0) {
+    error_ = std::min(error_, error);
+  } else {
+    probe_step(local, top, error, step);
+  }
+}
+
+// Overlapping bodies come nearer as the normal turns away, unless they bend. Where they do not, as two vertices, the cuts must come
+// down around their maximum as well: steeper than s = level cos(turn). Where they do not yet, the next step is as far that way as
+// matters for the tolerance; it finds higher normals, or its cut comes down.
+void Ascent::probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step) {
+  const CuttingPlanes::Reach reach = cuts_.reach(local.plane1, top.u, current_.s);
+  const double distance = top.u.norm() + reach.distance;
+  const double rise = 0.5 * -current_.s * distance * distance;
+  error_ = std::min(error_, error + kGainSafety * rise);
+  if (error > tolerance_ || error_ <= tolerance_) return;
+  const double matters = kProbe * std::sqrt(tolerance_ / -current_.s);
+  const Vector2 u = top.u + std::min(reach.distance, matters) * reach.way;
+  step = {current_.n + local.plane1.lift(u), u.norm(), rise};
 }
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const Vector2 newton = local.model.maximize(radius_);
-  estimate_error(local.model.largest_gain(), newton.norm());
+  estimate_error(local.model.largest_gain(gap_.rounding()), newton.norm());
   if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * local.model.g.norm());
   Step step{current_.n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
-  if (has_flat_faces_) flat_step(local, {0, local.model.g, newton, nullptr}, step);
+  if (has_flat_faces_ && flat_step(local, {0, local.model.g, newton, nullptr}, step) == FlatStep::LeavesFace) {
+    leave_face(local, step);
+  }
   return step;
 }
 
@@ -150,7 +179,9 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const bool is_concave = Eigen2(model.A).low > 0;
   PiecewiseModel::Peak peak;
   if (is_concave) peak = model.maximize();
-  const double whole_gain = is_concave ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
+  // Here the model is 0; where its matrix is as good as singular, rounding may leave it without a maximum that is not lower.
+  const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
+  const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
   estimate_error(whole_gain, peak.u.norm());
 
@@ -165,17 +196,13 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
     // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
     const Vector2 way = target.slope - local.A2 * peak.u - current_.s * peak.u;
     const Vector2 turn = local.A1.solve(way);
-    if (turn.allFinite()) target.newton = turn;
+    if (all_finite(turn)) target.newton = turn;
   }
   const Vector3 normal = known_.shared_normal(peak, current_.n + local.plane1.lift(peak.u));
   Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0)};
-  if (has_flat_faces_ && peak.count < 3 && !flat_step(local, target, step)) {
+  if (has_flat_faces_ && peak.count < 3 && flat_step(local, target, step) != FlatStep::Taken) {
     target.newton = peak.u;
-    if (!flat_step(local, target, step)) {
-      // The corner or edge lies beyond the flat face, where the curvature here says nothing.
-      error_ = std::numeric_limits<double>::infinity();
-      cut_step(local, step);
-    }
+    if (flat_step(local, target, step) != FlatStep::Taken) leave_face(local, step);
   }
   Vector3 face;
   if (gap_.shape2().crosses_curved_face(current_.m, -(gap_.rotation().transpose() * step.normal), face)) {
@@ -212,30 +239,37 @@ void Ascent::estimate_error(double whole_gain, double step_length) {
   error_ = kGainSafety / (1 - contraction) * whole_gain;
 }
 
-bool Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {
+// What is opposite lies beyond the flat face, where the curvature here says nothing.
+void Ascent::leave_face(const LocalModel& local, Step& step) {
+  error_ = std::numeric_limits<double>::infinity();
+  cut_step(local, step);
+}
+
+Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {
   const Vector2& newton = target.newton;
   Vector2 u1, u2;
-  if (!to_plane(local.plane1, gap_.shape1().advance_normal(current_.n, current_.jet1, local.plane1.lift(newton)), u1)) return false;
-  if (!to_plane(local.plane2, -gap_.shape2().advance_normal(current_.m, current_.jet2, -local.plane2.lift(newton)), u2))
-    return false;
+  const Vector3 normal1 = gap_.shape1().advance_normal(current_.n, current_.jet1, local.plane1.lift(newton));
+  const Vector3 normal2 = -gap_.shape2().advance_normal(current_.m, current_.jet2, -local.plane2.lift(newton));
+  if (!to_plane(local.plane1, normal1, u1) || !to_plane(local.plane2, normal2, u2)) return FlatStep::LeavesFace;
   Vector2 u = blend(local.A1, local.A2, u1, u2);
+  if (!all_finite(u)) return FlatStep::None;
   if (target.peak != nullptr) {
     const Vector3 normal = known_.shared_normal(*target.peak, current_.n + local.plane1.lift(u));
-    if (!to_plane(local.plane1, normal, u)) return false;
+    if (!to_plane(local.plane1, normal, u)) return FlatStep::LeavesFace;
   }
   double rise = target.value + target.slope.dot(u);
-  if (!u.allFinite() || !(rise > 0)) return false;
+  if (!(rise > 0)) return FlatStep::None;
   // s is concave where it matters: it gains at most the slope times the step, however flat the face.
   error_ = std::max(error_, target.peak != nullptr ? kCornerSafety * rise : rise);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
   const double reach = kFlatStepReach * radius_;
   const double shrink = length > reach ? reach / length : 1;
-  if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return true;
+  if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return FlatStep::Taken;
   u *= shrink;
   Vector3 normal = current_.n + local.plane1.lift(u);
   if (target.peak != nullptr) normal = known_.shared_normal(*target.peak, normal);
   step = {normal, u.norm(), std::min(step.gain, shrink * rise)};
-  return true;
+  return FlatStep::Taken;
 }
 
 bool Ascent::ruled_out(const Step& step) const {

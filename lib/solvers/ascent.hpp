@@ -56,9 +56,15 @@ class Ascent {
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
   void estimate_error(double whole_gain, double step_length);
-  /// Whether there is such a step.
-  bool flat_step(const LocalModel& local, const Target& target, Step& step);
+  enum class FlatStep {
+    Taken,
+    None,        ///< the bodies' proposals do not agree on one
+    LeavesFace,  ///< it turns the normal by a right angle or more
+  };
+  FlatStep flat_step(const LocalModel& local, const Target& target, Step& step);
+  void leave_face(const LocalModel& local, Step& step);
   void cut_step(const LocalModel& local, Step& step);
+  void probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step);
   Symmetric2 curvature_that_counts(const Symmetric2& A, std::span<const Piece> pieces) const;
   bool ruled_out(const Step& step) const;
   /// Near the maximum s is level to rounding while its slope still tells the way.
@@ -71,7 +77,8 @@ class Ascent {
   GapFunction& gap_;
   CuttingPlanes& cuts_;
   const Settings& settings_;
-  const double tolerance_;  // m
+  const double tolerance_;       // m
+  const double rolling_radius_;  // m; of the difference of the bodies
   const bool has_flat_faces_;
   const bool has_kinks_;
   SecantCurvature secant_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace supernormal {
 namespace {
@@ -114,6 +115,28 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
     if (reaches_rim) break;
   }
   return best;
+}
+
+// At u the unit normal is shorter than n + u, and so is its s: s > level there is a cut above level sqrt(1 + u^2), which is at
+// least level (1 + u^2/2).
+CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vector2& u, double level) const {
+  constexpr int kWays = 8;
+  Reach farthest;
+  for (int way = 0; way < kWays; ++way) {
+    const double angle = 2 * std::numbers::pi * way / kWays;
+    const Vector2 p(std::cos(angle), std::sin(angle));
+    double stop = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < size(); ++k) {
+      const Vector3& d = d_[static_cast<std::size_t>(k)];
+      // height + slope t - level t^2/2 falls below zero at its smaller root.
+      const double height = std::max(plane.n.dot(d) + plane.project(d).dot(u) - level * (1 + 0.5 * u.squaredNorm()), 0.0);
+      const double slope = plane.project(d).dot(p) - level * u.dot(p);
+      const double discriminant = slope * slope + 2 * level * height;
+      if (slope < 0 && discriminant > 0) stop = std::min(stop, 2 * height / (std::sqrt(discriminant) - slope));
+    }
+    if (stop > farthest.distance) farthest = {p, stop};
+  }
+  return farthest;
 }
 
 }  // namespace supernormal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "solvers/tangent_plane.hpp"
 #include "supernormal/shapes/shape.hpp"
@@ -26,6 +27,7 @@ class CuttingPlanes {
 
   void clear() { count_ = 0; }
   void add(const Vector3& d) { d_[static_cast<std::size_t>(count_++ % kCapacity)] = d; }
+  std::span<const Vector3> points() const { return {d_.data(), static_cast<std::size_t>(size())}; }
   int size() const { return count_ < kCapacity ? count_ : kCapacity; }
 
   /// The least of m.d_k, which s(m) cannot exceed; m need not be of unit length (both sides are homogeneous of degree 1).
@@ -34,6 +36,14 @@ class CuttingPlanes {
   /// Maximum of the least of the cuts over the gnomonic disc |u| <= radius, by steepest ascent on the piecewise linear
   /// model from u = 0: finite, because it moves from ridge to ridge. At least one cut is needed.
   Maximum maximize(const TangentPlane& plane, double radius) const;
+
+  /// How far from u, going eight ways, the cuts allow unit normals with s > level, for a level < 0: the way on which it is farthest
+  /// (unit), and the distance; infinite where no cut stops it.
+  struct Reach {
+    Vector2 way = Vector2::UnitX();
+    double distance = 0;
+  };
+  Reach reach(const TangentPlane& plane, const Vector2& u, double level) const;
 
  private:
   std::array<Vector3, kCapacity> d_;

@@ -9,6 +9,9 @@ namespace {
 // Centres closer than this share of the bodies' size have no direction from one to the other.
 constexpr double kConcentric = 1e-12;
 
+// Share of the cube of the trace below which a determinant counts as none: the squares of the inverse are finite.
+constexpr double kSingular = 1e-150;
+
 /// The axis along which the body is thinnest: there the smallest translation separates concentric bodies.
 Vector3 thinnest_axis(const Vector3& half_extents) {
   int axis = 0;
@@ -31,11 +34,16 @@ Vector3 first_guess(const GapFunction& gap) {
   const Matrix3 A = half1.cwiseProduct(half1).asDiagonal();
   const Matrix3 B = R * half2.cwiseProduct(half2).asDiagonal() * R.transpose();
   const double sum = size1 + size2;
-  if (sum == 0) return gap.offset().normalized();  // two points
+  const Vector3 direction = gap.offset().normalized();
+  if (sum == 0) return direction;  // two points
   const Matrix3 M = size1 == 0 ? B : size2 == 0 ? A : Matrix3(A * (sum / size1) + B * (sum / size2));
-  const Vector3 n = M.inverse() * gap.offset();
-  const double length = n.norm();
-  return length > 0 && std::isfinite(length) ? Vector3(n / length) : Vector3(gap.offset().normalized());
+  // Of a segment and a point it is singular; so it may be of lengths whose squares are no longer numbers.
+  const double trace = M.trace();
+  if (!(trace > 0)) return direction;
+  Matrix3 inverse;
+  bool is_invertible = false;
+  Matrix3(M / trace).computeInverseWithCheck(inverse, is_invertible, kSingular);
+  return is_invertible ? Vector3((inverse * direction).normalized()) : direction;
 }
 
 }  // namespace supernormal

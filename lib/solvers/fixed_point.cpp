@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/finite.hpp"
 #include "solvers/answer.hpp"
 #include "solvers/solvers.hpp"
 
@@ -52,19 +53,19 @@ Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Ve
   double previous_gain = 0;
   while (true) {
     gap.evaluate(n, Order::Point, jet);
-    if (settings.stop_when_apart && jet.s > 0) return answer(gap, jet, 0, Status::Apart);
+    if (settings.stop_when_apart && jet.s > 0) return answer(gap, settings, jet, 0, Status::Apart);
 
     const Vector3 centre1 = line1.centre_of_curvature(jet.jet1.r, n, jet.jet1.h);
     const Vector3 centre2 = line2.centre_of_curvature(jet.jet1.r + jet.d, -n, jet.jet2.h);
     const Vector3 next = (centre2 - centre1).normalized();
-    if (!next.allFinite() || next == Vector3::Zero()) return answer(gap, jet, 0, Status::Diverged);
+    if (!all_finite(next) || next == Vector3::Zero()) return answer(gap, settings, jet, 0, Status::Diverged);
 
     // Slope times step bounds the gain of this step; the steps after it shrink by the contraction.
     const double gain = std::abs(jet.d.dot(next - n * next.dot(n)));
     const double contraction = previous_gain > 0 ? std::min(gain / previous_gain, kSlowestContraction) : kSlowestContraction;
     const double error = kGainSafety * gain / (1 - contraction);
-    if (error <= tolerance) return answer(gap, jet, error, Status::Converged);
-    if (gap.evaluations() >= settings.max_evaluations) return answer(gap, jet, error, Status::EvaluationLimit);
+    if (error <= tolerance) return answer(gap, settings, jet, error, Status::Converged);
+    if (gap.evaluations() >= settings.max_evaluations) return answer(gap, settings, jet, error, Status::EvaluationLimit);
     previous_gain = gain;
     n = next;
   }

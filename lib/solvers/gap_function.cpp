@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shapes/finite.hpp"
+
 namespace supernormal {
 namespace {
 
@@ -46,6 +48,6 @@ void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
   jet.H += jet.jet1.H;
 }
 
-bool GapFunction::is_finite() const { return offset_.allFinite() && rotation_.allFinite() && std::isfinite(length_unit_); }
+bool GapFunction::is_finite() const { return all_finite(offset_) && all_finite(rotation_) && std::isfinite(length_unit_); }
 
 }  // namespace supernormal

@@ -1,8 +1,11 @@
+#include <algorithm>
+
 #include "contact/contact_point.hpp"
 #include "solvers/answer.hpp"
 #include "solvers/ascent.hpp"
 #include "solvers/first_guess.hpp"
-#include "solvers/global_search.hpp"
+#include "solvers/global_proof.hpp"
+#include "solvers/other_maxima.hpp"
 #include "solvers/solvers.hpp"
 
 namespace supernormal {
@@ -13,41 +16,73 @@ namespace {
 // simulation that does not let bodies sink into one another, no other branch can become much better.
 constexpr double kUnquestionedDepth = 0.02;
 
-bool is_questioned(const GapFunction& gap, Branch branch, const GapJet& best) {
-  return branch == Branch::Highest || -best.s > kUnquestionedDepth * gap.length_unit();
+// Without history the highest maximum is wanted: it is looked for until none can be higher by more than this share of the depth,
+// and normals that come this near are climbed from.
+constexpr double kHighestWidth = 0.01;
+constexpr double kHighestNear = 0.06;
+
+// But it takes so many evaluations only: fewer in shallow overlaps, which are common, least of smooth bodies. Where
+// all the ways out are of about the same length, as of concentric spheres, it would take hundreds to prove that.
+constexpr double kShallowDepth = 0.15;  // of the pair's length
+constexpr int kShallowEvaluations = 18;
+constexpr int kShallowSharpEvaluations = 25;
+constexpr int kDeepEvaluations = 200;
+
+// With history the branch is left when another is shallower by the second share, and not kept when one may be shallower by more
+// than the first: so it does not flip between two, and is at most 1.5 times as deep as the best.
+constexpr double kBranchWidth = 1.0 / 3;
+constexpr double kBranchWorth = 1.0 / 6;
+
+/// How thoroughly other maxima are looked for; not at all where no evaluation is allowed.
+GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, Branch branch, double tolerance, double depth) {
+  const int limit = settings.max_evaluations;
+  if (settings.certify_depth) return {tolerance, limit, 0.5 * tolerance, 0};
+  if (branch == Branch::OfStart && depth <= kUnquestionedDepth * gap.length_unit()) return {};
+  const SharpFeatures features1 = gap.shape1().sharp_features(), features2 = gap.shape2().sharp_features();
+  if (!may_have_other_maxima(features1, features2, depth, gap.length_unit(), gap.shape2().has_kinks())) return {};
+  const bool is_sharp = gap.shape2().has_kinks() || (features1.radius == 0 && features2.radius == 0);
+  const bool is_shallow = depth < kShallowDepth * gap.length_unit();
+  const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
+  const int most = std::min(limit, gap.evaluations() + affordable);
+  if (branch == Branch::OfStart) {
+    return {std::max(kBranchWidth * depth, tolerance), most, std::max(kBranchWorth * depth, tolerance), 0};
+  }
+  return {std::max(kHighestWidth * depth, tolerance), most, tolerance, kHighestNear * depth};
 }
 
-/// Whether the normal that a query without history would start from is already higher than the branch followed.
-bool is_higher_at_first_guess(GapFunction& gap, CuttingPlanes& cuts, const GapJet& best) {
-  GapJet elsewhere;
-  gap.evaluate(first_guess(gap), Order::Point, elsewhere);
-  cuts.add(elsewhere.d);
-  return elsewhere.s > best.s;
+/// The answer after a search for higher maxima than `best`, in which that is put.
+Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings, const GlobalProof::Goal& goal,
+                 GapJet& best, Status status) {
+  double error = ascent.error();
+  GlobalProof proof(gap, cuts, ascent, settings);
+  const bool is_reached = proof.complete(goal, best, error, status);
+  if (!is_reached && gap.evaluations() >= settings.max_evaluations) status = Status::EvaluationLimit;
+  const bool is_proved = is_reached && settings.certify_depth;
+  if (is_proved) {
+    error = proof.excess();
+    status = Status::Converged;
+  }
+  Proximity out = answer(gap, settings, best, error, status);
+  out.global_error = std::min(out.global_error, proof.excess() + gap.rounding());
+  out.is_global = out.is_global || is_proved;
+  return out;
 }
 
 }  // namespace
 
 // Steps: climb from the start; if the bodies overlap so deeply against their sharpest edges that there may be other maxima, look
-// for a higher one, but leave the branch of an earlier pose only when it has stopped being the best.
+// for a higher one, but leave the branch of an earlier pose only when it has stopped being nearly the best.
 Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
   const double tolerance = absolute_tolerance(gap, settings);
   CuttingPlanes cuts;
   Ascent ascent(gap, cuts, settings, tolerance);
   Status status = ascent.climb(start);
   GapJet best = ascent.best();
-  double error = ascent.error();
-  // A maximum that is not negative is the only one: s is concave on the cone where it is positive.
-  if (best.s < -tolerance && is_questioned(gap, branch, best)) {
-    const SharpFeatures features1 = gap.shape1().sharp_features();
-    const SharpFeatures features2 = gap.shape2().sharp_features();
-    const bool in_doubt = may_have_other_maxima(features1, features2, -best.s, gap.length_unit(), gap.shape2().has_kinks());
-    if (in_doubt && gap.evaluations() >= settings.max_evaluations) {
-      status = Status::EvaluationLimit;
-    } else if (in_doubt && (branch == Branch::Highest || is_higher_at_first_guess(gap, cuts, best))) {
-      status = GlobalSearch(gap, cuts, ascent, settings).improve(features1, features2, status, best, error);
-    }
+  Proximity out = answer(gap, settings, best, ascent.error(), status);
+  if (!out.is_global && status != Status::InvalidInput) {
+    const GlobalProof::Goal goal = search_goal(gap, settings, branch, tolerance, -best.s);
+    if (goal.max_evaluations > 0) out = search(gap, cuts, ascent, settings, goal, best, status);
   }
-  Proximity out = answer(gap, best, error, status);
   out.contact = contact_point(gap, best);
   return out;
 }

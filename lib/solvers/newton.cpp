@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "shapes/finite.hpp"
 #include "solvers/answer.hpp"
 #include "solvers/local_model.hpp"
 #include "solvers/solvers.hpp"
@@ -18,16 +19,16 @@ Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3
   Vector3 n = start;
   while (true) {
     gap.evaluate(n, Order::Curvature, jet);
-    if (settings.stop_when_apart && jet.s > 0) return answer(gap, jet, 0, Status::Apart);
+    if (settings.stop_when_apart && jet.s > 0) return answer(gap, settings, jet, 0, Status::Apart);
 
     // The step that zeroes the two tangential components of d, whatever kind of stationary point it leads to.
     const LocalModel local = LocalModel::of(gap, jet);
     const Vector2 step = local.model.A.solve(local.model.g);
+    if (!all_finite(step)) return answer(gap, settings, jet, 0, local.model.g.norm() == 0 ? Status::Converged : Status::Diverged);
     const double error = kGainSafety * 0.5 * std::abs(local.model.g.dot(step));
-    if (!step.allFinite()) return answer(gap, jet, error, local.model.g.norm() == 0 ? Status::Converged : Status::Diverged);
     if (error <= tolerance)
-      return answer(gap, jet, error, std::isfinite(local.model.largest_gain()) ? Status::Converged : Status::Diverged);
-    if (gap.evaluations() >= settings.max_evaluations) return answer(gap, jet, error, Status::EvaluationLimit);
+      return answer(gap, settings, jet, error, std::isfinite(local.model.largest_gain()) ? Status::Converged : Status::Diverged);
+    if (gap.evaluations() >= settings.max_evaluations) return answer(gap, settings, jet, error, Status::EvaluationLimit);
     n = (n + local.plane1.lift(step)).normalized();
   }
 }

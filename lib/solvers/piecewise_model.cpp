@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shapes/finite.hpp"
+
 namespace supernormal {
 namespace {
 
@@ -45,12 +47,14 @@ class Candidates {
   const Piece& piece(std::size_t k) const { return model_.pieces[k]; }
 
   void offer(const Peak& peak) {
+    // Asked first: an infinite u would raise floating-point exceptions below.
+    if (!all_finite(peak.u)) return;
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < count_; ++k) {
       lowest = std::min(lowest, piece(subset_[k]).value + piece(subset_[k]).slope.dot(peak.u));
     }
     const double gain = lowest - 0.5 * peak.u.dot(model_.A * peak.u);
-    if (!(gain > best_.gain)) return;  // false for NaN
+    if (!(gain > best_.gain)) return;
     best_ = peak;
     best_.gain = gain;
   }

@@ -8,6 +8,7 @@
 #include "shapes/validation.hpp"
 #include "solvers/answer.hpp"
 #include "solvers/ray_entry.hpp"
+#include "solvers/usable_pose.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/solvers/solve.hpp"
@@ -15,14 +16,11 @@
 namespace supernormal {
 namespace {
 
-// m; what is farther away than this has a square that is not finite.
-constexpr double kFarthest = 1e150;
-
 void check(const Vector3& direction, double length, const Settings& settings) {
   require_in("tolerance", settings.tolerance, 1e-15, 1);
   require_in("max_evaluations", settings.max_evaluations, 1, 1e6);
   require_in("length of the ray", length, 0, std::numeric_limits<double>::infinity(), "m");
-  if (direction.allFinite()) require_in("length of the ray's direction", direction.norm(), 1 - 1e-6, 1 + 1e-6);
+  if (all_finite(direction)) require_in("length of the ray's direction", direction.norm(), 1 - 1e-6, 1 + 1e-6);
 }
 
 /// A ray in the body's frame: o = foot + start v, with the point of the line nearest to the body's origin as foot, so that a ray
@@ -51,7 +49,7 @@ class RayQuery {
         settings_(settings),
         half_extents_(shape.half_extents()) {}
 
-  bool is_finite() const { return gap_.is_finite() && std::abs(ray_.start) < kFarthest && ray_.v.allFinite(); }
+  bool is_finite() const { return gap_.is_finite() && std::abs(ray_.start) < kFarthest && all_finite(ray_.v); }
 
   RayHit run() {
     if (ray_.start <= 0) return from_entry();
@@ -129,6 +127,7 @@ double reach_of(const Shape& shape) {
 RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction, double length,
                     const Settings& settings) {
   check(direction, length, settings);
+  if (!is_usable(pose) || !all_within(origin, kFarthest) || !all_finite(direction)) return {};
   const LocalRay ray(pose, origin, direction, length);
   RayQuery query(shape, ray, settings);
   if (!query.is_finite()) return {};
@@ -143,7 +142,7 @@ RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin,
 Proximity find_ray_proximity(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction, double length,
                              const Settings& settings) {
   check(direction, length, settings);
-  if (!origin.allFinite() || !direction.allFinite()) return {};
+  if (!is_usable(pose) || !all_within(origin, kFarthest) || !all_finite(direction)) return {};
   const double farthest = (origin - pose.position).norm() + reach_of(shape);
   if (!std::isfinite(farthest)) return {};
   const Vector3 v = direction.normalized();

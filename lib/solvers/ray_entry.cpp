@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/finite.hpp"
 #include "solvers/local_model.hpp"
 
 namespace supernormal {
@@ -62,7 +63,7 @@ bool is_curved(const Symmetric2& A) {
 // Whether products of such numbers with lengths, and of four of these, are in range.
 bool is_in_range(const Vector2& u) { return std::abs(u.x()) < 1e60 && std::abs(u.y()) < 1e60; }
 
-bool is_finite(const GapJet& jet) { return std::isfinite(jet.s) && jet.d.allFinite(); }
+bool is_finite(const GapJet& jet) { return std::isfinite(jet.s) && all_finite(jet.d); }
 
 /// The smaller root of a t^2 + 2 b t + c, a >= 0; its minimum when there is none. Infinite when it has neither: straight, and not
 /// falling.
@@ -184,7 +185,7 @@ EntrySearch::Step EntrySearch::paraboloid_step() const {
   const Vector3 dn = local.plane1.lift(u + distance * u_rate);
   step.normal = gap_.has_curvature() ? gap_.shape1().advance_normal(jet.n, jet.jet1, dn) : Vector3(jet.n + dn);
   const double along = step.normal.dot(jet.n);
-  step.is_usable = step.normal.allFinite() && step.normal.lpNorm<Eigen::Infinity>() < kLongestStep * along;
+  step.is_usable = all_finite(step.normal) && step.normal.lpNorm<Eigen::Infinity>() < kLongestStep * along;
   if (from_beside || !step.is_usable) return step;
   const Vector3 change = step.normal / along - jet.n;
   step.is_deep = gap_.has_curvature() && b * b - a * c > kSureDepth * tolerance_ * a;

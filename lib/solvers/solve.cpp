@@ -5,6 +5,7 @@
 #include "shapes/validation.hpp"
 #include "solvers/first_guess.hpp"
 #include "solvers/solvers.hpp"
+#include "solvers/usable_pose.hpp"
 
 namespace supernormal {
 namespace {
@@ -32,14 +33,16 @@ Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start
   return solve_hybrid(gap, settings, start, branch);
 }
 
-bool is_usable(const Vector3& normal) { return std::abs(normal.squaredNorm() - 1) < 1e-6; }
+// Asked of the entries first: squares and sums of what is not in range would raise floating-point exceptions.
+bool is_usable(const Vector3& normal) { return all_within(normal, 2) && std::abs(normal.squaredNorm() - 1) < 1e-6; }
 
 // Of two bodies only the second may have faces and edges that the solver knows of; those of the first it finds by cuts.
 Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                    const Settings& settings, const Vector3* first_normal) {
+  const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
   Vector3 normal;
-  if (first_normal != nullptr) normal = -(pose2.rotation.transpose() * (pose1.rotation * *first_normal));
-  Proximity out = find_proximity(shape2, pose2, shape1, pose1, settings, first_normal != nullptr ? &normal : nullptr);
+  if (is_warm) normal = -(pose2.rotation.transpose() * (pose1.rotation * *first_normal));
+  Proximity out = find_proximity(shape2, pose2, shape1, pose1, settings, is_warm ? &normal : nullptr);
   out.normal = -out.normal;
   out.point1.swap(out.point2);
   return out;
@@ -50,6 +53,7 @@ Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const
 Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
                          const Vector3* first_normal) {
   check(settings);
+  if (!is_usable(pose1) || !is_usable(pose2)) return {};
   if (shape1.has_kinks() && !shape2.has_kinks()) {
     return find_with_bodies_swapped(shape1, pose1, shape2, pose2, settings, first_normal);
   }
@@ -58,7 +62,7 @@ Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& sh
   const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
   Proximity out = is_warm ? solve(gap, settings, first_normal->normalized(), Branch::OfStart)
                           : solve(gap, settings, first_guess(gap), Branch::Highest);
-  if (!std::isfinite(out.gap) || !out.normal.allFinite() || !out.point1.allFinite() || !out.point2.allFinite()) return {};
+  if (!std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() || !out.point2.allFinite()) return {};
   out.normal = (pose1.rotation * out.normal).normalized();
   out.point1 = pose1.rotation * out.point1 + pose1.position;
   out.point2 = pose1.rotation * out.point2 + pose1.position;

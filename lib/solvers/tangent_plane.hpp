@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -45,18 +46,26 @@ struct Symmetric2 {
   Symmetric2 operator+(const Symmetric2& o) const { return {xx + o.xx, xy + o.xy, yy + o.yy}; }
   Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
 
-  /// The vector that this matrix maps to b; infinite when it is singular. Scaled first, since radii of curvature go up to 1e120.
+  /// The vector that this matrix maps to b; infinite when the matrix is singular or as good as that: when the vector would be
+  /// beyond kLongest. Scaled first, since radii of curvature go up to 1e120.
   Vector2 solve(const Vector2& b) const {
     const Vector2 singular = Vector2::Constant(std::numeric_limits<double>::infinity());
     const double size = std::abs(xx) + std::abs(yy);
-    if (size == 0) return singular;
+    const double length = std::abs(b.x()) + std::abs(b.y());
+    // Asked before dividing: overflow would raise a floating-point exception.
+    if (!(size > kSmallest && length < kLongest * size)) return singular;
     const double scale = 1 / size;
     const double sxx = xx * scale, sxy = xy * scale, syy = yy * scale;
     const Vector2 sb = b * scale;
     const double determinant = sxx * syy - sxy * sxy;
-    if (determinant == 0) return singular;
-    return Vector2(syy * sb.x() - sxy * sb.y(), sxx * sb.y() - sxy * sb.x()) / determinant;
+    const Vector2 adjugate(syy * sb.x() - sxy * sb.y(), sxx * sb.y() - sxy * sb.x());
+    if (!(std::abs(adjugate.x()) + std::abs(adjugate.y()) < kLongest * std::abs(determinant))) return singular;
+    return adjugate / determinant;
   }
+
+ private:
+  static constexpr double kLongest = 1e150;
+  static constexpr double kSmallest = 1e-300;  // its inverse is finite
 };
 
 /// Eigenvalues and vectors of a symmetric 2 x 2 matrix, low <= high.
@@ -67,7 +76,12 @@ struct Eigen2 {
   explicit Eigen2(const Symmetric2& A) {
     const double mean = 0.5 * (A.xx + A.yy);
     const double half_difference = 0.5 * (A.xx - A.yy);
-    const double radius = std::sqrt(half_difference * half_difference + A.xy * A.xy);
+    // Scaled, so that no square over- or underflows: two vertices leave next to nothing beside the mean.
+    const double scale = std::max(std::abs(half_difference), std::abs(A.xy));
+    const double cosine = scale > 0 ? half_difference / scale : 0;
+    const double sine = scale > 0 ? A.xy / scale : 0;
+    const double length = std::sqrt(cosine * cosine + sine * sine);
+    const double radius = scale * length;
     // The eigenvalue of larger size by the sum; the other by the determinant, since the difference would cancel: where one radius
     // of curvature is huge it would leave nothing of the small one.
     const double large = mean >= 0 ? mean + radius : mean - radius;
@@ -75,9 +89,8 @@ struct Eigen2 {
     low = mean >= 0 ? small : large;
     high = mean >= 0 ? large : small;
     // Of the two ways to write the eigenvector take the one without cancellation.
-    const Vector2 v = half_difference >= 0 ? Vector2(radius + half_difference, A.xy) : Vector2(A.xy, radius - half_difference);
-    const double length = v.norm();
-    high_vector = length > 0 ? Vector2(v / length) : Vector2(1, 0);
+    const Vector2 v = half_difference >= 0 ? Vector2(length + cosine, sine) : Vector2(sine, length - cosine);
+    high_vector = scale > 0 ? Vector2(v.normalized()) : Vector2(1, 0);
     low_vector = Vector2(-high_vector.y(), high_vector.x());
   }
 };

@@ -14,14 +14,19 @@ constexpr double kRimTolerance = 1e-2;
 constexpr double kShiftRounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kMaxSecularSteps = 20;  // Newton on the secular equation takes two to four
 
+// Where s is level as far as it goes, its slope may go on for a quarter turn (radians).
+constexpr double kQuarterTurn = 1.6;
+
 }  // namespace
 
-double QuadraticModel::largest_gain() const {
+double QuadraticModel::largest_gain(double rounding) const {
   const Eigen2 e(A);
-  if (!(e.low > 0)) return std::numeric_limits<double>::infinity();
-  const double low = e.low_vector.dot(g);
-  const double high = e.high_vector.dot(g);
-  return 0.5 * (low * (low / e.low) + high * (high / e.high));
+  const auto along = [rounding](double slope, double curvature) {
+    const bool is_level = std::abs(curvature) <= rounding && !(std::abs(slope) < curvature);
+    if (is_level && rounding > 0) return kQuarterTurn * (std::abs(slope) + 0.5 * kQuarterTurn * rounding);
+    return curvature > 0 ? 0.5 * slope * (slope / curvature) : std::numeric_limits<double>::infinity();
+  };
+  return along(e.low_vector.dot(g), e.low) + along(e.high_vector.dot(g), e.high);
 }
 
 Vector2 QuadraticModel::maximize(double radius) const {
@@ -30,7 +35,8 @@ Vector2 QuadraticModel::maximize(double radius) const {
   const double high = e.high_vector.dot(g);
   const double slope = std::sqrt(low * low + high * high);
   if (slope == 0 && !(e.low < 0)) return Vector2::Zero();
-  if (e.low > 0) {
+  // Asked before dividing, which might overflow.
+  if (e.low > 0 && std::abs(low) <= radius * e.low && std::abs(high) <= radius * e.high) {
     const Vector2 newton(low / e.low, high / e.high);
     if (newton.norm() <= radius) return newton.x() * e.low_vector + newton.y() * e.high_vector;
   }

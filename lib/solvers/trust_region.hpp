@@ -12,8 +12,10 @@ struct QuadraticModel {
 
   double gain(const Vector2& u) const { return g.dot(u) - 0.5 * u.dot(A * u); }
 
-  /// The largest gain over the whole plane; infinite unless A is positive definite.
-  double largest_gain() const;
+  /// The largest gain over the whole plane; infinite unless A is positive definite. Curvature within `rounding` (m) of zero counts
+  /// as none: such a direction, as around the equator of a spheroid with a point at its centre, has what its slope can gain over a
+  /// quarter turn.
+  double largest_gain(double rounding = 0) const;
 
   /// The maximum over |u| <= radius: the Newton step if it fits, otherwise on the rim (More and Sorensen 1983, in the
   /// eigenvectors of A).

@@ -130,6 +130,9 @@ TEST_CASE("mass, support, point, proximity") {
     CHECK(snMassSetTotal(&mass, bad, geom) == 0);
     check_error("snMassSetTotal", "total_mass = ", "(0, inf) kg");
   }
+  const dReal largest = std::numeric_limits<dReal>::max();
+  CHECK(snMassSet(&mass, largest, geom) == 0);  // 4.19 m^3 of it
+  check_error("snMassSet", "mass = inf kg", "too heavy a body");
   CHECK(mass.mass == 3);
   CHECK(snMassSet(nullptr, 1, geom) == 0);
   check_error("snMassSet", "mass = NULL", "must point");

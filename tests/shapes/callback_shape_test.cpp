@@ -99,9 +99,14 @@ TEST_CASE("a point off its supporting plane is refused; single precision is acce
 TEST_CASE("a body without width is refused, one beside its origin is not") {
   const auto segment = [](const Vector3& n) { return std::abs(n.x()); };
   const auto end = [](const Vector3& n) { return Vector3(std::copysign(1.0, n.x()), 0, 0); };
-  check_contains(refusal(segment, end), "the width support(n) + support(-n) = 0 m is not above 0 in the direction n = (");
+  check_contains(refusal(segment, end), "the width support(n) + support(-n) = 0 m is below 2e-30 m in the direction n = (");
   check_contains(refusal([](const Vector3&) { return 0.0; }, [](const Vector3&) { return Vector3(0, 0, 0); }),
                  "size of the body = 0 m is outside [1e-30, 1e+30] m");
+  // So thin that squares of its thickness underflow: found by tests/fuzz.
+  const Vector3 axes(1, 1e-300, 2);
+  check_contains(refusal([&](const Vector3& n) { return axes.cwiseProduct(n).norm(); },
+                         [&](const Vector3& n) { return Vector3(axes.cwiseProduct(axes.cwiseProduct(n).normalized())); }),
+                 " m is below 2e-30 m in the direction n = (0, -1, 0)");
   const Vector3 offset(100, 0, 0);
   CHECK(refusal([&](const Vector3& n) { return kGoodSupport(n) + n.dot(offset); },
                 [&](const Vector3& n) { return Vector3(kGoodPoint(n) + offset); }) == "accepted");

@@ -145,6 +145,18 @@ TEST_CASE("mass: rounded bodies with closed forms") {
   check_equal(Rounded(once, 0.3).mass_properties(), Rounded(ellipsoid, 0.5).mass_properties(), 1e-12, "rounded twice");
 }
 
+TEST_CASE("mass: a rounding that rounding hides leaves the mass of the core, and no product of its moments underflows") {
+  const auto core = std::make_shared<Superellipsoid>(Vector3(1, 0.8, 0.5), 3, 5);
+  for (const double radius : {4.8447493326007523e-215, std::numeric_limits<double>::denorm_min(), 1e-30}) {
+    const MassProperties mass = Rounded(core, radius).mass_properties();
+    check_equal(mass, core->mass_properties(), 0, "thin layer");
+    CHECK(mass.relative_error == core->mass_properties().relative_error);
+  }
+  // The first that shows: a layer of 1e-15 is the area times the radius.
+  const double swept = Rounded(core, 1e-15).mass_properties().volume;
+  CHECK(swept > core->mass_properties().volume);
+}
+
 TEST_CASE("mass: two independent ways for a rounded ellipsoid and a rounded user's body") {
   const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(3, 2, 1));
   const MassProperties expected = Rounded(ellipsoid, 0.5).mass_properties();

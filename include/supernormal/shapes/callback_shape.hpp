@@ -16,10 +16,10 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
   using Hessian = std::function<Matrix3(const Vector3& n)>;
 
   /// `hessian` may be empty. Tries the functions in 26 directions (of the faces, edges and corners of a cube): finite results, a
-  /// size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) > 0, no point farther than 1e-6 of the size outside a
-  /// supporting plane, a symmetric Hessian with H n = 0 and no negative radius, to 1e-6 of its largest entry. std::invalid_argument
-  /// otherwise, with the direction, the value and what was expected. Looks for the body's sharpest edges in some 650 directions
-  /// more.
+  /// size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) >= 2e-30 m, no point farther than 1e-6 of the size
+  /// outside a supporting plane, a symmetric Hessian with H n = 0 and no negative radius, to 1e-6 of its largest entry.
+  /// std::invalid_argument otherwise, with the direction, the value and what was expected. Looks for the body's sharpest edges in
+  /// some 650 directions more.
   CallbackShape(Support support, Point point, Hessian hessian = {});
 
   /// Without a Hessian, Order::Curvature delivers h and r and leaves H as it is.

@@ -17,6 +17,7 @@ class SUPERNORMAL_API Capsule final : public Shape {
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }
   SharpFeatures sharp_features() const override;
+  double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;
 
   double radius() const { return radius_; }

@@ -14,6 +14,9 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool is_round() const override { return true; }
   Vector3 half_extents() const override { return half_axes_; }
+
+  /// That of the smallest radius of curvature: c^2/a with c the smallest half-axis and a the largest.
+  double rolling_radius() const override;
   MassProperties mass_properties() const override;
 
   const Vector3& half_axes() const { return half_axes_; }

@@ -27,6 +27,9 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   Vector3 half_extents() const override { return half_extents_; }
   SharpFeatures sharp_features() const override;
 
+  /// The image of a ball is an ellipsoid, and a ball rolls in that.
+  double rolling_radius() const override { return shape_->rolling_radius() * smallest_ * (smallest_ / largest_); }
+
   /// As exact as that of the shape.
   MassProperties mass_properties() const override;
 

@@ -29,6 +29,7 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
   std::span<const Vector3> face_normals() const override { return face_normals_; }
   Vector3 half_extents() const override { return first_->half_extents() + second_->half_extents(); }
   SharpFeatures sharp_features() const override;
+  double rolling_radius() const override { return first_->rolling_radius() + second_->rolling_radius(); }
 
   const Shape& first() const { return *first_; }
   const Shape& second() const { return *second_; }

@@ -124,6 +124,11 @@ class SUPERNORMAL_API Shape {
   /// The polytope that the body resembles; unless overridden, a box along the axes, as sharp as the ellipsoid of the same extents.
   virtual SharpFeatures sharp_features() const;
 
+  /// m; a ball of this radius provably rolls freely inside the body: no radius of curvature is smaller, so that the body is the sum
+  /// of the ball and another convex body (Blaschke's rolling theorem; Schneider, Convex Bodies, theorem 3.2.12). A lower bound, 0
+  /// where none is known. Two bodies that overlap by less than the sum of theirs have one local maximum of the gap only.
+  virtual double rolling_radius() const { return 0; }
+
   /// Volume, centroid and second moments; a closed form where there is one, quadrature over the normals otherwise: to 1e-10 for a
   /// smooth body; flat faces and straight edges, which the normals do not see, are missing and counted in relative_error.
   /// std::domain_error when the shape delivers values that are not finite.

@@ -32,6 +32,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   bool is_round() const override { return std::min(delta_, epsilon_) >= 2 && std::max(delta_, epsilon_) <= kMostRound; }
   Vector3 half_extents() const override { return half_axes_; }
   SharpFeatures sharp_features() const override;
+  double rolling_radius() const override { return rolling_radius_; }
   MassProperties mass_properties() const override;
 
   const Vector3& half_axes() const { return half_axes_; }
@@ -46,6 +47,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   double delta_, epsilon_;
   PowerNorm inner_potential_, outer_potential_;  // of (a nx, b ny) and of (inner, c nz): exponents p and q
   PowerNorm inner_gauge_, outer_gauge_;          // of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
+  double rolling_radius_;                        // m
 };
 
 }  // namespace supernormal

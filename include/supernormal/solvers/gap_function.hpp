@@ -38,6 +38,10 @@ class SUPERNORMAL_API GapFunction {
   /// The unit of length that tolerances refer to: the smallest half-extent of the bodies that are not points, m.
   double length_unit() const { return length_unit_; }
 
+  /// A ball of this radius rolls inside the difference of the bodies, m: s + radius is the gap function of what is left of it
+  /// (Shape::rolling_radius; the radii add).
+  double rolling_radius() const { return shape1_->rolling_radius() + shape2_->rolling_radius(); }
+
   /// Unavoidable error of s by rounding, m.
   double rounding() const { return rounding_; }
 

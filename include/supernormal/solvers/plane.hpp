@@ -11,7 +11,7 @@ namespace supernormal {
 /// pointing out of the half-space, plane_offset in m. The body's point nearest to the plane, or deepest below it, is the one with
 /// normal -plane_normal: explicit, exact, no error, no evaluation of a gap function. It is
 /// also the contact point, as with ODE's own colliders with planes. Status::Converged, or InvalidInput when a
-/// number is not finite.
+/// number is not finite or the body farther than 1e150 m from the origin.
 SUPERNORMAL_API Proximity find_plane_proximity(const Shape& shape, const Pose& pose, const Vector3& plane_normal,
                                                double plane_offset);
 

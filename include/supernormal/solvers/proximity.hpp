@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace supernormal {
 
@@ -30,6 +31,7 @@ struct Settings {
   double tolerance = 1e-9;       ///< in [1e-15, 1]
   int max_evaluations = 1000;    ///< in [1, 1000000]
   bool stop_when_apart = false;  ///< end with Status::Apart at the first normal that proves separation
+  bool certify_depth = false;    ///< of overlapping bodies, search on until the depth is proved the smallest: Proximity::is_global
 };
 
 /// The common normal of two bodies. Points and the normal are in the frame that the query was asked in.
@@ -43,6 +45,17 @@ struct Proximity {
       Eigen::Vector3d::Zero();  ///< m; where a contact force acts: between the two points, nearer to the sharper body's
   int evaluations = 0;          ///< of the gap function
   Status status = Status::InvalidInput;
+  /// Whether it is proved that no other normal has a larger gap: `gap` is then the largest value of the gap function, to within
+  /// `error` or the tolerance, whichever is larger, and of overlapping bodies `-gap` the shortest translation that separates them.
+  /// Always true of bodies apart or touching, of closed forms (a plane), and after Settings::certify_depth unless the evaluations
+  /// ran out; without that, of overlapping bodies it is true when the depth is within the proved smallest radii of curvature of
+  /// both (Shape::rolling_radius).
+  bool is_global = false;
+  /// m; proved bound on how much larger than `gap` the largest value of the gap function can be: when is_global the
+  /// larger of `error` and the tolerance. Where the hybrid has looked for other maxima, 1 % of the depth (more where a shallow
+  /// overlap ended the search), a third of it when it followed an earlier normal. Infinite of contacts with meshes, where a part of
+  /// the surface counts.
+  double global_error = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace supernormal

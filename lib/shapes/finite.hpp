@@ -1,0 +1,31 @@
+// Questions about numbers that may be infinite or none, asked without a floating-point exception.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace supernormal {
+
+/// Eigen's allFinite() subtracts every entry from itself, which raises FE_INVALID where it is infinite.
+template <typename Derived>
+bool all_finite(const Eigen::MatrixBase<Derived>& matrix) {
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+      if (!std::isfinite(matrix(row, column))) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether no entry is larger than `limit`; false if one is not a number.
+template <typename Derived>
+bool all_within(const Eigen::MatrixBase<Derived>& matrix, double limit) {
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+      if (!std::islessequal(std::abs(matrix(row, column)), limit)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace supernormal

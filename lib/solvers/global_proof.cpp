@@ -1,0 +1,216 @@
+#include "solvers/global_proof.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace supernormal {
+namespace {
+
+// A known cut is taken for a triangle if it takes this share of its excess away; with fewer than so many of them in turn.
+constexpr double kUsefulShare = 0.1;
+constexpr int kMaxKnownCuts = 8;
+
+// If known cuts leave less than this share of the excess, others may be more in need of an evaluation; if an evaluation leaves more
+// than the other, the triangle is too large for bounds that are linear, and is split.
+constexpr double kKnownCutsShare = 0.7;
+constexpr double kSplitShare = 0.5;
+
+// Normals closer than five degrees lead up the same hill.
+constexpr double kSameHillCosine = 0.9962;
+
+}  // namespace
+
+// A shape may be a callback that asks queries of its own: they find the storage taken and use another.
+GlobalProof::GlobalProof(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings)
+    : gap_(gap),
+      cuts_(cuts),
+      ascent_(ascent),
+      settings_(settings),
+      rho_(gap.rolling_radius()),
+      storage_(std::exchange(kept_storage(), Storage())) {}
+
+GlobalProof::~GlobalProof() { kept_storage() = std::move(storage_); }
+
+GlobalProof::Storage& GlobalProof::kept_storage() {
+  thread_local Storage storage;
+  return storage;
+}
+
+bool GlobalProof::complete(const Goal& goal, GapJet& best, double& error, Status& status) {
+  goal_ = goal;
+  best_ = best;
+  error_ = error;
+  status_ = status;
+  start();
+  while (!storage_.cells.empty() && gap_.evaluations() < goal_.max_evaluations) {
+    // Without their balls the bodies are apart: a climb has shown it, and found the only maximum.
+    if (best_.s + rho_ > 0 || !(excess_of(storage_.cells.front().bound) > goal_.width)) break;
+    refine(pop());
+  }
+  climb_from_tops();
+  const double highest = storage_.cells.empty() ? given_up_ : std::max(given_up_, storage_.cells.front().bound);
+  excess_ = best_.s + rho_ > 0 ? error_ : std::max(excess_of(highest), 0.0);
+  best = best_;
+  error = error_;
+  status = status_;
+  return excess_ <= goal_.width;
+}
+
+// An octahedron with a corner at the best normal: where s has a kink there, the triangles around it are done with at once.
+void GlobalProof::start() {
+  storage_.cuts.clear();
+  storage_.cells.clear();
+  top_count_ = 0;
+  given_up_ = -std::numeric_limits<double>::infinity();
+  storage_.cuts.push_back({best_.d + rho_ * best_.n, 0});
+  for (const Vector3& d : cuts_.points()) storage_.cuts.push_back({d, rho_});
+  const Vector3& x = best_.n;
+  const Vector3 y = x.unitOrthogonal(), z = x.cross(y);
+  for (const double sign_x : {1.0, -1.0}) {
+    for (const double sign_y : {1.0, -1.0}) {
+      for (const double sign_z : {1.0, -1.0}) {
+        keep(cell_of({sign_x * x, sign_y * y, sign_z * z}, std::numeric_limits<double>::infinity()));
+      }
+    }
+  }
+}
+
+GlobalProof::Cell GlobalProof::cell_of(const std::array<Vector3, kCorners>& corner, double bound) const {
+  Cell cell{corner, {}, {}, bound, Vector3::Zero()};
+  for (const Vector3& n : corner) add_cut(cell, lowest_cut(n));
+  tighten(cell);
+  return cell;
+}
+
+void GlobalProof::refine(Cell cell) {
+  const double before = excess_of(cell.bound);
+  tighten(cell);
+  if (excess_of(cell.bound) <= kKnownCutsShare * before) return keep(cell);
+  add_cut(cell, evaluate(cell.peak));
+  if (excess_of(cell.bound) > kSplitShare * before) {
+    split(cell);
+  } else {
+    keep(cell);
+  }
+}
+
+GlobalProof::Index GlobalProof::evaluate(const Vector3& direction) {
+  gap_.evaluate(direction.normalized(), Order::Point, jet_);
+  cuts_.add(jet_.d);
+  storage_.cuts.push_back({jet_.d + rho_ * jet_.n, 0});
+  const Index cut = storage_.cuts.size() - 1;
+  if (jet_.s > best_.s + goal_.worth && gap_.evaluations() < goal_.max_evaluations) {
+    climb_from(jet_.n);
+  } else {
+    remember_top({jet_.n, jet_.s});
+  }
+  return cut;
+}
+
+// Of a hill the highest normal only.
+void GlobalProof::remember_top(const Top& top) {
+  const auto is_lower = [](const Top& a, const Top& b) { return a.s < b.s; };
+  const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
+  auto place = std::find_if(tops_.begin(), end, [&](const Top& other) { return other.n.dot(top.n) > kSameHillCosine; });
+  if (place == end && top_count_ < kMaxTops) {
+    tops_[top_count_++] = top;
+    return;
+  }
+  if (place == end) place = std::min_element(tops_.begin(), end, is_lower);
+  if (top.s > place->s) *place = top;
+}
+
+void GlobalProof::climb_from_tops() {
+  if (goal_.near == 0) return;
+  const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
+  std::sort(tops_.begin(), end, [](const Top& a, const Top& b) { return a.s > b.s; });
+  for (auto top = tops_.begin(); top != end && gap_.evaluations() < settings_.max_evaluations; ++top) {
+    if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < kSameHillCosine) climb_from(top->n);
+  }
+}
+
+void GlobalProof::climb_from(const Vector3& normal) {
+  const Status status = ascent_.climb(normal, best_.s);
+  const GapJet& top = ascent_.best();
+  storage_.cuts.push_back({top.d + rho_ * top.n, 0});
+  if (!(top.s > best_.s)) return;
+  best_ = top;
+  error_ = ascent_.error();
+  status_ = status;
+}
+
+// The bounds are linear over the flat triangle, which lies inside the sphere: at a direction of length l <= 1 they bound l (s +
+// rho), and a bound that is not positive holds for s + rho as well.
+void GlobalProof::add_cut(Cell& cell, Index cut) const {
+  const auto& [a, b, c] = cell.corner;
+  const Cut& added = storage_.cuts[cut];
+  cell.cut[cell.program.add({added.at(a), added.at(b), added.at(c)})] = cut;
+  double bound = cell.program.value();
+  if (bound > 0) bound /= std::abs((b - a).cross(c - a).normalized().dot(a));
+  cell.bound = std::min(cell.bound, bound);
+  const Vector3& weights = cell.program.weights();
+  cell.peak = weights[0] * a + weights[1] * b + weights[2] * c;
+}
+
+GlobalProof::Index GlobalProof::lowest_cut(const Vector3& direction) const {
+  Index lowest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index k = 0; k < storage_.cuts.size(); ++k) {
+    const double value = storage_.cuts[k].at(direction);
+    if (value >= least) continue;
+    least = value;
+    lowest = k;
+  }
+  return lowest;
+}
+
+void GlobalProof::tighten(Cell& cell) const {
+  for (int k = 0; k < kMaxKnownCuts; ++k) {
+    const double excess = excess_of(cell.bound);
+    const Index lowest = lowest_cut(cell.peak);
+    if (excess <= goal_.width || !(excess_of(storage_.cuts[lowest].at(cell.peak)) < (1 - kUsefulShare) * excess)) return;
+    add_cut(cell, lowest);
+  }
+}
+
+// Halves the longest side: the angles stay away from zero.
+void GlobalProof::split(const Cell& cell) {
+  Index longest = 0;
+  double length = -1;
+  for (Index v = 0; v < kCorners; ++v) {
+    const double side = (cell.corner[(v + 1) % kCorners] - cell.corner[v]).squaredNorm();
+    if (side > length) {
+      length = side;
+      longest = v;
+    }
+  }
+  const Index next = (longest + 1) % kCorners;
+  const Vector3 middle = (cell.corner[longest] + cell.corner[next]).normalized();
+  for (const Index replaced : {longest, next}) {
+    Cell half{cell.corner, {}, {}, cell.bound, Vector3::Zero()};
+    half.corner[replaced] = middle;
+    for (Index k = 0; k < cell.program.size(); ++k) add_cut(half, cell.cut[k]);
+    tighten(half);
+    keep(half);
+  }
+}
+
+void GlobalProof::keep(const Cell& cell) {
+  if (excess_of(cell.bound) <= goal_.width) {
+    given_up_ = std::max(given_up_, cell.bound);
+    return;
+  }
+  storage_.cells.push_back(cell);
+  std::push_heap(storage_.cells.begin(), storage_.cells.end(), is_lower);
+}
+
+GlobalProof::Cell GlobalProof::pop() {
+  std::pop_heap(storage_.cells.begin(), storage_.cells.end(), is_lower);
+  const Cell cell = storage_.cells.back();
+  storage_.cells.pop_back();
+  return cell;
+}
+
+}  // namespace supernormal
