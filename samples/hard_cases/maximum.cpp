@@ -1,0 +1,105 @@
+// Is there a normal with a larger gap?
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "invariants.hpp"
+#include "supernormal/solvers/gap_function.hpp"
+
+namespace supernormal::samples {
+namespace {
+
+constexpr int kWalks = 8;
+constexpr double kFirstAngle = 1e-15;
+constexpr int kSteps = 25;  // to an angle of about 1
+constexpr int kRandomDirections = 50;
+
+/// Looks for normals that are higher than the answer's.
+class Probe {
+ public:
+  Probe(const HardCase& one, const Settings& settings, const Proximity& answer)
+      : gap_(*one.shape1, one.pose1, *one.shape2, one.pose2),
+        n_((one.pose1.rotation.transpose() * answer.normal).normalized()),
+        rounding_(2 * gap_.rounding()),
+        floor_(answer.gap - rounding_),
+        local_ceiling_(answer.gap + answer.error + rounding_),
+        global_ceiling_(answer.gap + error_of(one, settings, answer) + rounding_) {}
+
+  const Vector3& normal() const { return n_; }
+
+  /// Walks along a great circle for as long as it does not lead down: what is higher beyond a valley is another maximum.
+  void walk(const Vector3& tangent, Violations& out) {
+    double angle = kFirstAngle;
+    for (int step = 0; step < kSteps; ++step, angle *= 4) {
+      const Vector3 m = (n_ + angle * tangent).normalized();
+      const double s = value(m);
+      if (s < floor_) return;
+      if (!(s <= local_ceiling_)) {
+        out.push_back("not a maximum: " + exact_text(s - local_ceiling_) + " m more than it may be at an angle of " +
+                      exact_text(angle) + ", n " + exact_text(m));
+        return;
+      }
+    }
+  }
+
+  void look_at(const Vector3& direction, Violations& out) {
+    const double length = direction.norm();
+    if (!(length > 0)) return;
+    for (const double sign : {-1., 1.}) {
+      const Vector3 m = direction * (sign / length);
+      const double s = value(m);
+      if (!(s <= global_ceiling_)) {
+        out.push_back("not the global maximum, as claimed: " + exact_text(s - global_ceiling_) + " m more than it may be at n " +
+                      exact_text(m));
+      }
+    }
+  }
+
+  /// Axes, faces, edges and pairs of edges of the polytopes that the bodies resemble.
+  void look_at_features(const HardCase& one, Violations& out) {
+    const SharpFeatures features1 = one.shape1->sharp_features(), features2 = one.shape2->sharp_features();
+    const auto face = [&](const SharpFeatures& features, int k) { return features.face_normals[static_cast<std::size_t>(k)]; };
+    const auto edge = [&](const SharpFeatures& features, int k) { return features.edges[static_cast<std::size_t>(k)]; };
+    for (int k = 0; k < features1.face_count; ++k) look_at(face(features1, k), out);
+    for (int k = 0; k < features2.face_count; ++k) look_at(gap_.rotation() * face(features2, k), out);
+    for (int i = 0; i < features1.edge_count; ++i) {
+      for (int j = 0; j < features2.edge_count; ++j) {
+        look_at(edge(features1, i).cross(gap_.rotation() * edge(features2, j)), out);
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) look_at(Vector3::Unit(axis), out);
+    look_at(gap_.offset().normalized(), out);
+  }
+
+ private:
+  double value(const Vector3& n) {
+    GapJet jet;
+    gap_.evaluate(n, Order::Value, jet);
+    return jet.s;
+  }
+
+  GapFunction gap_;
+  Vector3 n_;
+  double rounding_, floor_, local_ceiling_, global_ceiling_;
+};
+
+}  // namespace
+
+Violations check_maximum(const HardCase& one, const Settings& settings, const Proximity& answer, std::uint64_t seed) {
+  Violations out;
+  if (answer.status == Status::Apart) return out;  // stopped early: a bound, not a maximum
+  Probe probe(one, settings, answer);
+  const Vector3 tangent1 = probe.normal().unitOrthogonal(), tangent2 = probe.normal().cross(tangent1);
+  for (int k = 0; k < kWalks && out.empty(); ++k) {
+    const double turn = 2 * 3.14159265358979 * (k + 0.25) / kWalks;
+    probe.walk(std::cos(turn) * tangent1 + std::sin(turn) * tangent2, out);
+  }
+  if (!answer.is_global) return out;
+  probe.look_at_features(one, out);
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> gauss;
+  for (int k = 0; k < kRandomDirections; ++k) probe.look_at(Vector3{gauss(engine), gauss(engine), gauss(engine)}, out);
+  return out;
+}
+
+}  // namespace supernormal::samples

@@ -1,0 +1,134 @@
+// Every case of the catalogue: the hybrid's answers against the reference, and what holds without one.
+#include "catalogue.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+#include "invariants.hpp"
+#include "reference.hpp"
+#include "supernormal/solvers/gap_function.hpp"
+
+using namespace supernormal;
+using namespace supernormal::samples;
+
+namespace {
+
+const std::vector<HardCase>& catalogue() {
+  static const std::vector<HardCase> cases = hard_cases();
+  return cases;
+}
+
+struct ReferencedCase {
+  const HardCase* one;
+  Reference reference;
+};
+
+const std::vector<ReferencedCase>& referenced_cases() {
+  static const std::vector<ReferencedCase> cases = [] {
+    std::vector<ReferencedCase> out;
+    for (const HardCase& one : catalogue()) out.push_back({&one, find_reference(one)});
+    return out;
+  }();
+  return cases;
+}
+
+std::string describe(const HardCase& one) {
+  return one.name + " (" + one.reason + ")\n  " + describe(one.body1) + "\n  " + describe(one.body2) + "\n  ";
+}
+
+/// One failure a case, with the settings.
+void report(const HardCase& one, const Settings& settings, const Violations& violations) {
+  if (violations.empty()) return;
+  std::string sentences;
+  for (const std::string& sentence : violations) sentences += "\n  - " + sentence;
+  FAIL_CHECK(describe(one), "tolerance ", settings.tolerance, ", at most ", settings.max_evaluations, " evaluations:", sentences);
+}
+
+Settings certified() {
+  Settings settings;
+  settings.certify_depth = true;
+  settings.max_evaluations = 20000;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("hard cases: every one has a name of its own and a reason") {
+  std::set<std::string> names;
+  for (const HardCase& one : catalogue()) {
+    if (!names.insert(one.name).second) FAIL_CHECK("twice: ", one.name);
+    if (one.reason.empty()) FAIL_CHECK("no reason: ", one.name);
+  }
+  CHECK(names.size() > 300);
+}
+
+TEST_CASE("hard cases: the gaps in closed form lie within the bounds of the branch and bound") {
+  for (const HardCase& one : catalogue()) {
+    if (!one.gap) continue;
+    const double distance = enclose_gap(one, 10000).distance(*one.gap);
+    if (!(distance <= rounding_of(one))) FAIL_CHECK(describe(one), "gap ", *one.gap, " is off by ", distance);
+  }
+}
+
+TEST_CASE("hard cases: no invariant is violated") {
+  for (const HardCase& one : catalogue()) report(one, {}, check(one));
+}
+
+TEST_CASE("hard cases: no invariant is violated at the ends of the range of tolerances") {
+  Settings tight, loose;
+  tight.tolerance = 1e-15;
+  loose.tolerance = 0.1;
+  for (const HardCase& one : catalogue()) {
+    report(one, tight, check(one, tight));
+    report(one, loose, check(one, loose));
+  }
+}
+
+TEST_CASE("hard cases: no invariant is violated when the evaluations run out") {
+  Settings settings;
+  for (const int limit : {1, 2, 3, 5, 9}) {
+    settings.max_evaluations = limit;
+    for (const HardCase& one : catalogue()) report(one, settings, check(one, settings));
+  }
+}
+
+TEST_CASE("hard cases: converged, within the reported error of the reference or a maximum that does not claim to be global") {
+  for (const ReferencedCase& referenced : referenced_cases()) {
+    const HardCase& one = *referenced.one;
+    Violations violations;
+    const Proximity answer = solve(one, {}, violations);
+    report(one, {}, violations);
+    const double allowed = error_of(one, {}, answer) + rounding_of(one);
+    const double distance = referenced.reference.distance(answer.gap);
+    const bool is_lower_maximum = !answer.is_global && answer.gap < referenced.reference.lower;
+    if (answer.status != Status::Converged || !(distance <= allowed || is_lower_maximum)) {
+      FAIL_CHECK(describe(one), "gap ", answer.gap, " is off by ", distance, "; allowed ", allowed, " status ",
+                 static_cast<int>(answer.status));
+    }
+  }
+}
+
+TEST_CASE("hard cases: with proof, the depth is that of the reference") {
+  // Where every normal of a circle is a maximum, there is no end of directions to rule out.
+  int unproved = 0;
+  for (const ReferencedCase& referenced : referenced_cases()) {
+    const HardCase& one = *referenced.one;
+    Violations violations;
+    const Proximity answer = solve(one, certified(), violations);
+    for (const auto& some : {check_answer(one, certified(), answer), check_maximum(one, certified(), answer)}) {
+      violations.insert(violations.end(), some.begin(), some.end());
+    }
+    report(one, certified(), violations);
+    const double allowed = error_of(one, certified(), answer) + rounding_of(one);
+    const double distance = referenced.reference.distance(answer.gap);
+    const bool ran_out = !answer.is_global && answer.evaluations >= certified().max_evaluations;
+    unproved += ran_out ? 1 : 0;
+    if (!(answer.is_global || ran_out) || !(distance <= allowed)) {
+      FAIL_CHECK(describe(one), "gap ", answer.gap, " is off by ", distance, "; allowed ", allowed, " global ", answer.is_global,
+                 " evaluations ", answer.evaluations);
+    }
+  }
+  CHECK(unproved <= 1);
+}

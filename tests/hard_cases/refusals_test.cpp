@@ -1,0 +1,39 @@
+// Parameters and poses with which nothing can be computed are refused: by a clear message, or by a status.
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "catalogue.hpp"
+#include "invariants.hpp"
+
+using namespace supernormal;
+using namespace supernormal::samples;
+
+TEST_CASE("hard cases: bad parameters are refused, and the message says which") {
+  for (const Refusal& refusal : refusals()) {
+    std::string message;
+    try {
+      refusal.attempt();
+    } catch (const std::invalid_argument& error) {
+      message = error.what();
+    }
+    // A name, a value and a range do not fit into less.
+    if (message.size() < 20) FAIL_CHECK(refusal.name, " (", refusal.reason, "): \"", message, "\"");
+  }
+}
+
+TEST_CASE("hard cases: poses that are not finite have no answer") {
+  for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
+    Settings settings;
+    settings.solver = solver;
+    for (const HardCase& one : cases_without_answer()) {
+      Violations exceptions;
+      for (const HardCase& either : {one, swapped(one)}) {
+        const Proximity answer = solve(either, settings, exceptions);
+        if (answer.status != Status::InvalidInput) FAIL_CHECK(one.name, " status ", static_cast<int>(answer.status));
+      }
+      for (const std::string& exception : exceptions) FAIL_CHECK(one.name, ": ", exception);
+    }
+  }
+}
