@@ -1,0 +1,15 @@
+// How a fuzzer tells that something is wrong: by ending the process, which libFuzzer reports with the input.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace supernormal::fuzz {
+
+inline void expect(bool holds, const char* what, const char* details = "") {
+  if (holds) return;
+  std::fprintf(stderr, "violated: %s %s\n", what, details);
+  std::abort();
+}
+
+}  // namespace supernormal::fuzz

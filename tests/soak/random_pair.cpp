@@ -1,0 +1,147 @@
+#include "random_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "supernormal/solvers/gap_function.hpp"
+
+namespace supernormal::soak {
+namespace {
+
+using samples::Body;
+using samples::HardCase;
+
+/// Of superellipsoids, as in the reference file.
+struct Class {
+  const char* name;
+  double least_axis, largest_axis, least_exponent, largest_exponent;
+};
+
+constexpr Class kClasses[] = {{"ellipsoid", 0.5, 1.5, 2, 2},       {"needle_disk", 0.05, 5, 2, 2},
+                              {"moderate", 0.5, 1.5, 1.3, 5},      {"boxy", 0.5, 1.5, 6, 20},
+                              {"extreme_boxy", 0.5, 1.5, 50, 200}, {"octahedral", 0.5, 1.5, 1.02, 1.3},
+                              {"mixed", 0.5, 1.5, 1.05, 50},       {"needle_mixed", 0.05, 5, 1.02, 200}};
+
+Vector3 draw_axes(Random& random, const Class& kind) {
+  const auto axis = [&] { return random.log_uniform(kind.least_axis, kind.largest_axis); };
+  return Vector3{axis(), axis(), axis()};
+}
+
+Body draw_superellipsoid(Random& random, const Class& kind) {
+  const Vector3 axes = draw_axes(random, kind);
+  if (kind.least_exponent == kind.largest_exponent) return samples::ellipsoid(axes);
+  const double delta = random.log_uniform(kind.least_exponent, kind.largest_exponent);
+  return samples::superellipsoid(axes, delta, random.log_uniform(kind.least_exponent, kind.largest_exponent));
+}
+
+Body draw_polytope(Random& random, const Vector3& axes) {
+  std::vector<Vector3> points(4 + random.below(9));
+  for (Vector3& point : points) point = axes.cwiseProduct(random.direction());
+  return samples::polytope(std::move(points));
+}
+
+/// Anything but a plain superellipsoid.
+Body draw_other(Random& random, const Class& kind) {
+  const Vector3 axes = draw_axes(random, kind);
+  switch (random.below(8)) {
+    case 0:
+      return samples::box(axes);
+    case 1:
+      return samples::capsule(axes.x(), axes.z());
+    case 2:
+      return samples::cylinder(axes.x(), axes.z());
+    case 3:
+      return samples::ellipsoid(Vector3::Constant(axes.x()));
+    case 4: {
+      const Body body = draw_superellipsoid(random, kind);
+      return body.rounded(axes.minCoeff() * random.log_uniform(1e-6, 1));
+    }
+    case 5: {
+      const Body body = draw_superellipsoid(random, kind);
+      const double taper = random.uniform(-1, 1) * std::exp2(1 / body.epsilon) * (body.epsilon - 1) / body.epsilon;
+      return samples::superovoid(body.lengths, body.delta, body.epsilon, taper, taper);
+    }
+    case 6:
+      return draw_superellipsoid(random, kind).by_callbacks();
+    default:
+      return draw_polytope(random, axes);
+  }
+}
+
+/// Also those on which a coordinate vanishes, or nearly does.
+Vector3 draw_normal(Random& random) {
+  Vector3 n = random.direction();
+  if (random.chance(0.7)) return n;
+  for (int k = 0; k < 2; ++k) {
+    double& component = n[static_cast<int>(random.below(3))];
+    component = random.chance(0.5) ? 0 : component * random.log_uniform(1e-300, 1);
+  }
+  const double length = n.norm();
+  return length > 1e-9 ? Vector3(n / length) : Vector3::UnitX();
+}
+
+Matrix3 draw_rotation(Random& random) {
+  if (random.chance(0.8)) return random.rotation();
+  if (random.chance(0.3)) return Matrix3::Identity();
+  return random.turn(random.log_uniform(1e-16, 1));
+}
+
+/// In units of the smallest half-extent: from apart by twice that, through touching, to overlapped by all of it.
+double draw_relative_gap(Random& random) {
+  const double choice = random.uniform();
+  if (choice < 0.1) return 0;
+  if (choice < 0.4) return random.log_uniform(1e-16, 2);
+  if (choice < 0.8) return -random.log_uniform(1e-16, 0.3);
+  return -random.uniform(0.3, 1);
+}
+
+/// Body 2 goes where n is a common normal and s(n) is `gap`.
+void place_on_normal(HardCase& pair, const Vector3& n, double gap) {
+  const Vector3 point2 = pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n));
+  pair.pose2.position = pair.shape1->point(n) + gap * n - point2;
+}
+
+double value_at(const HardCase& pair, const Vector3& n) {
+  GapFunction gap(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
+  GapJet jet;
+  gap.evaluate(n, Order::Value, jet);
+  return jet.s;
+}
+
+void move_frame(HardCase& pair, Random& random) {
+  const Matrix3 turn = random.rotation();
+  const Vector3 position = random.log_uniform(1e-3, 1e6) * random.direction();
+  pair.pose1 = {position, turn};
+  pair.pose2 = {position + turn * pair.pose2.position, turn * pair.pose2.rotation};
+}
+
+}  // namespace
+
+void draw_random_pair(Random& random, Sample& sample) {
+  const Class& kind = kClasses[random.below(std::size(kClasses))];
+  HardCase& pair = sample.pair;
+  pair.name = std::string("random: ") + kind.name;
+  pair.first_normal.reset();
+  pair.gap.reset();
+  pair.body1 = draw_superellipsoid(random, kind);
+  pair.body2 = random.chance(0.3) ? draw_other(random, kind) : draw_superellipsoid(random, kind);
+  if (random.chance(0.5)) std::swap(pair.body1, pair.body2);
+  pair.shape1 = samples::make_shape(pair.body1);
+  pair.shape2 = samples::make_shape(pair.body2);
+  pair.pose1 = {};
+  pair.pose2.rotation = draw_rotation(random);
+  const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
+  if (random.chance(0.05)) {  // within one another
+    pair.pose2.position = unit * random.log_uniform(1e-16, 1) * random.direction();
+    sample.placed_gap.reset();
+  } else {
+    const Vector3 n = draw_normal(random);
+    place_on_normal(pair, n, draw_relative_gap(random) * unit);
+    sample.placed_gap = value_at(pair, n);
+  }
+  if (random.chance(0.1)) move_frame(pair, random);
+}
+
+}  // namespace supernormal::soak

@@ -1,0 +1,80 @@
+#include "sample.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "random_pair.hpp"
+
+namespace supernormal::soak {
+namespace {
+
+using samples::Body;
+using samples::HardCase;
+
+// From what rounding does to a number to another number.
+constexpr double kLeastChange = 1e-16, kLargestChange = 1;
+
+double change(Random& random) { return random.log_uniform(kLeastChange, kLargestChange); }
+
+double changed(double value, double by, Random& random) { return value * (1 + by * random.uniform(-0.9, 1)); }
+
+// Relative to its distance from 1, so that an exponent remains one.
+double changed_exponent(double exponent, double by, Random& random) { return 1 + changed(exponent - 1, by, random); }
+
+void change_body(Body& body, Random& random) {
+  const double by = change(random);
+  const bool is_round = body.kind == Body::Kind::Capsule || body.kind == Body::Kind::Cylinder;
+  for (double& length : body.lengths) length = changed(length, by, random);
+  if (is_round) body.lengths.y() = body.lengths.x();
+  body.delta = changed_exponent(body.delta, by, random);
+  body.epsilon = changed_exponent(body.epsilon, by, random);
+  const double taper = changed(1, by, random);  // for both: different ones are rarely convex
+  body.taper_x *= taper;
+  body.taper_y *= taper;
+  body.rounding = changed(body.rounding, by, random);
+  for (Vector3& point : body.points) point += by * point.norm() * random.direction();
+}
+
+void change_shape(Body& body, std::shared_ptr<const Shape>& shape, Random& random) {
+  Body other = body;
+  change_body(other, random);
+  try {
+    shape = samples::make_shape(other);
+    body = std::move(other);
+  } catch (const std::invalid_argument&) {
+    // Out of the shape's range: the original is as good.
+  }
+}
+
+Settings draw_settings(Random& random) {
+  Settings settings;
+  constexpr double kOther[] = {1e-3, 1e-6, 1e-12, 1e-15};
+  if (random.chance(0.3)) settings.tolerance = kOther[random.below(std::size(kOther))];
+  return settings;
+}
+
+}  // namespace
+
+SampleSource::SampleSource(std::uint64_t seed) : seed_(seed), catalogue_(samples::hard_cases()) {}
+
+void SampleSource::draw(std::uint64_t index, Sample& sample) const {
+  Random random(seed_, index);
+  sample.settings = draw_settings(random);
+  if (random.chance(0.5)) {
+    draw_from_catalogue(random, sample);
+  } else {
+    draw_random_pair(random, sample);
+  }
+}
+
+void SampleSource::draw_from_catalogue(Random& random, Sample& sample) const {
+  HardCase& pair = sample.pair = catalogue_[random.below(catalogue_.size())];
+  sample.placed_gap.reset();
+  if (random.chance(0.2)) change_shape(pair.body1, pair.shape1, random);
+  if (random.chance(0.2)) change_shape(pair.body2, pair.shape2, random);
+  const double size = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
+  pair.pose2.position += change(random) * size * random.direction();
+  if (random.chance(0.5)) pair.pose2.rotation = random.turn(change(random)) * pair.pose2.rotation;
+}
+
+}  // namespace supernormal::soak

@@ -1,0 +1,41 @@
+// What the soak program asks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "catalogue.hpp"
+#include "random.hpp"
+#include "supernormal/solvers/proximity.hpp"
+
+namespace supernormal::soak {
+
+struct Sample {
+  samples::HardCase pair;  ///< the name says where it comes from
+  Settings settings;
+  /// m; the value of the gap function at a normal that the bodies were placed on: at or above zero this is the gap, below zero the
+  /// gap is not less.
+  std::optional<double> placed_gap;
+};
+
+/// Draws samples: half from the catalogue of hard cases, slightly or not so slightly changed, half random pairs of bodies of a
+/// class (those of tests/data/superellipsoid_pairs.csv, and the other shapes), from apart to one within the other.
+class SampleSource {
+ public:
+  explicit SampleSource(std::uint64_t seed);
+
+  /// Sample number `index`: of a seed, always the same.
+  void draw(std::uint64_t index, Sample& sample) const;
+
+  /// What belongs to the sample's checks.
+  Random random_of_checks(std::uint64_t index) const { return {~seed_, index}; }
+
+ private:
+  void draw_from_catalogue(Random& random, Sample& sample) const;
+
+  std::uint64_t seed_;
+  std::vector<samples::HardCase> catalogue_;
+};
+
+}  // namespace supernormal::soak

@@ -1,0 +1,52 @@
+// What the soak program has found so far, and the file that keeps it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "examination.hpp"
+
+namespace supernormal::soak {
+
+/// The samples with the largest values, largest first.
+class Ranking {
+ public:
+  struct Entry {
+    double value = 0;
+    std::uint64_t sample = 0;
+  };
+
+  void add(const Entry& entry);
+  void add(const Ranking& other) {
+    for (const Entry& entry : other.entries_) add(entry);
+  }
+  const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  static constexpr std::size_t kLength = 5;
+
+  std::vector<Entry> entries_;
+};
+
+struct Tally {
+  std::uint64_t samples = 0, queries = 0, evaluations = 0;
+  std::uint64_t not_global = 0, not_converged = 0;  ///< samples with an answer that does not claim to be global; to have converged
+  std::uint64_t violations = 0;                     ///< samples with at least one
+  double seconds = 0;                               ///< of real time
+  std::vector<std::uint64_t> violated;              ///< the first of them
+  Ranking by_error, by_error_of_bound, by_evaluations;
+
+  void add(std::uint64_t sample, const Finding& finding);
+
+  /// All but the time.
+  void add(const Tally& other);
+};
+
+/// Writes to a new file and renames it: whenever the program ends, the file is whole.
+void save(const Tally& tally, std::uint64_t seed, const std::string& path);
+
+/// What was saved; a new tally when there is no such file. std::runtime_error when it is not one, or of another seed.
+Tally load(std::uint64_t seed, const std::string& path);
+
+}  // namespace supernormal::soak
