@@ -12,9 +12,12 @@ ContactPatch query_box(dGeomID ours, dGeomID partner, Goal goal) {
   dGeomBoxGetLengths(partner, lengths);
   const Box box(0.5 * to_vector(lengths));
   const PartnerShape shape{box, pose_of(partner), partner_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
-  Proximity result = solve_pair(ours, shape, goal);
-  result.contact += 0.5 * result.gap * result.normal;  // onto the box, where ODE's own contacts of dSphere and dBox are
-  return patch_of_pair(ours, shape, result, goal);
+  ContactPatch patch = solve_pair(ours, shape, goal);
+  // Onto the box, where ODE's own contacts of dSphere and dBox are.
+  const Vector3 onto_box = 0.5 * patch.deepest.gap * patch.deepest.normal;
+  patch.deepest.contact += onto_box;
+  for (Vector3& corner : patch.corners) corner += onto_box;
+  return patch;
 }
 
 }  // namespace supernormal::ode

@@ -13,7 +13,7 @@ ContactPatch query_capsule(dGeomID ours, dGeomID partner, Goal goal) {
   dGeomCapsuleGetParams(partner, &radius, &length);
   const Capsule capsule(radius, 0.5 * double{length});
   const PartnerShape shape{capsule, pose_of(partner), partner_kind(dCapsuleClass, {radius, length})};
-  return patch_of_pair(ours, shape, solve_pair(ours, shape, goal), goal);
+  return solve_pair(ours, shape, goal);
 }
 
 }  // namespace supernormal::ode

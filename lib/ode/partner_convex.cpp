@@ -29,7 +29,7 @@ ContactPatch query_convex(dGeomID ours, dGeomID partner, Goal goal) {
   const Polytope hull(vertices.points(), scratch().face_normals.find(vertices.points()));
   const auto count = static_cast<double>(vertices.points().size());
   const PartnerShape shape{hull, vertices.pose(), partner_kind(dConvexClass, {count})};
-  return patch_of_pair(ours, shape, solve_pair(ours, shape, goal), goal);
+  return solve_pair(ours, shape, goal);
 }
 
 }  // namespace supernormal::ode

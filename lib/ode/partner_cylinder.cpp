@@ -13,7 +13,7 @@ ContactPatch query_cylinder(dGeomID ours, dGeomID partner, Goal goal) {
   dGeomCylinderGetParams(partner, &radius, &length);
   const Cylinder cylinder(radius, 0.5 * double{length});
   const PartnerShape shape{cylinder, pose_of(partner), partner_kind(dCylinderClass, {radius, length})};
-  return patch_of_pair(ours, shape, solve_pair(ours, shape, goal), goal);
+  return solve_pair(ours, shape, goal);
 }
 
 }  // namespace supernormal::ode

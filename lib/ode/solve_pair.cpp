@@ -8,7 +8,7 @@
 
 namespace supernormal::ode {
 
-Proximity solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
+ContactPatch solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
   const Body& body = require_body(ours);
   const Pose pose = pose_of(ours);
   const RelativePose relative_pose = RelativePose::of(partner.pose, pose);
@@ -23,12 +23,8 @@ Proximity solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
   if (result.status != Status::InvalidInput) {
     remember_normal(key, relative_pose, partner.pose.rotation.transpose() * result.normal);
   }
-  return result;
-}
-
-ContactPatch patch_of_pair(dGeomID ours, const PartnerShape& partner, const Proximity& proximity, Goal goal) {
-  if (goal != Goal::Contacts) return proximity;
-  return find_contact_patch(require_body(ours).shape(), pose_of(ours), partner.shape, partner.pose, proximity);
+  return goal == Goal::Contacts ? find_contact_patch(body.shape(), pose, partner.shape, partner.pose, result)
+                                : ContactPatch(result);
 }
 
 }  // namespace supernormal::ode

@@ -1,4 +1,4 @@
-// What the partners have in common that are solved as a pair of shapes, with one contact.
+// What the partners have in common that are solved as a pair of shapes.
 #pragma once
 
 #include <ode/ode.h>
@@ -20,14 +20,11 @@ struct PartnerShape {
   std::uint32_t kind;  ///< partner_kind()
 };
 
-/// Solves the pair, from its last normal if there is one, and counts the query.
+/// The query of the pair, from its last normal if there is one; counts itself.
 ///
 /// Of such a partner's normals we remember those in its own frame, under where our body is seen from there: on a floor made of a
 /// dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
-Proximity solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal);
-
-/// What the query of the pair is to return: its proximity and, if the goal is Contacts, the corners of the overlap.
-ContactPatch patch_of_pair(dGeomID ours, const PartnerShape& partner, const Proximity& proximity, Goal goal);
+ContactPatch solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal);
 
 /// The dColliderFn that makes contacts of what the query finds.
 template <PairQuery kQuery>
