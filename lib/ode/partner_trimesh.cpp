@@ -1,5 +1,6 @@
 // Our bodies and dTriMesh: what is behind its triangles is solid.
 #include <cmath>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
@@ -128,11 +129,14 @@ int collide_with_trimesh(dGeomID ours, dGeomID partner, int flags, dContactGeom*
     const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
     int count = 0;
     for (const MeshContact& contact : found) count = append_contact(contact.proximity, out, count, contact.triangle);
+    // The deepest contact is the first, and none has a greater margin.
+    std::optional<std::span<const MeshTriangle>> near;
     for (const MeshContact& contact : found) {
       if (count >= out.room()) break;
       ContactPatch patch = find_plane_contact_patch(visit.body.shape(), visit.pose, contact.proximity);
       if (patch.corner_count == 0) continue;
-      draw_in_corners(patch, visit.triangles_within(patch.margin));
+      if (!near) near = visit.triangles_within(patch.margin);
+      draw_in_corners(patch, *near);
       count = append_corners(patch, out, count, contact.triangle);
     }
     return count;
