@@ -5,6 +5,7 @@
 #include <span>
 
 #include "contact/cap.hpp"
+#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {
@@ -21,11 +22,11 @@ constexpr double kWideOverlap = 0.125;
 // Of the smallest half-extent: a lesser depth is rounding.
 constexpr double kLeastDepth = 1e-12;
 
-// Not a plate or a segment, which has no thickness to be deep in.
+// Not a plate or a segment, which has no thickness to be deep in; nor anything else that is thinner than a body of ours may be.
 bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
   const double thickness = shape.half_extents().minCoeff();
-  return is_answer && !shape.is_round() && thickness > 0 && -proximity.gap > kLeastDepth * thickness;
+  return is_answer && !shape.is_round() && thickness >= kMinLength && -proximity.gap > kLeastDepth * thickness;
 }
 
 double margin_of(const Shape& shape, const Proximity& proximity) {
