@@ -34,10 +34,13 @@ bool is_same(const T& a, const T& b) {
   return std::equal(bytes, bytes + sizeof(T), reinterpret_cast<const unsigned char*>(&b));
 }
 
+/// Whether its pose is finite, as far as it has one: how a sphere is turned is of no consequence.
 bool is_placed(dGeomID geom) {
   if (dGeomGetClass(geom) == dPlaneClass) return true;
+  if (!is_finite(dGeomGetPosition(geom))) return false;
+  if (dGeomGetClass(geom) == dSphereClass) return true;
   const dReal* const R = dGeomGetRotation(geom);
-  return is_finite(dGeomGetPosition(geom)) && is_finite(R) && is_finite(R + 4) && is_finite(R + 8);
+  return is_finite(R) && is_finite(R + 4) && is_finite(R + 8);
 }
 
 /// The pair is asked for its contacts; nothing is written beyond those that are counted.
