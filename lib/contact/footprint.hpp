@@ -1,8 +1,7 @@
 // Convex regions of the tangent plane of a contact.
 #pragma once
 
-#include <array>
-
+#include "solvers/convex_polygon.hpp"
 #include "solvers/tangent_plane.hpp"
 
 namespace supernormal {
@@ -19,13 +18,13 @@ struct PatchFrame {
 class Footprint {
  public:
   /// Two octagons meet in a polygon of at most sixteen corners.
-  static constexpr int kCapacity = 16;
+  static constexpr std::size_t kCapacity = 16;
 
-  void add(const Vector2& corner) { corners_[static_cast<std::size_t>(size_++)] = corner; }
-  int size() const { return size_; }
+  void add(const Vector2& corner) { corners_.add(corner); }
+  int size() const { return static_cast<int>(corners_.size()); }
   const Vector2& operator[](int k) const { return corners_[static_cast<std::size_t>(k)]; }
 
-  /// What both have in common. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm.
+  /// What both have in common.
   Footprint intersected(const Footprint& other) const;
 
   struct Range {
@@ -42,8 +41,7 @@ class Footprint {
   Footprint quadrangle() const;
 
  private:
-  std::array<Vector2, kCapacity> corners_;
-  int size_ = 0;
+  ConvexPolygon<Vector2, kCapacity> corners_;
 };
 
 }  // namespace supernormal
