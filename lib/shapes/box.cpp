@@ -27,7 +27,7 @@ void Box::add_corners(const Vector3& /*n*/, const Vector3& /*toward*/, Corners& 
   }
 }
 
-SharpFeatures Box::sharp_features() const { return SharpFeatures::of_box(0); }
+double Box::sharpest_radius() const { return 0; }
 
 MassProperties Box::mass_properties() const {
   MassProperties mass;

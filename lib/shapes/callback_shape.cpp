@@ -105,44 +105,31 @@ void check_hessian(const Matrix3& hessian, const Vector3& n) {
   if (H.trace() < 0 || product < -kTolerance) refuse("hessian has a negative principal radius", n);
 }
 
-/// The sharpest bend of the body around one axis.
-struct Bend {
-  Vector3 axis;
-  double radius;  // m; the least mean radius of curvature over an arc of normals across the axis; 0: the whole arc has one point
-};
-
-Bend sharpest_bend(const Vector3& axis, const CallbackShape::Point& point) {
+/// The least mean radius of curvature (m) over an arc of normals around the axis; 0: a whole arc has one point.
+double sharpest_bend(const Vector3& axis, const CallbackShape::Point& point) {
   constexpr int kArcs = 72;
   const Vector3 across = axis.unitOrthogonal();
   const Vector3 along = axis.cross(across);
-  Bend bend{axis, std::numeric_limits<double>::infinity()};
+  double radius = std::numeric_limits<double>::infinity();
   Vector3 n = across, r = point(n);
   for (int i = 1; i <= kArcs; ++i) {
     const double angle = 2 * std::numbers::pi * i / kArcs;
     const Vector3 next_n = std::cos(angle) * across + std::sin(angle) * along, next_r = point(next_n);
-    bend.radius = std::min(bend.radius, (next_n - n).dot(next_r - r) / (next_n - n).squaredNorm());
+    radius = std::min(radius, (next_n - n).dot(next_r - r) / (next_n - n).squaredNorm());
     n = next_n;
     r = next_r;
   }
-  bend.radius = std::max(bend.radius, 0.0);
-  return bend;
+  return std::max(radius, 0.0);
 }
 
-/// Faces as of a box; edges along those axes, of the nine through faces and edges of a cube, around which the body bends most
-/// sharply.
-SharpFeatures find_sharp_features(const CallbackShape::Point& point, const Vector3& half_extents) {
-  std::vector<Bend> bends;
+/// Around the nine axes through faces and edges of a cube.
+double find_sharpest_radius(const CallbackShape::Point& point) {
+  double radius = std::numeric_limits<double>::infinity();
   const std::array<Trial, kDirections> trials = trial_directions();
   for (std::size_t i = 0; i < trials.size() / 2; ++i) {  // one of two opposite ones
-    if (trials[i].n.cwiseAbs().minCoeff() == 0) bends.push_back(sharpest_bend(trials[i].n, point));
+    if (trials[i].n.cwiseAbs().minCoeff() == 0) radius = std::min(radius, sharpest_bend(trials[i].n, point));
   }
-  std::ranges::stable_sort(bends, {}, &Bend::radius);
-  SharpFeatures features;
-  features.radius = bends.front().radius;
-  features.roundness = half_extents.minCoeff();  // as far as can be: nothing is known of it
-  for (int axis = 0; axis < 3; ++axis) features.add_face(Vector3::Unit(axis));
-  for (std::size_t i = 0; i < features.edges.size(); ++i) features.add_edge(bends[i].axis);
-  return features;
+  return radius;
 }
 
 }  // namespace
@@ -158,7 +145,7 @@ CallbackShape::CallbackShape(Support support, Point point, Hessian hessian)
   }
   check_convex(trials, check_points(trials));
   half_extents_ = Shape::half_extents();
-  sharp_features_ = find_sharp_features(point_, half_extents_);
+  sharpest_radius_ = find_sharpest_radius(point_);
   if (!hessian_) return;
   for (const Trial& trial : trials) check_hessian(hessian_(trial.n), trial.n);
 }

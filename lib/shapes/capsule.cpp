@@ -27,12 +27,7 @@ void Capsule::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners& 
   corners.add(radius_ * n + end);
 }
 
-SharpFeatures Capsule::sharp_features() const {
-  SharpFeatures features;
-  features.radius = radius_;
-  features.add_edge(Vector3::UnitZ());
-  return features;
-}
+double Capsule::sharpest_radius() const { return radius_; }
 
 MassProperties Capsule::mass_properties() const {
   const double r = radius_;

@@ -59,7 +59,7 @@ bool Cylinder::crosses_curved_face(const Vector3& from, const Vector3& to, Vecto
   return true;
 }
 
-SharpFeatures Cylinder::sharp_features() const { return SharpFeatures::of_box(0); }
+double Cylinder::sharpest_radius() const { return 0; }
 
 MassProperties Cylinder::mass_properties() const {
   MassProperties mass;

@@ -19,8 +19,7 @@ constexpr double kLargestRatio = 1e12;
 LinearImage::LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matrix) : shape_(std::move(shape)), matrix_(matrix) {
   if (!shape_) throw std::invalid_argument("shape is null; a shape is needed");
   if (!all_finite(matrix)) throw std::invalid_argument("matrix has an entry that is not finite");
-  const Eigen::JacobiSVD<Matrix3> svd(matrix, Eigen::ComputeFullU);
-  axes_ = svd.matrixU();
+  const Eigen::JacobiSVD<Matrix3> svd(matrix);
   largest_ = require_in("largest singular value of matrix", svd.singularValues()[0], kMinLength, kMaxLength);
   smallest_ = require_in("smallest singular value of matrix", svd.singularValues()[2], largest_ / kLargestRatio, largest_);
   inverse_ = matrix.inverse();
@@ -67,22 +66,7 @@ bool LinearImage::crosses_curved_face(const Vector3& from, const Vector3& to, Ve
   return true;
 }
 
-SharpFeatures LinearImage::sharp_features() const {
-  const SharpFeatures originals = shape_->sharp_features();
-  SharpFeatures features;
-  features.radius = originals.radius * smallest_ * (smallest_ / largest_);
-  features.roundness = originals.roundness * largest_;
-  for (int i = 0; i < originals.face_count; ++i) {
-    features.add_face(inverse_.transpose() * originals.face_normals[static_cast<std::size_t>(i)]);
-  }
-  for (int i = 0; i < originals.edge_count; ++i) features.add_edge(matrix_ * originals.edges[static_cast<std::size_t>(i)]);
-  const bool is_round = originals.face_count == 0 && originals.edge_count == 0 && !has_kinks();
-  for (int axis = 0; is_round && axis < 3; ++axis) {
-    features.add_face(axes_.col(axis));
-    features.add_edge(axes_.col(axis));
-  }
-  return features;
-}
+double LinearImage::sharpest_radius() const { return shape_->sharpest_radius() * smallest_ * (smallest_ / largest_); }
 
 MassProperties LinearImage::mass_properties() const {
   MassProperties mass = shape_->mass_properties();

@@ -8,15 +8,6 @@
 namespace supernormal {
 namespace {
 
-void add_features(const SharpFeatures& part, SharpFeatures& sum) {
-  const int face_room = static_cast<int>(sum.face_normals.size());
-  const int edge_room = static_cast<int>(sum.edges.size());
-  for (int i = 0; i < part.face_count && sum.face_count < face_room; ++i) {
-    sum.add_face(part.face_normals[static_cast<std::size_t>(i)]);
-  }
-  for (int i = 0; i < part.edge_count && sum.edge_count < edge_room; ++i) sum.add_edge(part.edges[static_cast<std::size_t>(i)]);
-}
-
 /// Both parts have kinks: their corners in pairs, the highest along n.
 void add_highest_pairs(const Vector3& n, const Corners& first, const Corners& second, Corners& corners) {
   struct Pair {
@@ -92,16 +83,6 @@ bool MinkowskiSum::crosses_curved_face(const Vector3& from, const Vector3& to, V
   return first_->crosses_curved_face(from, to, face) || second_->crosses_curved_face(from, to, face);
 }
 
-SharpFeatures MinkowskiSum::sharp_features() const {
-  const SharpFeatures features1 = first_->sharp_features(), features2 = second_->sharp_features();
-  SharpFeatures sum;
-  sum.radius = features1.radius + features2.radius;
-  sum.roundness = features1.roundness + features2.roundness;
-  // The sharper part first, should there not be room for both.
-  const bool first_is_sharper = features1.radius <= features2.radius;
-  add_features(first_is_sharper ? features1 : features2, sum);
-  add_features(first_is_sharper ? features2 : features1, sum);
-  return sum;
-}
+double MinkowskiSum::sharpest_radius() const { return first_->sharpest_radius() + second_->sharpest_radius(); }
 
 }  // namespace supernormal

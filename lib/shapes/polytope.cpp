@@ -64,6 +64,6 @@ void Polytope::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners&
 }
 
 // Its faces and edges are not the same from both sides.
-SharpFeatures Polytope::sharp_features() const { return {}; }
+double Polytope::sharpest_radius() const { return 0; }
 
 }  // namespace supernormal

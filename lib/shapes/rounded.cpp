@@ -45,10 +45,6 @@ bool Rounded::crosses_curved_face(const Vector3& from, const Vector3& to, Vector
 
 Vector3 Rounded::half_extents() const { return core_->half_extents() + Vector3::Constant(radius_); }
 
-SharpFeatures Rounded::sharp_features() const {
-  SharpFeatures features = core_->sharp_features();
-  features.radius += radius_;
-  return features;
-}
+double Rounded::sharpest_radius() const { return core_->sharpest_radius() + radius_; }
 
 }  // namespace supernormal

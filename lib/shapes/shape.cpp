@@ -17,20 +17,10 @@ Vector3 Shape::half_extents() const {
   return half;
 }
 
-SharpFeatures SharpFeatures::of_box(double radius) {
-  SharpFeatures features;
-  features.radius = radius;
-  for (int axis = 0; axis < 3; ++axis) {
-    features.add_face(Vector3::Unit(axis));
-    features.add_edge(Vector3::Unit(axis));
-  }
-  return features;
-}
-
-SharpFeatures Shape::sharp_features() const {
+double Shape::sharpest_radius() const {
   // The ellipsoid with half-axes of which c is the smallest and a the largest is sharpest at the ends of a: c^2/a.
   const Vector3 half = half_extents();
-  return SharpFeatures::of_box(half.minCoeff() * (half.minCoeff() / half.maxCoeff()));
+  return half.minCoeff() * (half.minCoeff() / half.maxCoeff());
 }
 
 double Shape::support(const Vector3& n) const {

@@ -14,10 +14,6 @@ void Sphere::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H = radius_ * (Matrix3::Identity() - n * n.transpose());
 }
 
-SharpFeatures Sphere::sharp_features() const {
-  SharpFeatures none;
-  none.radius = radius_;
-  return none;
-}
+double Sphere::sharpest_radius() const { return radius_; }
 
 }  // namespace supernormal

@@ -18,10 +18,6 @@ double relative_radius(double exponent) {
   return std::max(0.0, (exponent - kSharpExponent) / (2 - kSharpExponent));
 }
 
-/// How far the superellipse of this exponent is from the square around it (above 2) or the one inscribed (below), along their
-/// diagonals.
-double relative_roundness(double exponent) { return 1 - std::exp2(exponent >= 2 ? -1 / exponent : 1 / exponent - 1); }
-
 /// A ball of this radius rolls freely inside the superellipsoid with half-axes 1; 0 if there is none, as at the vertices and edges
 /// of an exponent below 2.
 ///
@@ -133,40 +129,9 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
       .cwiseQuotient(half_axes_);
 }
 
-SharpFeatures Superellipsoid::sharp_features() const {
-  const double a = half_axes_.x(), b = half_axes_.y(), c = half_axes_.z();
+double Superellipsoid::sharpest_radius() const {
   const double smallest = half_axes_.minCoeff();
-  SharpFeatures features;
-  features.radius = smallest * (smallest / half_axes_.maxCoeff()) * std::min(relative_radius(delta_), relative_radius(epsilon_));
-  features.roundness = smallest * std::min(relative_roundness(delta_), relative_roundness(epsilon_));
-  const bool is_box_in_xy = delta_ >= 2;
-  const bool is_prism = epsilon_ >= 2;
-  // The section in xy is a rectangle or a rhombus; along z it is swept (prism) or drawn to two apices (bipyramid).
-  if (is_prism) {
-    features.add_face(Vector3::UnitZ());
-    features.add_edge(Vector3::UnitZ());
-    for (const double sign : {1.0, -1.0}) {
-      features.add_face(is_box_in_xy ? Vector3(sign > 0, sign < 0, 0) : Vector3(b, sign * a, 0));
-      features.add_edge(is_box_in_xy ? Vector3(sign > 0, sign < 0, 0) : Vector3(a, sign * b, 0));
-    }
-    return features;
-  }
-  for (const double sign : {1.0, -1.0}) {
-    if (is_box_in_xy) {
-      features.add_face(Vector3(c, 0, sign * a));
-      features.add_face(Vector3(0, c, sign * b));
-      features.add_edge(Vector3(sign > 0, sign < 0, 0));
-      features.add_edge(Vector3(a, b, sign * c));
-      features.add_edge(Vector3(a, -b, sign * c));
-    } else {
-      features.add_face(Vector3(b * c, sign * a * c, a * b));
-      features.add_face(Vector3(b * c, sign * a * c, -a * b));
-      features.add_edge(Vector3(a, sign * b, 0));
-      features.add_edge(Vector3(a, 0, sign * c));
-      features.add_edge(Vector3(0, b, sign * c));
-    }
-  }
-  return features;
+  return smallest * (smallest / half_axes_.maxCoeff()) * std::min(relative_radius(delta_), relative_radius(epsilon_));
 }
 
 }  // namespace supernormal

@@ -236,12 +236,10 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   return meridian.dx * direction + Vector3(0, 0, along / half_axes_.z());
 }
 
-SharpFeatures Superovoid::sharp_features() const {
-  SharpFeatures features = Superellipsoid(half_axes_, delta_, epsilon_).sharp_features();
+double Superovoid::sharpest_radius() const {
   // Where the section has shrunk to this share, the radius of its meridian has shrunk with its square.
   const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
-  features.radius *= narrowest * narrowest;
-  return features;
+  return Superellipsoid(half_axes_, delta_, epsilon_).sharpest_radius() * narrowest * narrowest;
 }
 
 }  // namespace supernormal

@@ -38,9 +38,9 @@ GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, 
   const int limit = settings.max_evaluations;
   if (settings.certify_depth) return {tolerance, limit, 0.5 * tolerance, 0};
   if (branch == Branch::OfStart && depth <= kUnquestionedDepth * gap.length_unit()) return {};
-  const SharpFeatures features1 = gap.shape1().sharp_features(), features2 = gap.shape2().sharp_features();
-  if (!may_have_other_maxima(features1, features2, depth, gap.length_unit(), gap.shape2().has_kinks())) return {};
-  const bool is_sharp = gap.shape2().has_kinks() || (features1.radius == 0 && features2.radius == 0);
+  const double radius1 = gap.shape1().sharpest_radius(), radius2 = gap.shape2().sharpest_radius();
+  if (!may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), gap.shape2().has_kinks())) return {};
+  const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
   const bool is_shallow = depth < kShallowDepth * gap.length_unit();
   const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
   const int most = std::min(limit, gap.evaluations() + affordable);

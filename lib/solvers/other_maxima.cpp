@@ -14,12 +14,11 @@ constexpr double kAboutCentred = 0.5;  // likewise
 
 }  // namespace
 
-bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth, double length_unit,
-                           bool has_kinks) {
+bool may_have_other_maxima(double radius1, double radius2, double depth, double length_unit, bool has_kinks) {
   const double radii = has_kinks || depth > kAboutCentred * length_unit ? kCertainDepthPerRadius
                        : depth > kDeep * length_unit                    ? kDeepDepthPerRadius
                                                                         : kShallowDepthPerRadius;
-  return depth > radii * (features1.radius + features2.radius);
+  return depth > radii * (radius1 + radius2);
 }
 
 }  // namespace supernormal

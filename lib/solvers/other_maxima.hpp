@@ -1,14 +1,12 @@
 // When the gap function of two overlapping bodies may have several local maxima.
 #pragma once
 
-#include "supernormal/shapes/shape.hpp"
-
 namespace supernormal {
 
 /// Whether two bodies that overlap by `depth` (m) may have a better local maximum than the one found. If a ball with the radius of
 /// the depth rolls freely inside the difference of the bodies, the maximum is the only one (Blaschke's rolling theorem); the
-/// smallest radii of curvature of the bodies add. An estimate: Shape::rolling_radius() gives the proof.
-bool may_have_other_maxima(const SharpFeatures& features1, const SharpFeatures& features2, double depth, double length_unit,
-                           bool has_kinks);
+/// smallest radii of curvature of the bodies add. An estimate, of Shape::sharpest_radius(); Shape::rolling_radius() gives the
+/// proof.
+bool may_have_other_maxima(double radius1, double radius2, double depth, double length_unit, bool has_kinks);
 
 }  // namespace supernormal

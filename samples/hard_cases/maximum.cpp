@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "invariants.hpp"
 #include "supernormal/solvers/gap_function.hpp"
@@ -13,6 +14,25 @@ constexpr int kWalks = 8;
 constexpr double kFirstAngle = 1e-15;
 constexpr int kSteps = 25;  // to an angle of about 1
 constexpr int kRandomDirections = 50;
+
+/// The box with the half-extents and the octahedron inscribed in it.
+struct Features {
+  std::vector<Vector3> face_normals;
+  std::vector<Vector3> edges;  // directions
+
+  explicit Features(const Vector3& half) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 along = half[axis] * Vector3::Unit(axis);
+      const Vector3 next = half[(axis + 1) % 3] * Vector3::Unit((axis + 1) % 3);
+      face_normals.emplace_back(Vector3::Unit(axis));
+      edges.insert(edges.end(), {Vector3::Unit(axis), along + next, along - next});
+    }
+    for (const double x : {-1., 1.}) {
+      for (const double y : {-1., 1.})
+        face_normals.emplace_back(x * half.y() * half.z(), y * half.x() * half.z(), half.x() * half.y());
+    }
+  }
+};
 
 /// Looks for normals that are higher than the answer's.
 class Probe {
@@ -55,17 +75,13 @@ class Probe {
     }
   }
 
-  /// Axes, faces, edges and pairs of edges of the polytopes that the bodies resemble.
+  /// Faces, edges and pairs of edges of the boxes and octahedra that the bodies may resemble.
   void look_at_features(const HardCase& one, Violations& out) {
-    const SharpFeatures features1 = one.shape1->sharp_features(), features2 = one.shape2->sharp_features();
-    const auto face = [&](const SharpFeatures& features, int k) { return features.face_normals[static_cast<std::size_t>(k)]; };
-    const auto edge = [&](const SharpFeatures& features, int k) { return features.edges[static_cast<std::size_t>(k)]; };
-    for (int k = 0; k < features1.face_count; ++k) look_at(face(features1, k), out);
-    for (int k = 0; k < features2.face_count; ++k) look_at(gap_.rotation() * face(features2, k), out);
-    for (int i = 0; i < features1.edge_count; ++i) {
-      for (int j = 0; j < features2.edge_count; ++j) {
-        look_at(edge(features1, i).cross(gap_.rotation() * edge(features2, j)), out);
-      }
+    const Features features1(one.shape1->half_extents()), features2(one.shape2->half_extents());
+    for (const Vector3& normal : features1.face_normals) look_at(normal, out);
+    for (const Vector3& normal : features2.face_normals) look_at(gap_.rotation() * normal, out);
+    for (const Vector3& edge1 : features1.edges) {
+      for (const Vector3& edge2 : features2.edges) look_at(edge1.cross(gap_.rotation() * edge2), out);
     }
     for (int axis = 0; axis < 3; ++axis) look_at(Vector3::Unit(axis), out);
     look_at(gap_.offset().normalized(), out);

@@ -50,7 +50,7 @@ TEST_CASE("linear image: the ellipsoid is that of the sphere, to rounding") {
   CHECK(a.volume == doctest::Approx(b.volume).epsilon(1e-15));
   CHECK((a.second_moment - b.second_moment).norm() <= 1e-14 * b.second_moment.norm());
   CHECK(a.relative_error == 0);
-  CHECK(image.sharp_features().radius == doctest::Approx(1.0 / 3).epsilon(1e-15));
+  CHECK(image.sharpest_radius() == doctest::Approx(1.0 / 3).epsilon(1e-15));
 }
 
 TEST_CASE("linear image: superellipsoids scale with their half-axes") {
@@ -63,15 +63,6 @@ TEST_CASE("linear image: superellipsoids scale with their half-axes") {
     std::erase_if(normals, [](const Vector3& n) { return n.cwiseAbs().minCoeff() < 0.05; });
     check_same(image, expected, normals, 2e-14);
     CHECK(image.has_flat_faces() == expected.has_flat_faces());
-    const SharpFeatures a = image.sharp_features(), b = expected.sharp_features();
-    REQUIRE(a.face_count == b.face_count);
-    REQUIRE(a.edge_count == b.edge_count);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(a.face_count); ++i) {
-      CHECK(a.face_normals[i].normalized().cross(b.face_normals[i].normalized()).norm() <= 1e-15);
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(a.edge_count); ++i) {
-      CHECK(a.edges[i].normalized().cross(b.edges[i].normalized()).norm() <= 1e-15);
-    }
     for (const Vector3& n : normals) {
       const Vector3 dn = 0.01 * tangents(n)[0];
       const Vector3 advanced = image.advance_normal(n, image.jet(n), dn).normalized();

@@ -15,7 +15,7 @@ class SUPERNORMAL_API Box final : public Shape {
   bool has_kinks() const override { return true; }
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   Vector3 half_extents() const override { return half_lengths_; }
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
   MassProperties mass_properties() const override;
 
   const Vector3& half_lengths() const { return half_lengths_; }

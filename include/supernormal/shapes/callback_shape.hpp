@@ -29,14 +29,14 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
 
   /// Estimated from boundary points. Solvers need them to know how sharp the body is; an edge away from the nine great circles that
   /// are walked, and shorter than the way between two of them, may be missed.
-  SharpFeatures sharp_features() const override { return sharp_features_; }
+  double sharpest_radius() const override { return sharpest_radius_; }
 
  private:
   Support support_;
   Point point_;
   Hessian hessian_;
   Vector3 half_extents_;  // asked for once, like the next
-  SharpFeatures sharp_features_;
+  double sharpest_radius_;
 };
 
 }  // namespace supernormal

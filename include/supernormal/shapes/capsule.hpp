@@ -16,7 +16,7 @@ class SUPERNORMAL_API Capsule final : public Shape {
   bool has_kinks() const override { return half_length_ > 0; }
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;
 

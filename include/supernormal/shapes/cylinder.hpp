@@ -17,7 +17,7 @@ class SUPERNORMAL_API Cylinder final : public Shape {
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_}; }
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
   MassProperties mass_properties() const override;
 
   double radius() const { return radius_; }

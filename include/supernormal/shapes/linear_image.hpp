@@ -25,7 +25,7 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   std::span<const Vector3> face_normals() const override { return face_normals_; }
   Vector3 half_extents() const override { return half_extents_; }
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
 
   /// The image of a ball is an ellipsoid, and a ball rolls in that.
   double rolling_radius() const override { return shape_->rolling_radius() * smallest_ * (smallest_ / largest_); }
@@ -39,7 +39,6 @@ class SUPERNORMAL_API LinearImage final : public Shape {
  private:
   std::shared_ptr<const Shape> shape_;
   Matrix3 matrix_, inverse_;
-  Matrix3 axes_;               // columns: the axes of the ellipsoid that is the image of a sphere
   double largest_, smallest_;  // stretch
   std::vector<Vector3> face_normals_;
   Vector3 half_extents_;

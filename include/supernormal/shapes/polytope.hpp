@@ -21,7 +21,7 @@ class SUPERNORMAL_API Polytope final : public Shape {
   bool has_kinks() const override { return points_.size() > 1; }
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   Vector3 half_extents() const override { return half_extents_; }
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
 
   /// Exact, but for points that lie less than about a millionth of the size outside the hull of the others: what they hold may be
   /// missing, and relative_error counts it.

@@ -23,7 +23,7 @@ class SUPERNORMAL_API Rounded final : public Shape {
   std::span<const Vector3> face_normals() const override { return core_->face_normals(); }
   bool is_round() const override { return core_->is_round(); }
   Vector3 half_extents() const override;
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
   double rolling_radius() const override { return core_->rolling_radius() + radius_; }
 
   /// Of spheres, capsules and ellipsoids, superellipsoids and superovoids, swept once or again, to 1e-11. Of other shapes by

@@ -34,24 +34,6 @@ struct MassProperties {
   double relative_error = 0;                ///< estimated, of volume and moments relative to their size; 0 for closed forms
 };
 
-/// Where a body is sharpest: the faces and edges of the polytope that it resembles, in its own frame. A body and its mirror image
-/// at the origin share them, so each stands for both signs; lengths do not matter. Solvers start there when they look for other
-/// local maxima.
-struct SharpFeatures {
-  double radius = 0;     ///< m; about the smallest radius of curvature
-  double roundness = 0;  ///< m; about how far the boundary is from that of the polytope
-  int face_count = 0;
-  int edge_count = 0;
-  std::array<Vector3, 4> face_normals;
-  std::array<Vector3, 6> edges;  ///< directions
-
-  void add_face(const Vector3& normal) { face_normals[static_cast<std::size_t>(face_count++)] = normal; }
-  void add_edge(const Vector3& direction) { edges[static_cast<std::size_t>(edge_count++)] = direction; }
-
-  /// Those of a box along the axes: three faces, three edges.
-  static SharpFeatures of_box(double radius);
-};
-
 /// Some points of a body that has faces or straight edges, in its own frame: see Shape::add_corners.
 class Corners {
  public:
@@ -121,8 +103,9 @@ class SUPERNORMAL_API Shape {
   /// Half of the extent along the three axes of the body's frame, m.
   virtual Vector3 half_extents() const;
 
-  /// The polytope that the body resembles; unless overridden, a box along the axes, as sharp as the ellipsoid of the same extents.
-  virtual SharpFeatures sharp_features() const;
+  /// m; about the smallest radius of curvature, 0 with an edge or a corner. An estimate, for where to look: rolling_radius() is
+  /// proved. Unless overridden, that of the ellipsoid of the same extents.
+  virtual double sharpest_radius() const;
 
   /// m; a ball of this radius provably rolls freely inside the body: no radius of curvature is smaller, so that the body is the sum
   /// of the ball and another convex body (Blaschke's rolling theorem; Schneider, Convex Bodies, theorem 3.2.12). A lower bound, 0

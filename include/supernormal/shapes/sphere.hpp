@@ -14,7 +14,7 @@ class SUPERNORMAL_API Sphere final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool is_round() const override { return true; }
   Vector3 half_extents() const override { return Vector3::Constant(radius_); }
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;
 

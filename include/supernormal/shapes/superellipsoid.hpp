@@ -31,7 +31,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   bool is_round() const override { return std::min(delta_, epsilon_) >= 2 && std::max(delta_, epsilon_) <= kMostRound; }
   Vector3 half_extents() const override { return half_axes_; }
-  SharpFeatures sharp_features() const override;
+  double sharpest_radius() const override;
   double rolling_radius() const override { return rolling_radius_; }
   MassProperties mass_properties() const override;
 
