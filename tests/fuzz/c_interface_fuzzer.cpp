@@ -34,13 +34,15 @@ bool is_same(const T& a, const T& b) {
   return std::equal(bytes, bytes + sizeof(T), reinterpret_cast<const unsigned char*>(&b));
 }
 
-/// Whether its pose is finite, as far as it has one: how a sphere is turned is of no consequence.
+/// Whether its pose is finite, as far as it has one: a plane has none, a sphere no rotation, a ray a direction only.
 bool is_placed(dGeomID geom) {
-  if (dGeomGetClass(geom) == dPlaneClass) return true;
+  const int geom_class = dGeomGetClass(geom);
+  if (geom_class == dPlaneClass) return true;
   if (!is_finite(dGeomGetPosition(geom))) return false;
-  if (dGeomGetClass(geom) == dSphereClass) return true;
+  if (geom_class == dSphereClass) return true;
   const dReal* const R = dGeomGetRotation(geom);
-  return is_finite(R) && is_finite(R + 4) && is_finite(R + 8);
+  const dVector3 z = {R[2], R[6], R[10]};
+  return is_finite(z) && (geom_class == dRayClass || (is_finite(R) && is_finite(R + 4) && is_finite(R + 8)));
 }
 
 /// The pair is asked for its contacts; nothing is written beyond those that are counted.
