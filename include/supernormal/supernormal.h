@@ -146,6 +146,10 @@ typedef struct snProximity {
  * behind. Returns 1; 0 (and snLastError) when the pair is not supported or a pose or length is not finite. */
 SUPERNORMAL_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
 
+/* The same, but of overlapping geoms it searches on until the depth is proved the smallest, or the limit of evaluations is reached:
+ * is_global tells. Tens to hundreds of evaluations. Without a proof for a dTriMesh or dHeightfield, where it is snGeomProximity. */
+SUPERNORMAL_API int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out);
+
 /* Of this thread since the last reset: what the colliders and snGeomProximity did. With meshes, heightfields and rays no normal is
  * remembered. */
 typedef struct snStatistics {

@@ -1,4 +1,4 @@
-// snGeomProximity.
+// snGeomProximity and snGeomProximityCertified.
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -15,7 +15,7 @@ namespace supernormal::ode {
 namespace {
 
 // The core's answer for two geoms, ours first.
-Proximity query(dGeomID ours, dGeomID partner) {
+Proximity query(dGeomID ours, dGeomID partner, Goal goal) {
   require_body(ours);
   PairQuery* const pair_query = find_query(dGeomGetClass(partner));
   if (pair_query == nullptr) {
@@ -23,7 +23,7 @@ Proximity query(dGeomID ours, dGeomID partner) {
         "the partner is " + geom_class_name(partner) +
         ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
   }
-  Proximity result = pair_query(ours, partner, Goal::Distance).deepest;
+  Proximity result = pair_query(ours, partner, goal).deepest;
   if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {
     throw std::invalid_argument("the pose of a geom, or what a user-defined body returned, is not finite");
   }
@@ -42,19 +42,27 @@ void write(const Proximity& proximity, bool swapped, snProximity& out) {
   out.is_global = proximity.is_global ? 1 : 0;
 }
 
+int answer_query(const char* function, dGeomID g1, dGeomID g2, Goal goal, snProximity* out) {
+  return guarded(function, 0, [&] {
+    require_not_null("g1", g1);
+    require_not_null("g2", g2);
+    require_not_null("out", out);
+    if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
+    const bool swapped = find_body(g1) == nullptr;
+    write(swapped ? query(g2, g1, goal) : query(g1, g2, goal), swapped, *out);
+    return 1;
+  });
+}
+
 }  // namespace
 }  // namespace supernormal::ode
 
 using namespace supernormal::ode;
 
 extern "C" int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out) {
-  return guarded("snGeomProximity", 0, [&] {
-    require_not_null("g1", g1);
-    require_not_null("g2", g2);
-    require_not_null("out", out);
-    if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
-    const bool swapped = find_body(g1) == nullptr;
-    write(swapped ? query(g2, g1) : query(g1, g2), swapped, *out);
-    return 1;
-  });
+  return answer_query("snGeomProximity", g1, g2, Goal::Distance, out);
+}
+
+extern "C" int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out) {
+  return answer_query("snGeomProximityCertified", g1, g2, Goal::CertifiedDistance, out);
 }

@@ -10,6 +10,7 @@ enum class Goal {
   OneContact,  ///< the deepest point
   Contacts,    ///< and the corners of a wide overlap
   Distance,
+  CertifiedDistance,  ///< with a proof that of overlapping bodies the depth is the smallest
 };
 
 /// Of the geoms created from now on; any thread may ask.
@@ -19,7 +20,8 @@ Settings default_settings();
 Settings combined(const Settings& settings1, const Settings& settings2);
 
 inline Settings for_goal(Settings settings, Goal goal) {
-  settings.stop_when_apart = goal != Goal::Distance;
+  settings.stop_when_apart = goal == Goal::OneContact || goal == Goal::Contacts;
+  settings.certify_depth = goal == Goal::CertifiedDistance;
   return settings;
 }
 

@@ -124,6 +124,35 @@ TEST_CASE("the gap of the query and the depth of the contact agree") {
   CHECK(overlapping > 50);
 }
 
+TEST_CASE("certified: proved the shortest way out, and never longer than what the plain query finds") {
+  OdeSession session;
+  Random random(61);
+  int unproved = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto exponent = dReal(random.uniform(3, 30));
+    const Geom body(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), exponent, exponent));
+    const Geom other(i % 2 == 0 ? dCreateBox(nullptr, 1, dReal(1.4), 2)
+                                : snCreateSuperellipsoid(nullptr, dReal(0.6), dReal(0.8), 1, exponent, exponent));
+    random.turn(body);
+    random.turn(other);
+    place(other, 0.6 * random.direction());
+    const snProximity plain = proximity(body, other);
+    snProximity certified;
+    REQUIRE(snGeomProximityCertified(body, other, &certified) == 1);
+    REQUIRE(certified.gap < 0);
+    CHECK(certified.is_global == 1);
+    CHECK(certified.gap >= plain.gap - plain.error - certified.error);
+    check_consistent(certified, 1e-14);
+    unproved += plain.is_global == 0 ? 1 : 0;
+    snProximity swapped;
+    REQUIRE(snGeomProximityCertified(other, body, &swapped) == 1);
+    CHECK(swapped.gap == doctest::Approx(certified.gap).epsilon(1e-8));
+    move(other, (-certified.gap + 1e-6) * to_vec(certified.normal));
+    CHECK(proximity(body, other).gap > 0);
+  }
+  CHECK(unproved > 30);
+}
+
 TEST_CASE("a pair uses the tighter tolerance and the larger limit; the limit ends a query that says so") {
   OdeSession session;
   snSetWarmStart(0);
