@@ -1,7 +1,7 @@
 // No energy out of nothing: bodies that tumble, slide, roll and rest for long.
 #include <doctest/doctest.h>
 
-#include "dynamics/dynamics_fixture.hpp"
+#include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 

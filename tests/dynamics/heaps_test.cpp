@@ -1,7 +1,7 @@
 // Many bodies on one another: a wall and a pile come to rest, and nothing sinks, creeps or gains energy.
 #include <doctest/doctest.h>
 
-#include "dynamics/dynamics_fixture.hpp"
+#include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 

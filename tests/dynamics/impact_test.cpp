@@ -1,7 +1,7 @@
 // Impacts without friction: the impulse acts along the exact normal, through the exact contact point.
 #include <doctest/doctest.h>
 
-#include "dynamics/dynamics_fixture.hpp"
+#include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 

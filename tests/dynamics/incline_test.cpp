@@ -1,7 +1,7 @@
 // On an inclined plane: bodies that are not round rest up to a limit, round ones roll down as fast as their inertia allows.
 #include <doctest/doctest.h>
 
-#include "dynamics/dynamics_fixture.hpp"
+#include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 

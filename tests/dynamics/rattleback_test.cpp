@@ -3,7 +3,7 @@
 // that an error of the contact point or a damping in it would show magnified.
 #include <doctest/doctest.h>
 
-#include "dynamics/dynamics_fixture.hpp"
+#include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 

@@ -2,7 +2,7 @@
 // point does under it.
 #include <doctest/doctest.h>
 
-#include "dynamics/dynamics_fixture.hpp"
+#include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 

@@ -4,70 +4,37 @@
 #include <algorithm>
 #include <vector>
 
+#include "ode/ode_world.hpp"
 #include "ode/terrain.hpp"
 
 using namespace supernormal::test;
 
 namespace {
 
-// y is up.
-struct World {
-  dWorldID id = dWorldCreate();
-  dSpaceID space = dHashSpaceCreate(nullptr);
-  dJointGroupID contacts = dJointGroupCreate(0);
+/// y is up; rough.
+void set_up(World& world) {
+  dWorldSetGravity(world.id(), 0, dReal(-kGravity), 0);
+  world.surface.mode = dContactApprox1;
+  world.surface.mu = dReal(0.5);
+}
 
-  World() {
-    dWorldSetGravity(id, 0, dReal(-9.81), 0);
-    dRandSetSeed(1);
-  }
-  ~World() {
-    dJointGroupDestroy(contacts);
-    dSpaceDestroy(space);
-    dWorldDestroy(id);
-  }
-  World(const World&) = delete;
-  World(World&&) = delete;
-  World& operator=(const World&) = delete;
-  World& operator=(World&&) = delete;
-
-  dBodyID add(dGeomID geom) const {
-    const dBodyID body = dBodyCreate(id);
-    dMass mass;
-    dMassSetSphereTotal(&mass, 1, dReal(0.1));  // of a dSphere as well
-    dBodySetMass(body, &mass);
-    dGeomSetBody(geom, body);
-    return body;
-  }
-
-  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
-    const World& world = *static_cast<World*>(self);
-    std::array<dContact, 8> contacts{};
-    const int count = dCollide(o1, o2, static_cast<int>(contacts.size()), &contacts[0].geom, sizeof(dContact));
-    for (int k = 0; k < count; ++k) {
-      dContact& contact = contacts[static_cast<std::size_t>(k)];
-      contact.surface.mode = dContactApprox1;
-      contact.surface.mu = dReal(0.5);
-      dJointAttach(dJointCreateContact(world.id, world.contacts, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
-    }
-  }
-
-  void step(double dt) {
-    dSpaceCollide(space, this, near_callback);
-    dWorldQuickStep(id, dReal(dt));
-    dJointGroupEmpty(contacts);
-  }
-};
+dBodyID add(const World& world, dGeomID geom) {
+  dMass mass;
+  dMassSetSphereTotal(&mass, 1, dReal(0.1));  // of a dSphere as well
+  return world.add(geom, mass);
+}
 
 /// How far the body's middle is above the surface, at the least, while it falls from `start` for two seconds; over the heightfield
 /// only.
 double lowest_height(dGeomID (*create)(dSpaceID space), const Terrain& terrain, const Vec& start) {
   World world;
-  terrain.create(false, world.space);
-  const dBodyID body = world.add(create(world.space));
+  set_up(world);
+  terrain.create(false, world.space());
+  const dBodyID body = add(world, create(world.space()));
   dBodySetPosition(body, dReal(start[0]), dReal(start[1]), dReal(start[2]));
   double lowest = start[1];
   for (int step = 0; step < 1000; ++step) {
-    world.step(0.002);
+    world.quick_step(0.002);
     const Vec p = to_vec(dBodyGetPosition(body));
     if (std::abs(p[0]) > 0.49 * terrain.layout().width || std::abs(p[2]) > 0.49 * terrain.layout().depth) break;
     lowest = std::min(lowest, p[1] - terrain.surface(p[0], p[2]));
@@ -109,12 +76,13 @@ TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
   const OdeSession session;
   Random random(61);
   World world;
+  set_up(world);
   // Rough, and higher towards the border, so that they stay.
   const Terrain terrain({25, 25, 6, 6}, [](int i, int j) {
     const double r = std::max(std::abs(i - 12), std::abs(j - 12)) / 12.0;
     return rough(62, 0.15)(i, j) + 2 * r * r * r;
   });
-  terrain.create(false, world.space);
+  terrain.create(false, world.space());
   std::vector<dBodyID> bodies;
   std::vector<dGeomID> geoms;
   for (int k = 0; k < 50; ++k) {
@@ -122,13 +90,13 @@ TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
     const auto b = dReal(random.uniform(0.05, 0.15));
     const auto c = dReal(random.uniform(0.05, 0.15));
     const auto exponent = dReal(k % 3 == 0 ? 2 : random.uniform(1.5, 8));
-    geoms.push_back(snCreateSuperellipsoid(world.space, a, b, c, exponent, exponent));
-    bodies.push_back(world.add(geoms.back()));
+    geoms.push_back(snCreateSuperellipsoid(world.space(), a, b, c, exponent, exponent));
+    bodies.push_back(add(world, geoms.back()));
     dBodySetPosition(bodies.back(), dReal(random.uniform(-2, 2)), dReal(0.5 + 0.04 * k), dReal(random.uniform(-2, 2)));
     dBodySetLinearVel(bodies.back(), dReal(random.uniform(-1, 1)), -1, dReal(random.uniform(-1, 1)));
   }
   for (int step = 0; step < 4000; ++step) {
-    world.step(0.005);
+    world.quick_step(0.005);
     if (step % 40 > 0) continue;
     for (const dBodyID body : bodies) {
       const Vec p = to_vec(dBodyGetPosition(body));
@@ -138,23 +106,24 @@ TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
   }
   // At rest, they are on it and not in it.
   for (const dGeomID geom : geoms) {
-    for (const dContactGeom& contact : collide(geom, dSpaceGetGeom(world.space, 0), 20)) CHECK(contact.depth < 0.01);
+    for (const dContactGeom& contact : collide(geom, dSpaceGetGeom(world.space(), 0), 20)) CHECK(contact.depth < 0.01);
   }
 }
 
 TEST_CASE("an infinite heightfield carries what rolls a long way") {
   const OdeSession session;
   World world;
+  set_up(world);
   const Terrain terrain({9, 9, 4, 4, true}, rough(63, 0.1));
-  terrain.create(false, world.space);
+  terrain.create(false, world.space());
   std::vector<dBodyID> bodies;
   for (int k = 0; k < 5; ++k) {
-    bodies.push_back(world.add(k % 2 == 0 ? create_our_sphere(world.space) : create_egg(world.space)));
+    bodies.push_back(add(world, k % 2 == 0 ? create_our_sphere(world.space()) : create_egg(world.space())));
     dBodySetPosition(bodies.back(), dReal(3 * k), dReal(0.5), 0);
     dBodySetLinearVel(bodies.back(), dReal(20 - 10 * k), 0, dReal(15));
   }
   for (int step = 0; step < 2000; ++step) {
-    world.step(0.005);
+    world.quick_step(0.005);
     for (const dBodyID body : bodies) {
       const Vec p = to_vec(dBodyGetPosition(body));
       REQUIRE(p[1] > terrain.surface(p[0], p[2]));

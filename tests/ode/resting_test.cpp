@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
-#include "ode/ode_fixture.hpp"
+#include "ode/mesh_fixture.hpp"
+#include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 
@@ -40,47 +42,31 @@ enum class Floor { Plane, Box, Mesh };
 class Scene {
  public:
   explicit Scene(Floor floor) {
-    dWorldSetGravity(world_, 0, 0, dReal(-9.81));
+    world_.surface.mode = dContactApprox1;
+    world_.surface.mu = dReal(0.5);
     if (floor == Floor::Plane) {
-      dCreatePlane(space_, 0, 0, 1, 0);
+      world_.add_plane();
     } else if (floor == Floor::Box) {
-      dGeomSetPosition(dCreateBox(space_, 4, 4, 1), 0, 0, dReal(-0.5));
+      dGeomSetPosition(dCreateBox(world_.space(), 4, 4, 1), 0, 0, dReal(-0.5));
     } else {
-      dGeomTriMeshDataBuildDouble(mesh_, kVertices.data(), 3 * sizeof(double), 4, kIndices.data(), 6, 3 * sizeof(dTriIndex));
-      dCreateTriMesh(space_, mesh_, nullptr, nullptr, nullptr);
+      mesh_.emplace(MeshArrays{{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}}, world_.space());
     }
   }
-  ~Scene() {
-    dJointGroupDestroy(contacts_);
-    dSpaceDestroy(space_);
-    dWorldDestroy(world_);
-    dGeomTriMeshDataDestroy(mesh_);
-  }
-  Scene(const Scene&) = delete;
-  Scene(Scene&&) = delete;
-  Scene& operator=(const Scene&) = delete;
-  Scene& operator=(Scene&&) = delete;
 
-  void auto_disable() const { dWorldSetAutoDisableFlag(world_, 1); }
+  void auto_disable() const { dWorldSetAutoDisableFlag(world_.id(), 1); }
 
   void add(const Brick& brick, const Vec& position, const Vec& axis, double angle) {
     dMass mass;
-    const dGeomID geom = brick.create(space_, mass);
-    const dBodyID body = dBodyCreate(world_);
-    dBodySetMass(body, &mass);
-    dGeomSetBody(geom, body);
+    const dGeomID geom = brick.create(world_.space(), mass);
+    const dBodyID body = world_.add(geom, mass);
     dBodySetPosition(body, dReal(position[0]), dReal(position[1]), dReal(position[2]));
-    dMatrix3 rotation;
-    dRFromAxisAndAngle(rotation, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));
-    dBodySetRotation(body, rotation);
+    turn(body, axis, angle);
     bodies_.push_back(body);
   }
 
   void step() {
     dRandSetSeed(static_cast<unsigned long>(++steps_));
-    dSpaceCollide(space_, this, near_callback);
-    dWorldQuickStep(world_, dReal(kStep));
-    dJointGroupEmpty(contacts_);
+    world_.quick_step(kStep);
   }
 
   bool is_asleep() const {
@@ -89,16 +75,7 @@ class Scene {
 
   double kinetic_energy() const {
     double sum = 0;
-    for (dBodyID body : bodies_) {
-      dMass mass;
-      dBodyGetMass(body, &mass);
-      const dReal* const w = dBodyGetAngularVel(body);
-      dVector3 spin;
-      dBodyVectorFromWorld(body, w[0], w[1], w[2], spin);
-      const Vec velocity = to_vec(dBodyGetLinearVel(body));
-      sum += 0.5 * mass.mass * dot(velocity, velocity);
-      for (int k = 0; k < 3; ++k) sum += 0.5 * mass.I[5 * k] * spin[k] * spin[k];
-    }
+    for (dBodyID body : bodies_) sum += supernormal::test::kinetic_energy(body);
     return sum;
   }
 
@@ -109,25 +86,8 @@ class Scene {
   }
 
  private:
-  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
-    const Scene& scene = *static_cast<Scene*>(self);
-    std::array<dContact, 8> contacts{};
-    const int count = dCollide(o1, o2, 8, &contacts[0].geom, sizeof(dContact));
-    for (int k = 0; k < count; ++k) {
-      dContact& contact = contacts[static_cast<std::size_t>(k)];
-      contact.surface.mode = dContactApprox1;
-      contact.surface.mu = dReal(0.5);
-      dJointAttach(dJointCreateContact(scene.world_, scene.contacts_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
-    }
-  }
-
-  static constexpr std::array<double, 12> kVertices = {-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, 2, 0};
-  static constexpr std::array<dTriIndex, 6> kIndices = {0, 1, 2, 0, 2, 3};
-
-  dWorldID world_ = dWorldCreate();
-  dSpaceID space_ = dSimpleSpaceCreate(nullptr);
-  dJointGroupID contacts_ = dJointGroupCreate(0);
-  dTriMeshDataID mesh_ = dGeomTriMeshDataCreate();
+  World world_{dSimpleSpaceCreate(nullptr)};
+  std::optional<MeshGeom> mesh_;
   std::vector<dBodyID> bodies_;
   int steps_ = 0;
 };

@@ -14,10 +14,10 @@ namespace supernormal::test {
 inline constexpr double kGravity = 9.81;  // m/s^2
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-/// A world, a space and the near callback of every ODE program. ODE's defaults unless a test says otherwise.
+/// A world, its space (destroyed with it) and the near callback of every ODE program. ODE's defaults unless a test says otherwise.
 class World {
  public:
-  World() : id_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)), joints_(dJointGroupCreate(0)) {
+  explicit World(dSpaceID space = dHashSpaceCreate(nullptr)) : id_(dWorldCreate()), space_(space), joints_(dJointGroupCreate(0)) {
     dWorldSetGravity(id_, 0, 0, dReal(-kGravity));
     dRandSetSeed(1);  // quickstep shuffles its rows with ODE's global generator
   }
@@ -62,14 +62,15 @@ class World {
     dJointGroupEmpty(joints_);
   }
 
+  static constexpr int kRoom = 8;
+
   dSurfaceParameters surface{};  ///< of every contact; frictionless unless set
+  int room = kRoom;              ///< for the contacts of a pair, at most kRoom
   int contacts = 0;              ///< in the last step
   int most_of_a_pair = 0;        ///< contacts in any step
   double depth = 0;              ///< m, the deepest contact of the last step
 
  private:
-  static constexpr int kRoom = 8;
-
   void make_contacts() {
     contacts = 0;
     depth = 0;
@@ -79,7 +80,7 @@ class World {
   static void near_callback(void* self, dGeomID o1, dGeomID o2) {
     World& world = *static_cast<World*>(self);
     std::array<dContact, kRoom> found;
-    const int count = dCollide(o1, o2, kRoom, &found[0].geom, sizeof(dContact));
+    const int count = dCollide(o1, o2, world.room, &found[0].geom, sizeof(dContact));
     for (int i = 0; i < count; ++i) {
       dContact& contact = found[static_cast<std::size_t>(i)];
       contact.surface = world.surface;
