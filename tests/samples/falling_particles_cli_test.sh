@@ -2,20 +2,9 @@
 # The program from outside: the same result twice, containers, exit codes, nothing left behind after bad input, Ctrl-C.
 # Usage: falling_particles_cli_test.sh PROGRAM SAMPLES_FOLDER
 set -euo pipefail
+source "$(dirname "$0")/../cli_test.bash"
 program=$1
 samples=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-fail() { echo "FAILED: $*" >&2; exit 1; }
-
-# expect CODE command...: runs it with stdout and stderr into $work/log
-expect() {
-  local code=$1 got=0
-  shift
-  "$@" >"$work/log" 2>&1 || got=$?
-  [ "$got" -eq "$code" ] || { cat "$work/log" >&2; fail "exit code $got instead of $code: $*"; }
-}
 
 # summary.toml up to [cost], which holds what depends on the machine
 end_state() { sed '/^\[cost\]/,$d' "$1/short/summary.toml"; }

@@ -2,19 +2,8 @@
 # The soak program from outside: the number of threads changes nothing, pieces add up, mistakes are told.
 # Usage: soak_cli_test.sh PROGRAM
 set -euo pipefail
+source "$(dirname "$0")/../cli_test.bash"
 program=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-fail() { echo "FAILED: $*" >&2; exit 1; }
-
-# expect CODE command...: runs it with stdout and stderr into $work/log
-expect() {
-  local code=$1 got=0
-  shift
-  "$@" >"$work/log" 2>&1 || got=$?
-  [ "$got" -eq "$code" ] || { cat "$work/log" >&2; fail "exit code $got instead of $code: $*"; }
-}
 
 # A number of the state file $1. $2: its name
 value() { sed -n "s/^$2 //p" "$work/$1"; }
