@@ -10,21 +10,10 @@
 #include "complaint.hpp"
 #include "leaks.hpp"
 #include "placement.hpp"
-#include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "scenes.hpp"
 #include "world.hpp"
 
 using namespace falling_particles;
-
-namespace {
-
-Scene load(const std::string& text) {
-  const TemporaryFolder folder;
-  folder.write("grains.toml", kCatalogueText);
-  return load_scene(folder.write("scene.toml", text));
-}
-
-}  // namespace
 
 TEST_CASE("a box is open at the top only") {
   const Container box = Box{{0.2, 0.3}};
@@ -39,7 +28,7 @@ TEST_CASE("a box is open at the top only") {
 }
 
 TEST_CASE("hoppers and terrains are read as they are written") {
-  const Scene with_hopper = load(scene_in(kHopperText));
+  const Scene with_hopper = scene_of(scene_in(kHopperText));
   CHECK(std::string(kind_of(with_hopper.container)) == "hopper");
   const auto& hopper = std::get<Hopper>(with_hopper.container);
   CHECK(hopper.outlet == 0.05);
@@ -50,7 +39,7 @@ TEST_CASE("hoppers and terrains are read as they are written") {
   CHECK(hopper.clearance == 0.05);
   CHECK(hopper.tray_width == 0.15);
   CHECK(hopper.opens_at == 0.05);
-  const Scene with_terrain = load(scene_in(kTerrainText));
+  const Scene with_terrain = scene_of(scene_in(kTerrainText));
   CHECK(std::string(kind_of(with_terrain.container)) == "terrain");
   const TerrainParameters& terrain = std::get<Terrain>(with_terrain.container).parameters();
   CHECK(terrain.width == std::array<double, 2>{0.05, 0.06});
@@ -110,7 +99,7 @@ TEST_CASE("a cylinder that is too low for the grains is refused, with the height
 TEST_CASE("grains start within their container, clear of its walls") {
   for (const std::string container : {kHopperText, kTerrainText}) {
     CAPTURE(container);
-    const Scene scene = load(replaced(scene_in(container), "count = 5", "count = 12"));
+    const Scene scene = scene_of(replaced(scene_in(container), "count = 5", "count = 12"));
     Random random(5);
     for (const Placement& p : place(scene, random)) {
       const double radius = scene.grains[p.kind].grain.bounding_radius() * (1 - 1e-12);
@@ -128,7 +117,7 @@ TEST_CASE("grains start within their container, clear of its walls") {
 }
 
 TEST_CASE("a leak is noticed once, and remembered") {
-  Scene scene = load(kSceneText);
+  Scene scene = scene_of(kSceneText);
   scene.grains[0].count = 2;
   scene.grains.resize(1);
   const World world(scene, {{0, {0.02, 0.02, 0.02}, {1, 0, 0, 0}}, {0, {0.04, 0.04, 0.02}, {1, 0, 0, 0}}});

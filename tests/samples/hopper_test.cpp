@@ -13,6 +13,7 @@
 #include "leaks.hpp"
 #include "placement.hpp"
 #include "random.hpp"
+#include "scenes.hpp"
 #include "stepper.hpp"
 #include "world.hpp"
 
@@ -41,21 +42,7 @@ Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Scene scene_of(const Grain& grain, int count, const Hopper& hopper) {
-  return {.name = "test",
-          .seed = 1,
-          .container = hopper,
-          .grains = {{grain, count}},
-          .drop = {0.001, 0.02},
-          .time = {2, 5e-4, 0.1},
-          .solver = {40, 0.2, 1e-10},
-          .contact = {2e-3, 0.05},
-          .gravity = Gravity{{0, 0, -9.81}},
-          .friction = Friction{0.4}};
-}
-
 Grain soybean() { return {"soybean", {3.275e-3, 2.78e-3, 2.265e-3}, 2, 2, 0, 1250, "test"}; }
-Grain lentil() { return {"lentil", {3.36e-3, 3.36e-3, 1.29e-3}, 2, 2, 0, 1170, "test"}; }
 
 }  // namespace
 
@@ -110,7 +97,7 @@ TEST_CASE("the hopper's triangles face the axis, at the angle and the distances 
 }
 
 TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {
-  const Scene scene = scene_of(soybean(), 1, kHopper);
+  const Scene scene = scene_of(kHopper, {{soybean(), 1}});
   const World world(scene, {{0, {0, 0, 0.2}, {1, 0, 0, 0}}});
   dGeomID mesh = nullptr;
   for (dGeomID geom : world.walls().geoms()) {
@@ -178,7 +165,7 @@ TEST_CASE("Beverloo's law") {
 }
 
 TEST_CASE("what passes the outlet is counted once, what comes down beside it is not") {
-  const Scene scene = scene_of(lentil(), 5, kHopper);
+  const Scene scene = scene_of(kHopper, {{lentil(), 5}});
   World world(scene, {{0, {0, 0, 0.07}, {1, 0, 0, 0}},
                       {0, {0.01, 0, 0.07}, {1, 0, 0, 0}},
                       {0, {-0.01, 0, 0.07}, {1, 0, 0, 0}},
@@ -225,7 +212,7 @@ TEST_CASE("the bed in a hopper: one lying column of known volume") {
   hopper.outlet = 0.0719;  // the cone is a rim
   hopper.wall_angle = 80;
   const Grain box{"box", {0.01, 0.01, 0.02}, 200, 200, 0, 1000, "test"};
-  const Scene scene = scene_of(box, 4, hopper);
+  const Scene scene = scene_of(hopper, {{box, 4}});
   const double z = hopper.clearance + 0.02;
   const World world(scene, {{0, {0.011, 0.011, z}, {1, 0, 0, 0}},
                             {0, {-0.011, 0.011, z}, {1, 0, 0, 0}},
@@ -241,7 +228,7 @@ TEST_CASE("the bed in a hopper: one lying column of known volume") {
 }
 
 TEST_CASE("grains rest on the closed hopper, then run out of it, and none leaks") {
-  const Scene scene = scene_of(soybean(), 60, kHopper);
+  const Scene scene = scene_of(kHopper, {{soybean(), 60}});
   Random random(2);
   World world(scene, place(scene, random));
   Stepper stepper(world, scene);

@@ -7,8 +7,7 @@
 #include "catalogue.hpp"
 #include "complaint.hpp"
 #include "input_error.hpp"
-#include "scene.hpp"
-#include "scene_text.hpp"
+#include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace falling_particles;
@@ -35,21 +34,16 @@ TEST_CASE("a scene file is read as it is written") {
 }
 
 TEST_CASE("an effect without a section is absent") {
-  const TemporaryFolder folder;
-  folder.write("grains.toml", kCatalogueText);
-  const std::string text = std::string(kSceneText, std::strstr(kSceneText, "[gravity]"));
-  const Scene scene = load_scene(folder.write("scene.toml", text));
+  const Scene scene = scene_of(std::string(kSceneText, std::strstr(kSceneText, "[gravity]")));
   CHECK_FALSE(scene.gravity);
   CHECK_FALSE(scene.friction);
 }
 
 TEST_CASE("fractions become counts that sum to the total") {
-  const TemporaryFolder folder;
-  folder.write("grains.toml", kCatalogueText);
   std::string text = replaced(kSceneText, "count = 5", "fraction = 0.335");
   text = replaced(text, "count = 2", "fraction = 0.665");
   text = replaced(text, "gap = 0.1", "gap = 0.1\ntotal = 10");
-  const Scene scene = load_scene(folder.write("scene.toml", text));
+  const Scene scene = scene_of(text);
   CHECK(scene.grains[0].count == 3);
   CHECK(scene.grains[1].count == 7);
 }

@@ -7,20 +7,9 @@
 #include <vector>
 
 #include "random.hpp"
-#include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "scenes.hpp"
 
 using namespace falling_particles;
-
-namespace {
-
-Scene scene_of(const std::string& text) {
-  const TemporaryFolder folder;
-  folder.write("grains.toml", kCatalogueText);
-  return load_scene(folder.write("scene.toml", text));
-}
-
-}  // namespace
 
 TEST_CASE("grains start apart from one another and from the walls") {
   const Scene scene = scene_of(replaced(kSceneText, "count = 5", "count = 300"));

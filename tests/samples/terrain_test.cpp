@@ -9,6 +9,7 @@
 #include "leaks.hpp"
 #include "placement.hpp"
 #include "random.hpp"
+#include "scenes.hpp"
 #include "stepper.hpp"
 #include "world.hpp"
 
@@ -19,20 +20,6 @@ namespace {
 constexpr TerrainParameters kParameters{
     .width = {0.12, 0.08}, .amplitude = 0.008, .wavelength = 0.06, .ridge_height = 0.01, .samples = 41, .seed = 4};
 
-Scene scene_of(const Terrain& terrain, std::vector<GrainCount> grains) {
-  return {.name = "test",
-          .seed = 1,
-          .container = terrain,
-          .grains = std::move(grains),
-          .drop = {0.001, 0.02},
-          .time = {2, 5e-4, 0.1},
-          .solver = {40, 0.2, 1e-10},
-          .contact = {2e-3, 0.05},
-          .gravity = Gravity{{0, 0, -9.81}},
-          .friction = Friction{0.4}};
-}
-
-Grain lentil() { return {"lentil", {3.36e-3, 3.36e-3, 1.29e-3}, 2, 2, 0, 1170, "test"}; }
 Grain die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; }
 
 }  // namespace

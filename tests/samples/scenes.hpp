@@ -1,0 +1,36 @@
+// Scenes for tests: from a file's text, or of a few grains in a container.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene.hpp"
+#include "scene_text.hpp"
+#include "temporary_folder.hpp"
+
+namespace falling_particles {
+
+/// Of the grains of kCatalogueText.
+inline Scene scene_of(const std::string& text) {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  return load_scene(folder.write("scene.toml", text));
+}
+
+inline Scene scene_of(Container container, std::vector<GrainCount> grains) {
+  return {.name = "test",
+          .seed = 1,
+          .container = std::move(container),
+          .grains = std::move(grains),
+          .drop = {0.001, 0.02},
+          .time = {2, 5e-4, 0.1},
+          .solver = {40, 0.2, 1e-10},
+          .contact = {2e-3, 0.05},
+          .gravity = Gravity{{0, 0, -9.81}},
+          .friction = Friction{0.4}};
+}
+
+inline Grain lentil() { return {"lentil", {3.36e-3, 3.36e-3, 1.29e-3}, 2, 2, 0, 1170, "test"}; }
+
+}  // namespace falling_particles
