@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "solvers/superellipsoid_classes.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 
 namespace supernormal::soak {
@@ -12,24 +13,15 @@ namespace {
 
 using samples::Body;
 using samples::HardCase;
+using test::kSuperellipsoidClasses;
+using test::SuperellipsoidClass;
 
-/// Of superellipsoids, as in the reference file.
-struct Class {
-  const char* name;
-  double least_axis, largest_axis, least_exponent, largest_exponent;
-};
-
-constexpr Class kClasses[] = {{"ellipsoid", 0.5, 1.5, 2, 2},       {"needle_disk", 0.05, 5, 2, 2},
-                              {"moderate", 0.5, 1.5, 1.3, 5},      {"boxy", 0.5, 1.5, 6, 20},
-                              {"extreme_boxy", 0.5, 1.5, 50, 200}, {"octahedral", 0.5, 1.5, 1.02, 1.3},
-                              {"mixed", 0.5, 1.5, 1.05, 50},       {"needle_mixed", 0.05, 5, 1.02, 200}};
-
-Vector3 draw_axes(Random& random, const Class& kind) {
+Vector3 draw_axes(Random& random, const SuperellipsoidClass& kind) {
   const auto axis = [&] { return random.log_uniform(kind.least_axis, kind.largest_axis); };
   return Vector3{axis(), axis(), axis()};
 }
 
-Body draw_superellipsoid(Random& random, const Class& kind) {
+Body draw_superellipsoid(Random& random, const SuperellipsoidClass& kind) {
   const Vector3 axes = draw_axes(random, kind);
   if (kind.least_exponent == kind.largest_exponent) return samples::ellipsoid(axes);
   const double delta = random.log_uniform(kind.least_exponent, kind.largest_exponent);
@@ -43,7 +35,7 @@ Body draw_polytope(Random& random, const Vector3& axes) {
 }
 
 /// Anything but a plain superellipsoid.
-Body draw_other(Random& random, const Class& kind) {
+Body draw_other(Random& random, const SuperellipsoidClass& kind) {
   const Vector3 axes = draw_axes(random, kind);
   switch (random.below(8)) {
     case 0:
@@ -120,7 +112,7 @@ void move_frame(HardCase& pair, Random& random) {
 }  // namespace
 
 void draw_random_pair(Random& random, Sample& sample) {
-  const Class& kind = kClasses[random.below(std::size(kClasses))];
+  const SuperellipsoidClass& kind = kSuperellipsoidClasses[random.below(std::size(kSuperellipsoidClasses))];
   HardCase& pair = sample.pair;
   pair.name = std::string("random: ") + kind.name;
   pair.first_normal.reset();

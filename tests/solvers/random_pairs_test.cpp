@@ -7,6 +7,7 @@
 
 #include "reference_pairs.hpp"
 #include "shapes/shape_samples.hpp"
+#include "superellipsoid_classes.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/solve.hpp"
 
@@ -18,20 +19,9 @@ namespace {
 constexpr int kPairsPerClass = 2000;
 constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
-/// The classes of the reference file.
-struct Class {
-  const char* name;
-  double least_axis, largest_axis, least_exponent, largest_exponent;
-};
-
-constexpr Class kClasses[] = {{"ellipsoid", 0.5, 1.5, 2, 2},       {"needle_disk", 0.05, 5, 2, 2},
-                              {"moderate", 0.5, 1.5, 1.3, 5},      {"boxy", 0.5, 1.5, 6, 20},
-                              {"extreme_boxy", 0.5, 1.5, 50, 200}, {"octahedral", 0.5, 1.5, 1.02, 1.3},
-                              {"mixed", 0.5, 1.5, 1.05, 50},       {"needle_mixed", 0.05, 5, 1.02, 200}};
-
 class RandomPairs {
  public:
-  RandomPairs(const Class& from, unsigned seed) : class_(from), engine_(seed) {}
+  RandomPairs(const SuperellipsoidClass& from, unsigned seed) : class_(from), engine_(seed) {}
 
   // Braces: arguments in parentheses are evaluated in an order that the compiler chooses.
   Superellipsoid shape() {
@@ -55,7 +45,7 @@ class RandomPairs {
   double between_linear(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   double between(double low, double high) { return std::exp(between_linear(std::log(low), std::log(high))); }
 
-  Class class_;
+  SuperellipsoidClass class_;
   std::mt19937_64 engine_;
   std::normal_distribution<double> gauss_;
 };
@@ -64,7 +54,7 @@ class RandomPairs {
 
 TEST_CASE("random pairs: finite, consistent, quiet, and within the reported error") {
   unsigned seed = 100;
-  for (const Class& kind : kClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomPairs random(kind, ++seed);
     int higher = 0, overlapping = 0, unconverged = 0;
     for (int k = 0; k < kPairsPerClass; ++k) {

@@ -56,7 +56,7 @@ TEST_CASE("scale, place and attitude make no difference") {
   RandomRays random(160);
   for (int k = 0; k < 500; ++k) {
     CAPTURE(k);
-    const Superellipsoid surface = random.shape(kRayClasses[k % 8]);
+    const Superellipsoid surface = random.shape(kSuperellipsoidClasses[k % 8]);
     const double unit = surface.half_axes().minCoeff();
     const Ray ray = random.past(surface, random.uniform(0, 0.95));
     const RayHit hit = find_ray_hit(surface, {}, ray.origin, ray.direction, kInfinity);
@@ -108,7 +108,7 @@ TEST_CASE("tangent rays, origins on the boundary: an answer on the boundary or n
   RandomRays random(180);
   for (int k = 0; k < 2000; ++k) {
     CAPTURE(k);
-    const Superellipsoid surface = random.shape(kRayClasses[k % 8]);
+    const Superellipsoid surface = random.shape(kSuperellipsoidClasses[k % 8]);
     const double unit = surface.half_axes().minCoeff();
     const Ray tangent = random.past(surface, 1);
     const Ray from_boundary{random.point(surface, 1), random.direction()};

@@ -7,19 +7,10 @@
 
 #include "reference_pairs.hpp"
 #include "shapes/shape_samples.hpp"
+#include "superellipsoid_classes.hpp"
 #include "supernormal/solvers/ray.hpp"
 
 namespace supernormal::test {
-
-struct RayClass {
-  const char* name;
-  double least_axis, largest_axis, least_exponent, largest_exponent;
-};
-
-inline constexpr RayClass kRayClasses[] = {{"ellipsoid", 0.5, 1.5, 2, 2},       {"needle_disk", 0.05, 5, 2, 2},
-                                           {"moderate", 0.5, 1.5, 1.3, 5},      {"boxy", 0.5, 1.5, 6, 20},
-                                           {"extreme_boxy", 0.5, 1.5, 50, 200}, {"octahedral", 0.5, 1.5, 1.02, 1.3},
-                                           {"mixed", 0.5, 1.5, 1.05, 50},       {"needle_mixed", 0.05, 5, 1.02, 200}};
 
 struct Ray {
   Vector3 origin, direction;
@@ -43,7 +34,7 @@ class RandomRays {
     return q.normalized().toRotationMatrix();
   }
 
-  Superellipsoid shape(const RayClass& kind) {
+  Superellipsoid shape(const SuperellipsoidClass& kind) {
     const auto between = [&](double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); };
     const auto axis = [&] { return between(kind.least_axis, kind.largest_axis); };
     const Vector3 half_axes{axis(), axis(), axis()};

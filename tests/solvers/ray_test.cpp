@@ -99,7 +99,7 @@ TEST_CASE("spheres and ellipsoids: the closed form, from outside, inside and beh
 
 TEST_CASE("superellipsoids: on the surface, nothing before, the normal there, by the implicit equation") {
   unsigned seed = 20;
-  for (const RayClass& kind : kRayClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     long evaluations = 0;
     int most = 0;
@@ -127,7 +127,7 @@ TEST_CASE("superellipsoids: on the surface, nothing before, the normal there, by
 
 TEST_CASE("grazing: hit or miss is decided right down to one part in 1e9") {
   unsigned seed = 40;
-  for (const RayClass& kind : kRayClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     for (int k = 0; k < kRaysPerClass / 4; ++k) {
       const Superellipsoid surface = random.shape(kind);
@@ -153,7 +153,7 @@ TEST_CASE("grazing: within the tolerance, too, a hit is a hit and a miss is none
   unsigned seed = 220;
   Settings coarse;
   coarse.tolerance = 1e-3;
-  for (const RayClass& kind : kRayClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     for (int k = 0; k < kRaysPerClass / 10; ++k) {
       const Superellipsoid surface = random.shape(kind);
@@ -178,7 +178,7 @@ TEST_CASE("grazing: within the tolerance, too, a hit is a hit and a miss is none
 
 TEST_CASE("from inside: the exit, also along the flattest way; wholly inside: nothing") {
   unsigned seed = 60;
-  for (const RayClass& kind : kRayClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     for (int k = 0; k < kRaysPerClass / 4; ++k) {
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
@@ -200,7 +200,7 @@ TEST_CASE("from inside: the exit, also along the flattest way; wholly inside: no
 
 TEST_CASE("length: just too short, just long enough; pointing away; behind") {
   unsigned seed = 80;
-  for (const RayClass& kind : kRayClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     for (int k = 0; k < kRaysPerClass / 4; ++k) {
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
@@ -221,7 +221,7 @@ TEST_CASE("length: just too short, just long enough; pointing away; behind") {
 
 TEST_CASE("without a Hessian: the same hits") {
   unsigned seed = 100;
-  for (const RayClass& kind : kRayClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     long evaluations = 0;
     int unsure = 0;
@@ -298,7 +298,7 @@ TEST_CASE("faces and edges: boxes by their slabs, capsules and cylinders by thei
 
 TEST_CASE("rounded bodies: at the radius from the core") {
   unsigned seed = 140;
-  for (const RayClass& kind : kRayClasses) {
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
     RandomRays random(++seed);
     for (int k = 0; k < 100; ++k) {
       const std::string name = std::string(kind.name) + " " + std::to_string(k);
