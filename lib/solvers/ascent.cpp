@@ -44,6 +44,9 @@ constexpr double kSlowestContraction = 0.95;
 // 1/50): the contraction is not believed.
 constexpr double kAsymptoticStep = 1e-3;
 
+// Nor where the curvature at the last normal was more or less than here by this factor: one of them is beside a singularity.
+constexpr double kLikeCurvature = 30;
+
 // Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-15;
 
@@ -141,8 +144,9 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   // The cuts bound s over the whole plane where their maximum is not on the rim.
   if (!top.is_interior) return;
   const double error = kGainSafety * step.gain + top.uncertainty;
-  if (current_.s >= 0 || Eigen2(local.model.A).low > 0) {
-    error_ = std::min(error_, error);
+  const double turn = turn_gain();
+  if (current_.s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
+    error_ = std::min(error_, error + turn);
   } else {
     probe_step(local, top, error, step);
   }
@@ -164,8 +168,8 @@ void Ascent::probe_step(const LocalModel& local, const CuttingPlanes::Maximum& t
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const Vector2 newton = local.model.maximize(radius_);
-  estimate_error(local.model.largest_gain(gap_.rounding()), newton.norm());
-  if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * local.model.g.norm());
+  estimate_error(local.model.A, local.model.largest_gain(gap_.rounding()), newton.norm());
+  if (!gap_.has_curvature()) error_ = std::max(error_, unseen_gain(local.model.g, true));
   Step step{current_.n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && flat_step(local, {0, local.model.g, newton, nullptr}, step) == FlatStep::LeavesFace) {
     leave_face(local, step);
@@ -183,7 +187,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
   const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
-  estimate_error(whole_gain, peak.u.norm());
+  estimate_error(local.model.A, whole_gain, peak.u.norm());
 
   Target target{0, Vector2::Zero(), peak.u, &peak};
   for (std::size_t i = 0; i < peak.count; ++i) {
@@ -191,7 +195,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
     target.slope += peak.weight[i] * pieces[peak.active[i]].slope;
     if (peak.count > 1) cuts_.add(known_.difference(current_, peak.active[i]));
   }
-  if (!gap_.has_curvature()) error_ = std::max(error_, kSecantReach * target.slope.norm());
+  if (!gap_.has_curvature()) error_ = std::max(error_, unseen_gain(target.slope, peak.count == 1));
   if (local.A1.xx + local.A1.yy > kFlatRadius * gap_.length_unit()) {
     // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
     const Vector2 way = target.slope - local.A2 * peak.u - current_.s * peak.u;
@@ -232,11 +236,26 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
 }
 
 // What the model says is still to come, and by how much it promised more the step before.
-void Ascent::estimate_error(double whole_gain, double step_length) {
-  const bool is_asymptotic = promised_gain_ > 0 && step_length < kAsymptoticStep;
+void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_length) {
+  const double curvature = std::abs(A.xx + A.yy);
+  const bool is_alike = curvature <= kLikeCurvature * promised_curvature_ && promised_curvature_ <= kLikeCurvature * curvature;
+  const bool is_asymptotic = promised_gain_ > 0 && step_length < kAsymptoticStep && (is_alike || whole_gain <= gap_.rounding());
   const double contraction = is_asymptotic ? std::min(whole_gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
   promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
+  promised_curvature_ = curvature;
   error_ = kGainSafety / (1 - contraction) * whole_gain;
+}
+
+// Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
+double Ascent::turn_gain() const {
+  if (gap_.has_curvature() || -current_.s <= gap_.shape1().sharpest_radius() + gap_.shape2().sharpest_radius()) return 0;
+  const double turn = std::min(kSecantReach, secant_.reach());
+  return -0.5 * turn * turn * current_.s;
+}
+
+// Of bodies without Hessians: along the slope, and with the turn itself.
+double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) const {
+  return kSecantReach * slope.norm() + (is_held_by_curvature ? turn_gain() : 0);
 }
 
 // What is opposite lies beyond the flat face, where the curvature here says nothing.

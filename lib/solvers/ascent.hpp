@@ -55,7 +55,9 @@ class Ascent {
   Step choose_step();
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
-  void estimate_error(double whole_gain, double step_length);
+  void estimate_error(const Symmetric2& A, double whole_gain, double step_length);
+  double turn_gain() const;
+  double unseen_gain(const Vector2& slope, bool is_held_by_curvature) const;
   enum class FlatStep {
     Taken,
     None,        ///< the bodies' proposals do not agree on one
@@ -85,9 +87,10 @@ class Ascent {
   KnownCorners known_;
   GapJet current_, trial_;
   Corners current_corners_, trial_corners_;
-  double radius_ = 0;         // of the trust region, gnomonic
-  double promised_gain_ = 0;  // m; of the quadratic model at the last accepted normal; 0: no history
-  double error_ = 0;          // m
+  double radius_ = 0;              // of the trust region, gnomonic
+  double promised_gain_ = 0;       // m; of the quadratic model at the last accepted normal; 0: no history
+  double promised_curvature_ = 0;  // m; the trace of its matrix
+  double error_ = 0;               // m
 };
 
 }  // namespace supernormal

@@ -5,7 +5,10 @@
 
 namespace supernormal {
 
-void SecantCurvature::restart(const GapJet& jet) { H_ = Matrix3::Identity() * std::abs(jet.jet1.h + jet.jet2.h); }
+void SecantCurvature::restart(const GapJet& jet) {
+  H_ = Matrix3::Identity() * std::abs(jet.jet1.h + jet.jet2.h);
+  reach_.fill(std::numeric_limits<double>::infinity());
+}
 
 void SecantCurvature::update(const GapJet& from, const GapJet& to) {
   const Vector3 dn = to.n - from.n;
@@ -16,6 +19,7 @@ void SecantCurvature::update(const GapJet& from, const GapJet& to) {
   // Rounding can make a vanishing slope negative, or the update larger than the estimate is good for: skip it then.
   const double least = std::numeric_limits<double>::epsilon() * std::abs(predicted_slope);
   if (!(slope > least) || !(predicted_slope > 0)) return;
+  reach_ = {reach_[1], dn.norm()};
   H_ += change * (change / slope).transpose() - predicted * (predicted / predicted_slope).transpose();
 }
 

@@ -1,6 +1,9 @@
 // The curvature of the gap function where the shapes have no Hessian.
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "supernormal/solvers/gap_function.hpp"
 
 namespace supernormal {
@@ -18,8 +21,13 @@ class SecantCurvature {
 
   const Matrix3& matrix() const { return H_; }
 
+  /// The turn (about radians) over which both ways of the tangent plane were seen last: what is nearer may be different. Infinite
+  /// before two updates.
+  double reach() const { return std::max(reach_[0], reach_[1]); }
+
  private:
   Matrix3 H_ = Matrix3::Identity();
+  std::array<double, 2> reach_{};  // of the last two updates
 };
 
 }  // namespace supernormal

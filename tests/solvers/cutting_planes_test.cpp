@@ -74,6 +74,21 @@ TEST_CASE("the oldest cut gives way to the newest") {
   CHECK(cuts.size() == 0);
 }
 
+TEST_CASE("maximize goes on between cuts that are all but parallel") {
+  // Two neighbouring points of a rim, which meet at u = 0: both rise the same way.
+  constexpr double kRim = 1.104;
+  for (int k = 0; k < 200; ++k) {
+    const double angle = 0.01 * k;
+    const double next = angle + 1e-3 * std::pow(0.93, k);
+    CuttingPlanes cuts;
+    cuts.add({kRim * std::cos(angle), kRim * std::sin(angle), -1e-5});
+    cuts.add({kRim * std::cos(next), kRim * std::sin(next), -1e-5});
+    const CuttingPlanes::Maximum top = cuts.maximize(TangentPlane(Vector3::UnitZ(), Vector3::UnitX()), kRadius);
+    CHECK_FALSE(top.is_interior);
+    CHECK(top.value == doctest::Approx(kRim * kRadius - 1e-5));
+  }
+}
+
 TEST_CASE("maximize finds the top of random cuts") {
   std::mt19937_64 engine(52);
   std::normal_distribution<double> gauss;

@@ -1,0 +1,88 @@
+// The reported error where the model of the gap function says too little: cases that the soak program found.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <memory>
+
+#include "supernormal/shapes/callback_shape.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/solvers/gap_function.hpp"
+#include "supernormal/solvers/solve.hpp"
+
+using namespace supernormal;
+
+namespace {
+
+CallbackShape without_hessian(const std::shared_ptr<const Shape>& shape) {
+  return {[shape](const Vector3& n) { return shape->support(n); }, [shape](const Vector3& n) { return shape->point(n); }};
+}
+
+double gap_at(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& n) {
+  GapFunction gap(shape1, pose1, shape2, pose2);
+  GapJet jet;
+  gap.evaluate(pose1.rotation.transpose() * n, Order::Value, jet);
+  return jet.s;
+}
+
+}  // namespace
+
+// Both have their sharpest vertex there: s = -depth cos(turn), and no curvature that a program's functions would show.
+TEST_CASE("vertex in vertex without Hessians: the normal between is a minimum, and the reported error covers the hill around it") {
+  const auto sharp1 = std::make_shared<Superellipsoid>(Vector3(1.1, 0.635, 0.75), 1.108, 1.143);
+  const Superellipsoid body1(*sharp1);
+  const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(Vector3(0.529, 1.3, 0.964), 1.162, 1.113));
+  for (const double depth : {1e-10, 1e-9, 5e-9, 2e-8, 5e-8}) {
+    const Pose pose2{Vector3(0, 0.635 + 1.3 - depth, 0), Matrix3::Identity()};
+    const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+    CAPTURE(depth);
+    CHECK(answer.status == Status::Converged);
+    for (int k = 0; k < 45; ++k) {
+      const double turn = std::pow(0.7, k);
+      for (int way = 0; way < 12; ++way) {
+        const double angle = way * 0.5236;
+        const Vector3 n = Vector3(turn * std::cos(angle), 1, turn * std::sin(angle)).normalized();
+        REQUIRE(gap_at(body1, {}, body2, pose2, n) <= answer.gap + answer.error + 1e-16);
+      }
+    }
+  }
+}
+
+// Both are turned by a millionth from one another. The flat top has an infinite curvature beside which the first steps end: the
+// promised gain falls to nothing there, and rises again on the other side.
+TEST_CASE("apex on a flat top: a step that ends beside infinite curvature is no convergence") {
+  const Superellipsoid apex(Vector3(0.611306, 1.00865, 0.507747), 3.33016, 1.31775);
+  const Superellipsoid top(Vector3(0.658949, 1.03858, 0.716509), 1.33293, 3.87141);
+  const Vector3 n(-6.1304644873200358e-07, -7.8583620252973426e-08, 1);
+  const Pose pose2{Vector3(0.0043862700608445059, 5.6630166193835717e-05, 1.2252065452805536),
+                   Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), n).toRotationMatrix()};
+  const Proximity answer = find_proximity(apex, {}, top, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  for (int i = -200; i <= 200; ++i) {
+    for (int k = -40; k <= 40; ++k) {
+      REQUIRE(gap_at(apex, {}, top, pose2, Vector3(1e-8 * i, 1e-8 * k, 1).normalized()) <= answer.gap + answer.error + 1e-15);
+    }
+  }
+}
+
+// The rim has a boundary point for every such normal, 1e-12 beside that of the face: their cuts differ in the last digits.
+TEST_CASE("on a cylinder's face from a normal beside it: the face's depth to rounding") {
+  const Cylinder cylinder(1.104268465, 0.6836455581);
+  const Superellipsoid body(Vector3(1.2002188, 0.70805422, 0.79908887), 15.2757819, 10.33515995);
+  const Matrix3 R = Eigen::AngleAxisd(2.1, Vector3(0.3, -0.9, 0.4).normalized()).toRotationMatrix();
+  const double height = body.support(-(R.transpose() * Vector3::UnitZ()));
+  const Pose pose2{Vector3(0.1, -0.2, 0.6836455581 + height - 1.2e-5), R};
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Proximity cold = find_proximity(cylinder, {}, body, pose2, settings);
+  CHECK(cold.gap == doctest::Approx(-1.2e-5).epsilon(1e-9));
+  for (int k = 0; k < 35; ++k) {
+    const double beside = 1e-14 * std::pow(1.7, k);
+    for (int way = 0; way < 8; ++way) {
+      const Vector3 first = Vector3(beside * std::cos(0.7 * way), beside * std::sin(0.7 * way), 1).normalized();
+      const Proximity warm = find_proximity(cylinder, {}, body, pose2, settings, &first);
+      REQUIRE(std::abs(warm.gap - cold.gap) <= warm.error + cold.error);
+    }
+  }
+}
