@@ -36,16 +36,14 @@ constexpr double kGainSafety = 3;
 // A corner or an edge adds no curvature to that of a flat face: the step that rises to it may be so many times too short.
 constexpr double kCornerSafety = 3;
 
-// The gain to come is summed as a geometric series of the model's contraction; this is the slowest contraction that is believed,
-// and the one assumed before two steps have shown it.
+// The gain to come is summed as a geometric series of the model's contraction, times the factor by which the curvature has changed
+// in the last step: where it grows or falls to infinity or nothing, the model knows as little. This is the slowest contraction that
+// is believed, and the one assumed before two steps have shown it.
 constexpr double kSlowestContraction = 0.95;
 
 // Steps longer than this (radians) reach to where the curvature may be another (two vertices of exponent 1.02 change theirs within
 // 1/50): the contraction is not believed.
 constexpr double kAsymptoticStep = 1e-3;
-
-// Nor where the curvature at the last normal was more or less than here by this factor: one of them is beside a singularity.
-constexpr double kLikeCurvature = 30;
 
 // Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-15;
@@ -237,13 +235,19 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
 
 // What the model says is still to come, and by how much it promised more the step before.
 void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_length) {
+  constexpr double kMost = 1 / (1 - kSlowestContraction);
   const double curvature = std::abs(A.xx + A.yy);
-  const bool is_alike = curvature <= kLikeCurvature * promised_curvature_ && promised_curvature_ <= kLikeCurvature * curvature;
-  const bool is_asymptotic = promised_gain_ > 0 && step_length < kAsymptoticStep && (is_alike || whole_gain <= gap_.rounding());
-  const double contraction = is_asymptotic ? std::min(whole_gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
+  double gains = kMost;
+  if (promised_gain_ > 0 && step_length < kAsymptoticStep) {
+    const double contraction = std::min(whole_gain / promised_gain_, kSlowestContraction);
+    const bool is_rounding = whole_gain <= gap_.rounding();
+    const auto [low, high] = std::minmax(curvature, promised_curvature_);
+    const double change = is_rounding ? 1 : high < kMost * low ? high / low : kMost;
+    gains = std::min(change / (1 - contraction), kMost);
+  }
   promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
   promised_curvature_ = curvature;
-  error_ = kGainSafety / (1 - contraction) * whole_gain;
+  error_ = kGainSafety * gains * whole_gain;
 }
 
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
