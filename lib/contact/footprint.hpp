@@ -1,7 +1,8 @@
 // Convex regions of the tangent plane of a contact.
 #pragma once
 
-#include "solvers/convex_polygon.hpp"
+#include <array>
+
 #include "solvers/tangent_plane.hpp"
 
 namespace supernormal {
@@ -18,13 +19,13 @@ struct PatchFrame {
 class Footprint {
  public:
   /// Two octagons meet in a polygon of at most sixteen corners.
-  static constexpr std::size_t kCapacity = 16;
+  static constexpr int kCapacity = 16;
 
-  void add(const Vector2& corner) { corners_.add(corner); }
-  int size() const { return static_cast<int>(corners_.size()); }
+  void add(const Vector2& corner) { corners_[static_cast<std::size_t>(size_++)] = corner; }
+  int size() const { return size_; }
   const Vector2& operator[](int k) const { return corners_[static_cast<std::size_t>(k)]; }
 
-  /// What both have in common.
+  /// What both have in common. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm.
   Footprint intersected(const Footprint& other) const;
 
   struct Range {
@@ -41,7 +42,8 @@ class Footprint {
   Footprint quadrangle() const;
 
  private:
-  ConvexPolygon<Vector2, kCapacity> corners_;
+  std::array<Vector2, kCapacity> corners_;
+  int size_ = 0;
 };
 
 }  // namespace supernormal

@@ -167,7 +167,7 @@ void Ascent::probe_step(const LocalModel& local, const CuttingPlanes::Maximum& t
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const Vector2 newton = local.model.maximize(radius_);
   estimate_error(local.model.A, local.model.largest_gain(gap_.rounding()), newton.norm());
-  if (!gap_.has_curvature()) error_ = std::max(error_, unseen_gain(local.model.g, true));
+  error_ = std::max(error_, unseen_gain(local.model.g, true));
   Step step{current_.n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && flat_step(local, {0, local.model.g, newton, nullptr}, step) == FlatStep::LeavesFace) {
     leave_face(local, step);
@@ -193,7 +193,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
     target.slope += peak.weight[i] * pieces[peak.active[i]].slope;
     if (peak.count > 1) cuts_.add(known_.difference(current_, peak.active[i]));
   }
-  if (!gap_.has_curvature()) error_ = std::max(error_, unseen_gain(target.slope, peak.count == 1));
+  error_ = std::max(error_, unseen_gain(target.slope, peak.count == 1));
   if (local.A1.xx + local.A1.yy > kFlatRadius * gap_.length_unit()) {
     // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
     const Vector2 way = target.slope - local.A2 * peak.u - current_.s * peak.u;
@@ -238,15 +238,17 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
   constexpr double kMost = 1 / (1 - kSlowestContraction);
   const double curvature = std::abs(A.xx + A.yy);
   double gains = kMost;
+  const bool is_rounding = whole_gain <= gap_.rounding();
+  grows_ = promised_gain_ > 0 && step_length >= promised_step_ && !is_rounding;
   if (promised_gain_ > 0 && step_length < kAsymptoticStep) {
     const double contraction = std::min(whole_gain / promised_gain_, kSlowestContraction);
-    const bool is_rounding = whole_gain <= gap_.rounding();
     const auto [low, high] = std::minmax(curvature, promised_curvature_);
     const double change = is_rounding ? 1 : high < kMost * low ? high / low : kMost;
     gains = std::min(change / (1 - contraction), kMost);
   }
   promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
   promised_curvature_ = curvature;
+  promised_step_ = step_length;
   error_ = kGainSafety * gains * whole_gain;
 }
 
@@ -257,8 +259,10 @@ double Ascent::turn_gain() const {
   return -0.5 * turn * turn * current_.s;
 }
 
-// Of bodies without Hessians: along the slope, and with the turn itself.
+// Along the slope, where the model does not tell how far it goes on: of bodies without Hessians, and where the steps grow, as along
+// the normals of a sharp tip. And with the turn itself.
 double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) const {
+  if (gap_.has_curvature() && !grows_) return 0;
   return kSecantReach * slope.norm() + (is_held_by_curvature ? turn_gain() : 0);
 }
 

@@ -90,6 +90,8 @@ class Ascent {
   double radius_ = 0;              // of the trust region, gnomonic
   double promised_gain_ = 0;       // m; of the quadratic model at the last accepted normal; 0: no history
   double promised_curvature_ = 0;  // m; the trace of its matrix
+  double promised_step_ = 0;       // gnomonic
+  bool grows_ = false;             // whether the next step is longer than the last
   double error_ = 0;               // m
 };
 

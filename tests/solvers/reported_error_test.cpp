@@ -66,6 +66,22 @@ TEST_CASE("apex on a flat top: a step that ends beside infinite curvature is no 
   }
 }
 
+// Along a needle the curvature falls from step to step as fast as the slope: what is promised says nothing about what follows.
+TEST_CASE("needles tip to tip: steps that grow are no convergence") {
+  const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
+  Pose pose2{Vector3(1.1836731558009868, 0.081589419827538659, -0.97956557560407753), Matrix3::Identity()};
+  pose2.rotation << 9, -32, -36, 4, -36, 33, -48, -9, -4;
+  pose2.rotation /= 49;
+  Settings settings;
+  const Proximity exact = find_proximity(needle, {}, needle, pose2, settings);
+  CHECK(exact.status == Status::Converged);
+  for (const double tolerance : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    settings.tolerance = tolerance;
+    const Proximity loose = find_proximity(needle, {}, needle, pose2, settings);
+    CHECK(exact.gap <= loose.gap + loose.error + exact.error);
+  }
+}
+
 // The rim has a boundary point for every such normal, 1e-12 beside that of the face: their cuts differ in the last digits.
 TEST_CASE("on a cylinder's face from a normal beside it: the face's depth to rounding") {
   const Cylinder cylinder(1.104268465, 0.6836455581);
