@@ -17,6 +17,9 @@ constexpr int kMaxKnownCuts = 8;
 constexpr double kKnownCutsShare = 0.7;
 constexpr double kSplitShare = 0.5;
 
+// Of the cuts of a triangle its halves get those that hold its maximum.
+constexpr std::size_t kInherited = 3;
+
 // Normals closer than five degrees lead up the same hill.
 constexpr double kSameHillCosine = 0.9962;
 
@@ -64,8 +67,8 @@ void GlobalProof::start() {
   storage_.cells.clear();
   top_count_ = 0;
   given_up_ = -std::numeric_limits<double>::infinity();
-  storage_.cuts.push_back({best_.d + rho_ * best_.n, 0});
-  for (const Vector3& d : cuts_.points()) storage_.cuts.push_back({d, rho_});
+  storage_.cuts.add(best_.d + rho_ * best_.n, 0);
+  for (const Vector3& d : cuts_.points()) storage_.cuts.add(d, rho_);
   const Vector3& x = best_.n;
   const Vector3 y = x.unitOrthogonal(), z = x.cross(y);
   for (const double sign_x : {1.0, -1.0}) {
@@ -79,7 +82,7 @@ void GlobalProof::start() {
 
 GlobalProof::Cell GlobalProof::cell_of(const std::array<Vector3, kCorners>& corner, double bound) const {
   Cell cell{corner, {}, {}, bound, Vector3::Zero()};
-  for (const Vector3& n : corner) add_cut(cell, lowest_cut(n));
+  for (const Vector3& n : corner) add_cut(cell, storage_.cuts.lowest(n));
   tighten(cell);
   return cell;
 }
@@ -99,7 +102,7 @@ void GlobalProof::refine(Cell cell) {
 GlobalProof::Index GlobalProof::evaluate(const Vector3& direction) {
   gap_.evaluate(direction.normalized(), Order::Point, jet_);
   cuts_.add(jet_.d);
-  storage_.cuts.push_back({jet_.d + rho_ * jet_.n, 0});
+  storage_.cuts.add(jet_.d + rho_ * jet_.n, 0);
   const Index cut = storage_.cuts.size() - 1;
   if (jet_.s > best_.s + goal_.worth && gap_.evaluations() < goal_.max_evaluations) {
     climb_from(jet_.n);
@@ -134,7 +137,7 @@ void GlobalProof::climb_from_tops() {
 void GlobalProof::climb_from(const Vector3& normal) {
   const Status status = ascent_.climb(normal, best_.s);
   const GapJet& top = ascent_.best();
-  storage_.cuts.push_back({top.d + rho_ * top.n, 0});
+  storage_.cuts.add(top.d + rho_ * top.n, 0);
   if (!(top.s > best_.s)) return;
   best_ = top;
   error_ = ascent_.error();
@@ -145,8 +148,9 @@ void GlobalProof::climb_from(const Vector3& normal) {
 // rho), and a bound that is not positive holds for s + rho as well.
 void GlobalProof::add_cut(Cell& cell, Index cut) const {
   const auto& [a, b, c] = cell.corner;
-  const Cut& added = storage_.cuts[cut];
-  cell.cut[cell.program.add({added.at(a), added.at(b), added.at(c)})] = cut;
+  const LinearBounds& cuts = storage_.cuts;
+  cell.cut[cell.program.add({cuts.at(cut, a), cuts.at(cut, b), cuts.at(cut, c)})] = cut;
+  cell.seen = 0;
   double bound = cell.program.value();
   if (bound > 0) bound /= std::abs((b - a).cross(c - a).normalized().dot(a));
   cell.bound = std::min(cell.bound, bound);
@@ -154,23 +158,15 @@ void GlobalProof::add_cut(Cell& cell, Index cut) const {
   cell.peak = weights[0] * a + weights[1] * b + weights[2] * c;
 }
 
-GlobalProof::Index GlobalProof::lowest_cut(const Vector3& direction) const {
-  Index lowest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (Index k = 0; k < storage_.cuts.size(); ++k) {
-    const double value = storage_.cuts[k].at(direction);
-    if (value >= least) continue;
-    least = value;
-    lowest = k;
-  }
-  return lowest;
-}
-
 void GlobalProof::tighten(Cell& cell) const {
   for (int k = 0; k < kMaxKnownCuts; ++k) {
     const double excess = excess_of(cell.bound);
-    const Index lowest = lowest_cut(cell.peak);
-    if (excess <= goal_.width || !(excess_of(storage_.cuts[lowest].at(cell.peak)) < (1 - kUsefulShare) * excess)) return;
+    if (excess <= goal_.width || cell.seen == storage_.cuts.size()) return;
+    const Index lowest = storage_.cuts.lowest(cell.peak, cell.seen);
+    if (!(excess_of(storage_.cuts.at(lowest, cell.peak)) < (1 - kUsefulShare) * excess)) {
+      cell.seen = storage_.cuts.size();
+      return;
+    }
     add_cut(cell, lowest);
   }
 }
@@ -188,10 +184,17 @@ void GlobalProof::split(const Cell& cell) {
   }
   const Index next = (longest + 1) % kCorners;
   const Vector3 middle = (cell.corner[longest] + cell.corner[next]).normalized();
+  // Those that hold the maximum first: the others hardly change it then.
+  std::array<Index, TriangleProgram::kMaxCuts> cuts = cell.cut;
+  const Index count = std::min(cell.program.size(), kInherited);
+  const auto is_lower_at_peak = [&](Index a, Index b) { return storage_.cuts.at(a, cell.peak) < storage_.cuts.at(b, cell.peak); };
+  for (Index k = 0; k < count; ++k) {
+    std::iter_swap(cuts.begin() + k, std::min_element(cuts.begin() + k, cuts.begin() + cell.program.size(), is_lower_at_peak));
+  }
   for (const Index replaced : {longest, next}) {
     Cell half{cell.corner, {}, {}, cell.bound, Vector3::Zero()};
     half.corner[replaced] = middle;
-    for (Index k = 0; k < cell.program.size(); ++k) add_cut(half, cell.cut[k]);
+    for (Index k = 0; k < count; ++k) add_cut(half, cuts[k]);
     tighten(half);
     keep(half);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solvers/ascent.hpp"
+#include "solvers/linear_bounds.hpp"
 #include "solvers/triangle_program.hpp"
 
 namespace supernormal {
@@ -44,22 +45,17 @@ class GlobalProof {
   double excess() const { return excess_; }
 
  private:
-  using Index = std::size_t;
+  using Index = LinearBounds::Index;
   static constexpr Index kCorners = 3;
 
-  /// For every unit normal m, s(m) + rho <= m.d + offset.
-  struct Cut {
-    Vector3 d;      // m
-    double offset;  // m
-    double at(const Vector3& n) const { return d.dot(n) + offset; }
-  };
   /// A triangle of directions.
   struct Cell {
     std::array<Vector3, kCorners> corner;                // unit
     std::array<Index, TriangleProgram::kMaxCuts> cut{};  // those in the program
     TriangleProgram program;
-    double bound;  // m; s + rho is not larger in this triangle
-    Vector3 peak;  // where the program has its maximum, not normalised
+    double bound;    // m; s + rho is not larger in this triangle
+    Vector3 peak;    // where the program has its maximum, not normalised
+    Index seen = 0;  // of so many cuts it is known that they do not lower the bound there
   };
   /// An evaluated normal.
   struct Top {
@@ -69,7 +65,7 @@ class GlobalProof {
   static constexpr Index kMaxTops = 6;
   /// Kept from query to query: nothing is allocated any more when it has grown large enough.
   struct Storage {
-    std::vector<Cut> cuts;
+    LinearBounds cuts;        // s(m) + rho of every unit normal m is not above any; m
     std::vector<Cell> cells;  // a heap, the highest bound first
   };
   static Storage& kept_storage();
@@ -82,7 +78,6 @@ class GlobalProof {
   void remember_top(const Top& top);
   void climb_from_tops();
   void add_cut(Cell& cell, Index cut) const;
-  Index lowest_cut(const Vector3& direction) const;
   void tighten(Cell& cell) const;
   void refine(Cell cell);
   void split(const Cell& cell);

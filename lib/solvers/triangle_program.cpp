@@ -1,47 +1,81 @@
 #include "solvers/triangle_program.hpp"
 
 #include <algorithm>
-
-#include "solvers/convex_polygon.hpp"
+#include <cmath>
 
 namespace supernormal {
 namespace {
 
-/// A part of the triangle, in barycentric coordinates: every cut that clips it makes at most one corner more.
-using Part = ConvexPolygon<Vector3, 3 + TriangleProgram::kMaxCuts>;
-
-Part whole_triangle() {
-  Part part;
-  for (int v = 0; v < 3; ++v) part.add(Vector3::Unit(v));
-  return part;
-}
+// Where the ends of a segment have changed places by no more than this, it is a point: weights are at most 1.
+constexpr double kRounding = 1e-14;
 
 }  // namespace
 
 std::size_t TriangleProgram::add(const Vector3& cut) {
-  if (count_ == 0 || cut.dot(weights_) < value_) {
-    Part lowest = whole_triangle();
-    for (std::size_t k = 0; k < count_; ++k) {
-      const Vector3 difference = cuts_[k] - cut;
-      lowest.clip([&](const Vector3& weights) { return difference.dot(weights); });
-    }
-    const Vector3* const top =
-        std::max_element(lowest.begin(), lowest.end(), [&](const Vector3& a, const Vector3& b) { return cut.dot(a) < cut.dot(b); });
+  const Linear added{cut[0], cut[1] - cut[0], cut[2] - cut[0]};
+  if (count_ == 0 || added.at(place_) < value_) {
     // Rounding may leave nothing: the maximum so far is a bound still.
-    if (top != lowest.end()) {
-      weights_ = *top;
-      value_ = std::min(value_, cut.dot(weights_));
+    Place top;
+    if (maximize(added, top)) {
+      place_ = top;
+      value_ = std::min(value_, added.at(top));
     }
   }
   std::size_t place = count_;
   if (count_ < kMaxCuts) {
     ++count_;
   } else {
-    const auto is_lower = [&](const Vector3& a, const Vector3& b) { return a.dot(weights_) < b.dot(weights_); };
+    const auto is_lower = [&](const Linear& a, const Linear& b) { return a.at(place_) < b.at(place_); };
     place = static_cast<std::size_t>(std::max_element(cuts_.begin(), cuts_.end(), is_lower) - cuts_.begin());
   }
-  cuts_[place] = cut;
+  cuts_[place] = added;
   return place;
+}
+
+/// The maximum of `lowest` where no cut is lower; false if there is no such place.
+bool TriangleProgram::maximize(const Linear& lowest, Place& top) const {
+  top = {};
+  double most = 0;
+  if (lowest.x_slope > most) {
+    most = lowest.x_slope;
+    top = {1, 0};
+  }
+  if (lowest.y_slope > most) top = {0, 1};
+  for (std::size_t k = 0; k < count_; ++k) {
+    const Linear difference = cuts_[k] - lowest;
+    if (difference.at(top) < 0 && !maximize_on_line(difference, lowest, k, top)) return false;
+  }
+  return true;
+}
+
+/// The same on the line where `line` is zero, of the cuts for the first `earlier` only.
+bool TriangleProgram::maximize_on_line(const Linear& line, const Linear& lowest, std::size_t earlier, Place& top) const {
+  const double squared = line.x_slope * line.x_slope + line.y_slope * line.y_slope;
+  if (!(squared > 0)) return false;
+  // From the point nearest to the first corner, which is about as near as the triangle.
+  const Place start{-line.constant / squared * line.x_slope, -line.constant / squared * line.y_slope};
+  const auto slope_along = [&](const Linear& function) {
+    return function.y_slope * line.x_slope - function.x_slope * line.y_slope;
+  };
+  double from = -HUGE_VAL, to = HUGE_VAL;
+  // With no branch on the sign of the slope, which is anybody's guess.
+  const auto keep_positive = [&](double value, double slope) {
+    if (slope == 0) return;
+    const double end = -value / slope;
+    from = std::max(from, slope > 0 ? end : -HUGE_VAL);
+    to = std::min(to, slope > 0 ? HUGE_VAL : end);
+  };
+  keep_positive(start.x, -line.y_slope);
+  keep_positive(start.y, line.x_slope);
+  keep_positive(1 - start.x - start.y, line.y_slope - line.x_slope);
+  for (std::size_t k = 0; k < earlier; ++k) {
+    const Linear difference = cuts_[k] - lowest;
+    keep_positive(difference.at(start), slope_along(difference));
+  }
+  if (!(from <= to)) return false;
+  const double end = slope_along(lowest) > 0 ? to : from;
+  top = {start.x - end * line.y_slope, start.y + end * line.x_slope};
+  return true;
 }
 
 }  // namespace supernormal
