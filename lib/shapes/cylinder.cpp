@@ -30,9 +30,9 @@ void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.r = radius_ * radial;
   jet.r.z() = std::copysign(half_length_, n.z());
   if (order == Order::Point) return;
-  // The rim turns with the normal's azimuth; a cap does not.
+  // The rim turns with the normal's azimuth; a cap does not, and has corners instead.
   const Vector3 along_rim(-radial.y(), radial.x(), 0);
-  jet.H = is_pole ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
+  jet.H = across < kCap ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
 }
 
 void Cylinder::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
