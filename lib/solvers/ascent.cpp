@@ -253,17 +253,20 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
 }
 
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
+// If they are as round as they seem it does; then no more is claimed than was asked for.
 double Ascent::turn_gain() const {
-  if (gap_.has_curvature() || -current_.s <= gap_.shape1().sharpest_radius() + gap_.shape2().sharpest_radius()) return 0;
+  if (gap_.has_curvature() || current_.s >= 0) return 0;
   const double turn = std::min(kSecantReach, secant_.reach());
-  return -0.5 * turn * turn * current_.s;
+  const double gain = -0.5 * turn * turn * current_.s;
+  const bool is_round = -current_.s <= gap_.shape1().sharpest_radius() + gap_.shape2().sharpest_radius();
+  return is_round ? std::min(gain, tolerance_) : gain;
 }
 
 // Along the slope, where the model does not tell how far it goes on: of bodies without Hessians, and where the steps grow, as along
 // the normals of a sharp tip. And with the turn itself.
 double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) const {
   if (gap_.has_curvature() && !grows_) return 0;
-  return kSecantReach * slope.norm() + (is_held_by_curvature ? turn_gain() : 0);
+  return std::max(kSecantReach * slope.norm(), is_held_by_curvature ? turn_gain() : 0);
 }
 
 // What is opposite lies beyond the flat face, where the curvature here says nothing.

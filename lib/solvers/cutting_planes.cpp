@@ -14,6 +14,9 @@ constexpr double kLevelSlope = 1e-14;
 // Cuts whose values differ by less than this share of the largest value or slope meet at a point.
 constexpr double kTie = 1e-13;
 
+// As the square of a length over another.
+constexpr double kShort = 0.01;
+
 /// One cut over the tangent plane: value + slope.u
 struct Cut {
   double value;
@@ -22,15 +25,16 @@ struct Cut {
   double at(const Vector2& u) const { return value + slope.dot(u); }
 };
 
-/// The point of the segment a b nearest to the origin, between the ends to rounding of a. Across a long segment it is exactly,
-/// however short: the slopes of two flat faces may be a thousand times steeper than the ridge where they meet.
+/// The point of the segment a b nearest to the origin. Between the ends it is exactly across the segment, however short: the slopes
+/// of two flat faces may be a thousand times steeper than the ridge where they meet. Of a segment that is short itself, as between
+/// two neighbours on a rim, the product would cancel.
 Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
   const Vector2 edge = b - a;
   const double squared = edge.squaredNorm();
   const double share = -a.dot(edge);
   if (!(share > 0)) return a;
   if (share >= squared) return b;
-  if (squared < a.squaredNorm()) return a + share / squared * edge;
+  if (squared < kShort * a.squaredNorm()) return a + share / squared * edge;
   return (a.x() * b.y() - a.y() * b.x()) / squared * Vector2(edge.y(), -edge.x());
 }
 

@@ -89,6 +89,15 @@ TEST_CASE("maximize goes on between cuts that are all but parallel") {
   }
 }
 
+TEST_CASE("maximize goes on where a cut is a hundred times as steep as the other") {
+  CuttingPlanes cuts;
+  cuts.add({-6.7806492628541723e-07, 1.7572213680683304e-07, 2.8789703921842099e-08});
+  cuts.add({4.1131333020573496e-06, 9.8238256637858385e-06, 2.7945714024860285e-06});
+  cuts.add({-2.1595809732447227e-09, -7.9493604957776414e-09, 2.8789556600387378e-08});
+  const CuttingPlanes::Maximum top = cuts.maximize(TangentPlane(Vector3::UnitZ(), Vector3::UnitX()), kRadius);
+  CHECK(top.value >= 2.9e-08);
+}
+
 TEST_CASE("maximize finds the top of random cuts") {
   std::mt19937_64 engine(52);
   std::normal_distribution<double> gauss;
