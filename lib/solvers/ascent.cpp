@@ -90,21 +90,20 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
 Status Ascent::climb(const Vector3& start, double worth) {
   radius_ = kFirstRadius;
   promised_gain_ = 0;
-  evaluate(start, current_, current_corners_);
-  if (!gap_.has_curvature()) secant_.restart(current_);
+  evaluate(start, current(), corners_[now_]);
+  if (!gap_.has_curvature()) secant_.restart(current());
   Status status = Status::Converged;
   while (true) {
-    if (!std::isfinite(current_.s)) return Status::InvalidInput;
-    if (settings_.stop_when_apart && current_.s > 0) return Status::Apart;
+    if (!std::isfinite(current().s)) return Status::InvalidInput;
+    if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
     const Step step = choose_step();
     if (finished(worth, status)) return status;
-    evaluate(step.normal.normalized(), trial_, trial_corners_);
+    evaluate(step.normal.normalized(), trial(), corners_[1 - now_]);
     if (!gap_.has_curvature()) learn_curvature();
-    const double actual_gain = trial_.s - current_.s;
+    const double actual_gain = trial().s - current().s;
     adapt_radius(step, actual_gain);
     if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
-      std::swap(current_, trial_);
-      if (has_kinks_) std::swap(current_corners_, trial_corners_);
+      now_ = 1 - now_;
     } else {
       promised_gain_ = 0;
     }
@@ -112,12 +111,12 @@ Status Ascent::climb(const Vector3& start, double worth) {
 }
 
 bool Ascent::finished(double worth, Status& status) const {
-  const bool is_proved = largest_excess(current_, rolling_radius_) <= tolerance_;
+  const bool is_proved = largest_excess(current(), rolling_radius_) <= tolerance_;
   if (error_ <= tolerance_ || is_proved) {
     status = Status::Converged;
   } else if (gap_.evaluations() >= settings_.max_evaluations) {
     status = Status::EvaluationLimit;
-  } else if (radius_ < kNoRadius || current_.s + error_ < worth) {
+  } else if (radius_ < kNoRadius || current().s + error_ < worth) {
     status = Status::Stalled;
   } else {
     return false;
@@ -126,7 +125,7 @@ bool Ascent::finished(double worth, Status& status) const {
 }
 
 LocalModel Ascent::local_model() const {
-  return gap_.has_curvature() ? LocalModel::of(gap_, current_) : LocalModel::of(gap_, current_, secant_.matrix());
+  return gap_.has_curvature() ? LocalModel::of(gap_, current()) : LocalModel::of(gap_, current(), secant_.matrix());
 }
 
 Ascent::Step Ascent::choose_step() {
@@ -138,12 +137,12 @@ Ascent::Step Ascent::choose_step() {
 
 void Ascent::cut_step(const LocalModel& local, Step& step) {
   const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
-  step = {current_.n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current_.s, 0.0)};
+  step = {current().n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current().s, 0.0)};
   // The cuts bound s over the whole plane where their maximum is not on the rim.
   if (!top.is_interior) return;
   const double error = kGainSafety * step.gain + top.uncertainty;
   const double turn = turn_gain();
-  if (current_.s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
+  if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
     error_ = std::min(error_, error + turn);
   } else {
     probe_step(local, top, error, step);
@@ -154,21 +153,21 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
 // down around their maximum as well: steeper than s = level cos(turn). Where they do not yet, the next step is as far that way as
 // matters for the tolerance; it finds higher normals, or its cut comes down.
 void Ascent::probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step) {
-  const CuttingPlanes::Reach reach = cuts_.reach(local.plane1, top.u, current_.s);
+  const CuttingPlanes::Reach reach = cuts_.reach(local.plane1, top.u, current().s);
   const double distance = top.u.norm() + reach.distance;
-  const double rise = 0.5 * -current_.s * distance * distance;
+  const double rise = 0.5 * -current().s * distance * distance;
   error_ = std::min(error_, error + kGainSafety * rise);
   if (error > tolerance_ || error_ <= tolerance_) return;
-  const double matters = kProbe * std::sqrt(tolerance_ / -current_.s);
+  const double matters = kProbe * std::sqrt(tolerance_ / -current().s);
   const Vector2 u = top.u + std::min(reach.distance, matters) * reach.way;
-  step = {current_.n + local.plane1.lift(u), u.norm(), rise};
+  step = {current().n + local.plane1.lift(u), u.norm(), rise};
 }
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
-  const Vector2 newton = local.model.maximize(radius_);
-  estimate_error(local.model.A, local.model.largest_gain(gap_.rounding()), newton.norm());
+  const auto [newton, whole_gain] = local.model.peak(radius_, gap_.rounding());
+  estimate_error(local.model.A, whole_gain, newton.norm());
   error_ = std::max(error_, unseen_gain(local.model.g, true));
-  Step step{current_.n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
+  Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && flat_step(local, {0, local.model.g, newton, nullptr}, step) == FlatStep::LeavesFace) {
     leave_face(local, step);
   }
@@ -176,7 +175,7 @@ Ascent::Step Ascent::smooth_step(const LocalModel& local) {
 }
 
 Ascent::Step Ascent::kinked_step(const LocalModel& local) {
-  const std::span<const Piece> pieces = known_.pieces(current_, current_corners_, local.plane1);
+  const std::span<const Piece> pieces = known_.pieces(current(), corners_[now_], local.plane1);
   const PiecewiseModel model{pieces, curvature_that_counts(local.model.A, pieces)};
   const bool is_concave = Eigen2(model.A).low > 0;
   PiecewiseModel::Peak peak;
@@ -191,23 +190,23 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   for (std::size_t i = 0; i < peak.count; ++i) {
     target.value += peak.weight[i] * pieces[peak.active[i]].value;
     target.slope += peak.weight[i] * pieces[peak.active[i]].slope;
-    if (peak.count > 1) cuts_.add(known_.difference(current_, peak.active[i]));
+    if (peak.count > 1) cuts_.add(known_.difference(current(), peak.active[i]));
   }
   error_ = std::max(error_, unseen_gain(target.slope, peak.count == 1));
   if (local.A1.xx + local.A1.yy > kFlatRadius * gap_.length_unit()) {
     // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
-    const Vector2 way = target.slope - local.A2 * peak.u - current_.s * peak.u;
+    const Vector2 way = target.slope - local.A2 * peak.u - current().s * peak.u;
     const Vector2 turn = local.A1.solve(way);
     if (all_finite(turn)) target.newton = turn;
   }
-  const Vector3 normal = known_.shared_normal(peak, current_.n + local.plane1.lift(peak.u));
+  const Vector3 normal = known_.shared_normal(peak, current().n + local.plane1.lift(peak.u));
   Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0)};
   if (has_flat_faces_ && peak.count < 3 && flat_step(local, target, step) != FlatStep::Taken) {
     target.newton = peak.u;
     if (flat_step(local, target, step) != FlatStep::Taken) leave_face(local, step);
   }
   Vector3 face;
-  if (gap_.shape2().crosses_curved_face(current_.m, -(gap_.rotation().transpose() * step.normal), face)) {
+  if (gap_.shape2().crosses_curved_face(current().m, -(gap_.rotation().transpose() * step.normal), face)) {
     step.normal = -(gap_.rotation() * face);
   }
   return step;
@@ -255,10 +254,10 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
 // If they are as round as they seem it does; then no more is claimed than was asked for.
 double Ascent::turn_gain() const {
-  if (gap_.has_curvature() || current_.s >= 0) return 0;
+  if (gap_.has_curvature() || current().s >= 0) return 0;
   const double turn = std::min(kSecantReach, secant_.reach());
-  const double gain = -0.5 * turn * turn * current_.s;
-  const bool is_round = -current_.s <= gap_.shape1().sharpest_radius() + gap_.shape2().sharpest_radius();
+  const double gain = -0.5 * turn * turn * current().s;
+  const bool is_round = -current().s <= gap_.shape1().sharpest_radius() + gap_.shape2().sharpest_radius();
   return is_round ? std::min(gain, tolerance_) : gain;
 }
 
@@ -278,13 +277,13 @@ void Ascent::leave_face(const LocalModel& local, Step& step) {
 Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {
   const Vector2& newton = target.newton;
   Vector2 u1, u2;
-  const Vector3 normal1 = gap_.shape1().advance_normal(current_.n, current_.jet1, local.plane1.lift(newton));
-  const Vector3 normal2 = -gap_.shape2().advance_normal(current_.m, current_.jet2, -local.plane2.lift(newton));
+  const Vector3 normal1 = gap_.shape1().advance_normal(current().n, current().jet1, local.plane1.lift(newton));
+  const Vector3 normal2 = -gap_.shape2().advance_normal(current().m, current().jet2, -local.plane2.lift(newton));
   if (!to_plane(local.plane1, normal1, u1) || !to_plane(local.plane2, normal2, u2)) return FlatStep::LeavesFace;
   Vector2 u = blend(local.A1, local.A2, u1, u2);
   if (!all_finite(u)) return FlatStep::None;
   if (target.peak != nullptr) {
-    const Vector3 normal = known_.shared_normal(*target.peak, current_.n + local.plane1.lift(u));
+    const Vector3 normal = known_.shared_normal(*target.peak, current().n + local.plane1.lift(u));
     if (!to_plane(local.plane1, normal, u)) return FlatStep::LeavesFace;
   }
   double rise = target.value + target.slope.dot(u);
@@ -296,19 +295,19 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
   const double shrink = length > reach ? reach / length : 1;
   if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return FlatStep::Taken;
   u *= shrink;
-  Vector3 normal = current_.n + local.plane1.lift(u);
+  Vector3 normal = current().n + local.plane1.lift(u);
   if (target.peak != nullptr) normal = known_.shared_normal(*target.peak, normal);
   step = {normal, u.norm(), std::min(step.gain, shrink * rise)};
   return FlatStep::Taken;
 }
 
 bool Ascent::ruled_out(const Step& step) const {
-  return cuts_.upper_bound(step.normal) <= (current_.s + kPoorShare * step.gain) * step.normal.norm();
+  return cuts_.upper_bound(step.normal) <= (current().s + kPoorShare * step.gain) * step.normal.norm();
 }
 
 bool Ascent::is_level_but_flatter(double actual_gain) const {
   const auto slope = [](const GapJet& jet) { return (jet.d - jet.s * jet.n).squaredNorm(); };
-  return std::abs(actual_gain) <= gap_.rounding() && slope(trial_) < slope(current_);
+  return std::abs(actual_gain) <= gap_.rounding() && slope(trial()) < slope(current());
 }
 
 void Ascent::evaluate(const Vector3& normal, GapJet& jet, Corners& corners) {
@@ -320,10 +319,10 @@ void Ascent::evaluate(const Vector3& normal, GapJet& jet, Corners& corners) {
 // Of a body with corners the boundary point jumps: only the smooth body's tells a curvature.
 void Ascent::learn_curvature() {
   if (!has_kinks_) {
-    secant_.update(current_, trial_);
+    secant_.update(current(), trial());
     return;
   }
-  GapJet from = current_, to = trial_;
+  GapJet from = current(), to = trial();
   from.d = -from.jet1.r;
   to.d = -to.jet1.r;
   secant_.update(from, to);

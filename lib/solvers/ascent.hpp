@@ -1,6 +1,7 @@
 // One local maximum of the gap function.
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include "solvers/curvature.hpp"
@@ -32,7 +33,7 @@ class Ascent {
   Status climb(const Vector3& start, double worth = -std::numeric_limits<double>::infinity());
 
   /// The highest normal of the last climb, with its curvature() in the tangent plane.
-  const GapJet& best() const { return current_; }
+  const GapJet& best() const { return current(); }
 
   /// m; bound on what is left to the local maximum.
   double error() const { return error_; }
@@ -51,6 +52,10 @@ class Ascent {
     const PiecewiseModel::Peak* peak;  ///< null for a smooth body 2
   };
 
+  const GapJet& current() const { return jets_[now_]; }
+  GapJet& current() { return jets_[now_]; }
+  const GapJet& trial() const { return jets_[1 - now_]; }
+  GapJet& trial() { return jets_[1 - now_]; }
   LocalModel local_model() const;
   Step choose_step();
   Step smooth_step(const LocalModel& local);
@@ -85,8 +90,9 @@ class Ascent {
   const bool has_kinks_;
   SecantCurvature secant_;
   KnownCorners known_;
-  GapJet current_, trial_;
-  Corners current_corners_, trial_corners_;
+  std::array<GapJet, 2> jets_;      // current and trial, which change places
+  std::array<Corners, 2> corners_;  // theirs
+  std::size_t now_ = 0;
   double radius_ = 0;              // of the trust region, gnomonic
   double promised_gain_ = 0;       // m; of the quadratic model at the last accepted normal; 0: no history
   double promised_curvature_ = 0;  // m; the trace of its matrix

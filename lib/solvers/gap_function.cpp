@@ -43,9 +43,6 @@ void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
   if (order == Order::Value) return;
   jet.d.noalias() = rotation_ * jet.jet2.r;
   jet.d += offset_ - jet.jet1.r;
-  if (order == Order::Point) return;
-  jet.H.noalias() = rotation_ * jet.jet2.H * rotation_.transpose();
-  jet.H += jet.jet1.H;
 }
 
 bool GapFunction::is_finite() const { return all_finite(offset_) && all_finite(rotation_) && std::isfinite(length_unit_); }

@@ -14,13 +14,16 @@ constexpr double kRimTolerance = 1e-2;
 constexpr double kShiftRounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kMaxSecularSteps = 20;  // Newton on the secular equation takes two to four
 
+// Of the determinant over the square of the trace: with less the eigenvectors are needed to tell a small curvature from rounding.
+constexpr double kWellConditioned = 1e-6;
+
+// m; the square of a larger trace might overflow.
+constexpr double kMostTrace = 1e150;
+
 // Where s is level as far as it goes, its slope may go on for a quarter turn (radians).
 constexpr double kQuarterTurn = 1.6;
 
-}  // namespace
-
-double QuadraticModel::largest_gain(double rounding) const {
-  const Eigen2 e(A);
+double find_largest_gain(const Vector2& g, const Eigen2& e, double rounding) {
   const auto along = [rounding](double slope, double curvature) {
     const bool is_level = std::abs(curvature) <= rounding && !(std::abs(slope) < curvature);
     if (is_level && rounding > 0) return kQuarterTurn * (std::abs(slope) + 0.5 * kQuarterTurn * rounding);
@@ -29,8 +32,7 @@ double QuadraticModel::largest_gain(double rounding) const {
   return along(e.low_vector.dot(g), e.low) + along(e.high_vector.dot(g), e.high);
 }
 
-Vector2 QuadraticModel::maximize(double radius) const {
-  const Eigen2 e(A);
+Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
   const double low = e.low_vector.dot(g);
   const double high = e.high_vector.dot(g);
   const double slope = std::sqrt(low * low + high * high);
@@ -69,6 +71,24 @@ Vector2 QuadraticModel::maximize(double radius) const {
   const double length = u.norm();
   if (length > radius) u *= radius / length;
   return u.x() * e.low_vector + u.y() * e.high_vector;
+}
+
+}  // namespace
+
+double QuadraticModel::largest_gain(double rounding) const { return find_largest_gain(g, Eigen2(A), rounding); }
+
+Vector2 QuadraticModel::maximize(double radius) const { return find_maximum(g, Eigen2(A), radius); }
+
+QuadraticModel::Peak QuadraticModel::peak(double radius, double rounding) const {
+  const double trace = A.xx + A.yy;
+  const double determinant = A.xx * A.yy - A.xy * A.xy;
+  // The smaller eigenvalue is at least determinant / trace.
+  if (trace > 0 && trace < kMostTrace && determinant > std::max(kWellConditioned * trace, rounding) * trace) {
+    const Vector2 newton = Vector2(A.yy * g.x() - A.xy * g.y(), A.xx * g.y() - A.xy * g.x()) / determinant;
+    if (newton.squaredNorm() <= radius * radius) return {newton, 0.5 * g.dot(newton)};
+  }
+  const Eigen2 e(A);
+  return {find_maximum(g, e, radius), find_largest_gain(g, e, rounding)};
 }
 
 }  // namespace supernormal

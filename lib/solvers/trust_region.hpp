@@ -20,6 +20,14 @@ struct QuadraticModel {
   /// The maximum over |u| <= radius: the Newton step if it fits, otherwise on the rim (More and Sorensen 1983, in the
   /// eigenvectors of A).
   Vector2 maximize(double radius) const;
+
+  /// maximize(radius) and largest_gain(rounding), for little more than a division where A is well-conditioned and positive
+  /// definite.
+  struct Peak {
+    Vector2 u;
+    double whole_gain;  ///< m
+  };
+  Peak peak(double radius, double rounding) const;
 };
 
 }  // namespace supernormal

@@ -42,7 +42,7 @@ TEST_CASE("the model predicts s to third order") {
     ++checked;
     const LocalModel local = LocalModel::of(gap, jet);
     check_plane(local, gap, jet);
-    const LocalModel summed = LocalModel::of(gap, jet, jet.H);
+    const LocalModel summed = LocalModel::of(gap, jet, gap.curvature(jet));
     check_plane(summed, gap, jet);
     for (const double angle : {0.4, 1.7, 3.3, 5.1}) {
       const Vector2 direction(std::cos(angle), std::sin(angle));

@@ -11,7 +11,6 @@ struct GapJet {
   Vector3 n = Vector3::UnitX();   ///< the unit normal it was evaluated for
   double s = 0;                   ///< m; s(n) = n.c - h1(n) - h2(-n)
   Vector3 d = Vector3::Zero();    ///< m; gradient of s: point2 - point1; s = n.d
-  Matrix3 H = Matrix3::Zero();    ///< m; H1 + H2, the negative Hessian of s
   Vector3 m = -Vector3::UnitX();  ///< -n in body 2's frame
   Jet jet1;                       ///< of body 1, in its frame
   Jet jet2;                       ///< of body 2, in its frame, for the normal m
@@ -26,6 +25,9 @@ class SUPERNORMAL_API GapFunction {
 
   /// Evaluates at the unit normal n (body 1's frame) and counts one evaluation.
   void evaluate(const Vector3& n, Order order, GapJet& jet);
+
+  /// H1 + H2, the negative Hessian of s, m; of a jet with curvature.
+  Matrix3 curvature(const GapJet& jet) const { return jet.jet1.H + rotation_ * jet.jet2.H * rotation_.transpose(); }
 
   int evaluations() const { return evaluations_; }
   const Shape& shape1() const { return *shape1_; }
