@@ -25,6 +25,9 @@ constexpr double kPoorShare = 0.1;
 // A step through the boundary point may leave the trust region of the step through the normal by this factor.
 constexpr double kFlatStepReach = 2;
 
+// Of each component of the normal: a step that turns it by less is the same through the normal as through the boundary point.
+constexpr double kSlightTurn = 0.01;
+
 // A step through the boundary point that is shorter than the step through the normal by this factor, and promises a small share of
 // its gain only, creeps along an edge between two flat faces: the step through the normal is tried.
 constexpr double kCreep = 1e-2;
@@ -168,7 +171,8 @@ Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   estimate_error(local.model.A, whole_gain, newton.norm());
   error_ = std::max(error_, unseen_gain(local.model.g, true));
   Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
-  if (has_flat_faces_ && flat_step(local, {0, local.model.g, newton, nullptr}, step) == FlatStep::LeavesFace) {
+  if (has_flat_faces_ && !is_slight(local, newton) &&
+      flat_step(local, {0, local.model.g, newton, nullptr}, step) == FlatStep::LeavesFace) {
     leave_face(local, step);
   }
   return step;
@@ -266,6 +270,14 @@ double Ascent::turn_gain() const {
 double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) const {
   if (gap_.has_curvature() && !grows_) return 0;
   return std::max(kSecantReach * slope.norm(), is_held_by_curvature ? turn_gain() : 0);
+}
+
+// The boundary point is a function of the normal's components over their sizes: where these hardly change, both steps are the same.
+bool Ascent::is_slight(const LocalModel& local, const Vector2& newton) const {
+  const auto is_less = [](const Vector3& turn, const Vector3& normal) {
+    return (turn.array().abs() <= kSlightTurn * normal.array().abs()).all();
+  };
+  return is_less(local.plane1.lift(newton), current().n) && is_less(local.plane2.lift(newton), current().m);
 }
 
 // What is opposite lies beyond the flat face, where the curvature here says nothing.

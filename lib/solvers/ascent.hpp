@@ -69,6 +69,7 @@ class Ascent {
     LeavesFace,  ///< it turns the normal by a right angle or more
   };
   FlatStep flat_step(const LocalModel& local, const Target& target, Step& step);
+  bool is_slight(const LocalModel& local, const Vector2& newton) const;
   void leave_face(const LocalModel& local, Step& step);
   void cut_step(const LocalModel& local, Step& step);
   void probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step);
