@@ -31,7 +31,7 @@ PowerNorm::Ratio PowerNorm::ratio(double larger, double smaller) const {
     return {k, square, 1 + square, std::sqrt(1 + square)};
   }
   const double power = std::pow(k, p_);
-  return {k, power, 1 + power, std::pow(1 + power, inverse_p_)};
+  return {k, power, 1 + power, std::exp(inverse_p_ * std::log(1 + power))};
 }
 
 double PowerNorm::value(double x, double y) const {
