@@ -30,6 +30,9 @@ constexpr double kLeastDrop = 1e-30;
 // As a slope this is sideways: beyond it the cap is the whole body.
 constexpr double kSteepest = 1e6;
 
+// Of the extent of the body: of deeper caps no single tangent plane tells much.
+constexpr double kMostShallow = 0.5;
+
 // Of the extent of the body: no cap at rest is wider if the body is round (README, "Resting").
 constexpr double kWide = 0.25;
 
@@ -161,6 +164,26 @@ double Cap::width(const Vector3& direction) const {
     return direction.dot(one) < direction.dot(other);
   });
   return direction.dot(*high - *low);
+}
+
+// A tangent plane bounds the cap. The best one for an ellipsoid with the body's half-extents tells most bodies that are not flat
+// there.
+double Cap::bound_along(const Vector3& direction) {
+  const double relative_depth = depth_ / extent(n_);
+  const double slope = extent(n_) / extent(direction) * std::sqrt(relative_depth * (2 - relative_depth)) / (1 - relative_depth);
+  const Vector3 n = pose_.rotation.transpose() * n_;
+  const Vector3 u = pose_.rotation.transpose() * direction;
+  Jet jet;
+  shape_->evaluate((n + slope * u) / std::sqrt(1 + slope * slope), Order::Point, jet);
+  ++evaluations_;
+  const Vector3 way = jet.r - highest_.r;
+  return u.dot(way) + (depth_ + n.dot(way)) / slope;
+}
+
+bool Cap::is_surely_narrow() {
+  if (depth_ > kMostShallow * extent(n_)) return false;
+  return std::all_of(axes_.begin(), axes_.end(),
+                     [&](const Vector3& axis) { return bound_along(axis) + bound_along(-axis) <= wide_from(axis, kWide); });
 }
 
 bool Cap::is_narrow() {

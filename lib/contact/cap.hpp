@@ -33,6 +33,9 @@ class Cap {
   /// About the area of the body's shadow in the tangent plane, m^2.
   double shadow() const { return extent(axes_[0]) * extent(axes_[1]); }
 
+  /// Whether one tangent plane on each side proves that is_narrow(), for four evaluations.
+  bool is_surely_narrow();
+
   /// Finds how far the cap reaches along the diagonals, and returns whether these points are as narrow along both axes as
   /// those of a round body are.
   bool is_narrow();
@@ -44,6 +47,7 @@ class Cap {
 
  private:
   Vector3 farthest(const Vector3& direction);
+  double bound_along(const Vector3& direction);
   double extent(const Vector3& direction) const;
   double width(const Vector3& direction) const;
 

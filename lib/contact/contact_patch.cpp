@@ -94,7 +94,8 @@ ContactPatch find_contact_patch(const Shape& shape1, const Pose& pose1, const Sh
   std::array<Cap*, 2> caps = {&cap1, &cap2};
   if (cap2.shadow() < cap1.shadow()) std::swap(caps[0], caps[1]);
   // A round body has one contact, also with a small flat one, as dSphere has.
-  if (!caps[0]->is_narrow() && !caps[1]->is_narrow()) {
+  const bool is_round = caps[0]->is_surely_narrow() || caps[1]->is_surely_narrow();
+  if (!is_round && !caps[0]->is_narrow() && !caps[1]->is_narrow()) {
     const PatchFrame frame{TangentPlane(caps[0]->normal(), caps[0]->axes()[0]), proximity.contact};
     const Footprint overlap = caps[0]->footprint(frame).intersected(caps[1]->footprint(frame));
     add_corners(Region(overlap, caps).corners(frame.plane), frame, patch);
@@ -109,7 +110,7 @@ ContactPatch find_plane_contact_patch(const Shape& shape, const Pose& pose, cons
   patch.margin = margin_of(shape, proximity);
   Cap cap(shape, pose, proximity.normal, patch.margin - proximity.gap);
   std::array<Cap*, 1> caps = {&cap};
-  if (!cap.is_narrow()) {
+  if (!cap.is_surely_narrow() && !cap.is_narrow()) {
     const PatchFrame frame{TangentPlane(proximity.normal, cap.axes()[0]), proximity.point2};
     add_corners(Region(cap.footprint(frame), caps).corners(frame.plane), frame, patch);
   }
