@@ -57,13 +57,13 @@ bool TriangleProgram::maximize_on_line(const Linear& line, const Linear& lowest,
   const auto slope_along = [&](const Linear& function) {
     return function.y_slope * line.x_slope - function.x_slope * line.y_slope;
   };
-  double from = -HUGE_VAL, to = HUGE_VAL;
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
   // With no branch on the sign of the slope, which is anybody's guess.
   const auto keep_positive = [&](double value, double slope) {
     if (slope == 0) return;
     const double end = -value / slope;
-    from = std::max(from, slope > 0 ? end : -HUGE_VAL);
-    to = std::min(to, slope > 0 ? HUGE_VAL : end);
+    from = slope > 0 ? std::max(from, end) : from;
+    to = slope > 0 ? to : std::min(to, end);
   };
   keep_positive(start.x, -line.y_slope);
   keep_positive(start.y, line.x_slope);
