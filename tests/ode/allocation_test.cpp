@@ -10,6 +10,7 @@
 
 #include "ode/mesh_fixture.hpp"
 #include "ode/partner_fixture.hpp"
+#include "ode/terrain.hpp"
 
 using namespace supernormal::test;
 
@@ -65,6 +66,8 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
   for (const PartnerKind kind : kPartnerKinds) partners.emplace_back(kind, random);
   const ConvexGeom crowded(std::vector<Vec>(2000, Vec{0.5, 0.5, 0.5}));
   const MeshGeom mesh(box_arrays(2, 2.5, 1.5));
+  const Terrain terrain({}, [](int i, int j) { return 0.3 * ((3 * i + 5 * j) % 4); });
+  const Geom hills(terrain.create(true));
 
   long contacts_seen = 0;
   const auto everything = [&] {
@@ -83,6 +86,8 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
       contacts_seen += dCollide(g1, crowded, 8, contacts.data(), sizeof contacts[0]);
       contacts_seen += dCollide(g1, mesh, 8, contacts.data(), sizeof contacts[0]);
       snGeomProximity(g1, mesh, &answer);
+      contacts_seen += dCollide(g1, hills, 8, contacts.data(), sizeof contacts[0]);
+      snGeomProximity(g1, hills, &answer);
       snGeomPointDepth(g1, 1, 2, 3);
       dGeomMoved(g1);
       dGeomGetAABB(g1, aabb);
