@@ -40,15 +40,15 @@ using Penetration = int (*)(const void*, const void*, const ccd_t*, ccd_real_t*,
 
 class Libccd final : public Method {
  public:
-  Libccd(std::string name, Penetration penetration) : Method(std::move(name)), penetration_(penetration) {
+  Libccd(std::string name, Penetration penetration, double tolerance) : Method(std::move(name)), penetration_(penetration) {
     CCD_INIT(&settings_);
     settings_.support1 = support;
     settings_.support2 = support;
     settings_.center1 = centre;
     settings_.center2 = centre;
     settings_.max_iterations = kMaxIterations;
-    settings_.epa_tolerance = kEpaTolerance;
-    settings_.mpr_tolerance = kMprTolerance;
+    settings_.epa_tolerance = tolerance;
+    settings_.mpr_tolerance = tolerance;
   }
 
   Answer query(const Pair& pair) const override {
@@ -70,10 +70,18 @@ class Libccd final : public Method {
 
 }  // namespace
 
+std::unique_ptr<Method> ccd_epa(std::string name, double tolerance) {
+  return std::make_unique<Libccd>(std::move(name), ccdGJKPenetration, tolerance);
+}
+
+std::unique_ptr<Method> ccd_mpr(std::string name, double tolerance) {
+  return std::make_unique<Libccd>(std::move(name), ccdMPRPenetration, tolerance);
+}
+
 Methods libccd_methods() {
   Methods methods;
-  methods.push_back(std::make_unique<Libccd>(kCcdEpa, ccdGJKPenetration));
-  methods.push_back(std::make_unique<Libccd>(kCcdMpr, ccdMPRPenetration));
+  methods.push_back(ccd_epa(kCcdEpa, kEpaTolerance));
+  methods.push_back(ccd_mpr(kCcdMpr, kMprTolerance));
   return methods;
 }
 

@@ -9,6 +9,7 @@
 #include "measurement.hpp"
 #include "partner_cost.hpp"
 #include "report.hpp"
+#include "sweep.hpp"
 
 namespace {
 
@@ -19,7 +20,7 @@ struct Options {
   std::uint64_t seed = 1;
   int rounds = Effort{}.rounds;
   double batch_us = Effort{}.batch * 1e6;
-  std::string csv;
+  std::string csv, sweep;
   bool partners = false;
   std::size_t poses = 200;
 };
@@ -30,6 +31,10 @@ void run(const Options& options) {
     write_partner_costs(options.poses, options.seed, effort, std::cout);
     return;
   }
+  if (!options.sweep.empty()) {
+    write_sweep(options.pairs, options.seed, effort, options.sweep);
+    return;
+  }
   std::vector<Pair> pairs = draw_pairs(options.pairs, options.seed);
   Methods methods = supernormal_methods();
   for (Methods more = libccd_methods(); auto& method : more) methods.push_back(std::move(method));
@@ -37,12 +42,7 @@ void run(const Options& options) {
   methods.push_back(evaluation_cost(supernormal::Order::Curvature));
 
   const auto samples = measure(methods, pairs, effort);
-  // Wherever anybody's answer leads higher, the reference was not the highest maximum.
-  for (const auto& of_method : samples) {
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      if (of_method[p].answer.kind == Answer::Kind::Gap) improve_reference(pairs[p], of_method[p].answer.normal);
-    }
-  }
+  improve_references(samples, pairs);
   const Results results{pairs, methods, samples};
   write_markdown(results, std::cout);
   if (!options.csv.empty()) write_csv(results, options.csv);
@@ -65,7 +65,11 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     CLI::Option* const csv = app.add_option("--csv", options.csv, "file for the results");
-    app.add_flag("--partners", options.partners, "times dCollide against every class of ODE instead")->excludes(csv);
+    CLI::Option* const sweep =
+        app.add_option("--sweep", options.sweep, "file for the results of all methods at all tolerances instead")->excludes(csv);
+    app.add_flag("--partners", options.partners, "times dCollide against every class of ODE instead")
+        ->excludes(csv)
+        ->excludes(sweep);
     app.add_option("--poses", options.poses, "with --partners: of each body at each partner")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();

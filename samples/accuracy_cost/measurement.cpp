@@ -55,4 +55,12 @@ std::vector<std::vector<Sample>> measure(const Methods& methods, const std::vect
   return samples;
 }
 
+void improve_references(const std::vector<std::vector<Sample>>& samples, std::vector<Pair>& pairs) {
+  for (const auto& of_method : samples) {
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      if (of_method[p].answer.kind == Answer::Kind::Gap) improve_reference(pairs[p], of_method[p].answer.normal);
+    }
+  }
+}
+
 }  // namespace accuracy_cost

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pairs.hpp"
+#include "supernormal/solvers/proximity.hpp"
 
 namespace accuracy_cost {
 
@@ -52,6 +53,14 @@ Methods supernormal_methods();
 
 /// libccd with our shapes as its support functions.
 Methods libccd_methods();
+
+/// One of our solvers that stops at `tolerance`, from the first guess or from Pair::warm_normal.
+enum class Start { Cold, Warm };
+std::unique_ptr<Method> supernormal_method(std::string name, supernormal::Solver solver, Start start, double tolerance);
+
+/// libccd's GJK and EPA, or its MPR, that stops at `tolerance` (m).
+std::unique_ptr<Method> ccd_epa(std::string name, double tolerance);
+std::unique_ptr<Method> ccd_mpr(std::string name, double tolerance);
 
 /// Not a question but its unit of cost: the gap function at Pair::normals, up to this order.
 std::unique_ptr<Method> evaluation_cost(supernormal::Order order);

@@ -61,7 +61,7 @@ Vector3 spiral_direction(int i) {
 }
 
 Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
-  Pair pair{body_class, situation, random_body(random, body_class), random_body(random, body_class), {}, {}, 0, 0, {}, {}};
+  Pair pair{body_class, situation, random_body(random, body_class), random_body(random, body_class), {}, {}, 0, 0, {}, {}, {}};
   pair.size = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
   pair.pose1.rotation = random_attitude(random);
   pair.pose2.rotation = random_attitude(random);
@@ -74,6 +74,7 @@ Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
   exact.tolerance = kReferenceTolerance;
   const auto answer = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, exact);
   pair.gap = answer.gap;
+  pair.normal = answer.normal;
   improve_reference(pair, n);
   if (pair.gap < 0) {  // then there may be several maxima
     for (int i = 0; i < kReferenceStarts; ++i) improve_reference(pair, spiral_direction(i));
@@ -112,7 +113,10 @@ void improve_reference(Pair& pair, const Vector3& world_normal) {
   Settings exact;
   exact.tolerance = kReferenceTolerance;
   const Vector3 start = (pair.pose1.rotation.transpose() * world_normal).normalized();
-  pair.gap = std::max(pair.gap, find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, exact, &start).gap);
+  const auto answer = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, exact, &start);
+  if (!(answer.gap > pair.gap)) return;
+  pair.gap = answer.gap;
+  pair.normal = answer.normal;
 }
 
 }  // namespace accuracy_cost

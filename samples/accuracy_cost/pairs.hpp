@@ -31,6 +31,7 @@ struct Pair {
   supernormal::Pose pose1, pose2;
   double size = 0;                   ///< m; smallest half-axis
   double gap = 0;                    ///< m; the reference: the highest maximum of the gap function that is known
+  supernormal::Vector3 normal;       ///< its normal, world frame
   supernormal::Vector3 warm_normal;  ///< body 1's frame; the answer for a pose 1e-3 (m and rad) away
   std::array<supernormal::Vector3, kNormalsPerPair> normals;  ///< body 1's frame; within 0.1 rad of the answer, to time evaluations
 };
@@ -40,7 +41,7 @@ struct Pair {
 /// one.
 std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed);
 
-/// Climbs from a world-frame normal at tolerance 1e-14 and raises pair.gap if that leads higher.
+/// Climbs from a world-frame normal at tolerance 1e-14 and raises pair.gap, with its normal, if that leads higher.
 void improve_reference(Pair& pair, const supernormal::Vector3& world_normal);
 
 }  // namespace accuracy_cost

@@ -25,8 +25,6 @@ Answer::Kind kind_of(Status status) {
   return Answer::Kind::None;
 }
 
-enum class Start { Cold, Warm };
-
 class OurSolver final : public Method {
  public:
   OurSolver(std::string name, const Settings& settings, Start start)
@@ -81,6 +79,13 @@ Methods supernormal_methods() {
   methods.push_back(std::make_unique<OurSolver>(kNewton, newton, Start::Cold));
   methods.push_back(std::make_unique<OurSolver>(kFixedPoint, fixed_point, Start::Cold));
   return methods;
+}
+
+std::unique_ptr<Method> supernormal_method(std::string name, Solver solver, Start start, double tolerance) {
+  Settings settings;
+  settings.solver = solver;
+  settings.tolerance = tolerance;
+  return std::make_unique<OurSolver>(std::move(name), settings, start);
 }
 
 std::unique_ptr<Method> evaluation_cost(supernormal::Order order) { return std::make_unique<Evaluations>(order); }
