@@ -109,7 +109,8 @@ class SummitSearch {
       const double scale = std::abs(summit_.v) * width_.value + summit_.t * (summit_.w * std::abs(width_.slope) + rise_);
       if (std::abs(value) <= kRounding * scale + kDenormal) break;
       (value < 0 ? low : high) = x;
-      double next = x - value / summit_.slope;
+      // Where everything has underflowed there is no slope: bisected.
+      double next = summit_.slope > 0 ? x - value / summit_.slope : high;
       if (!(next > low && next < high)) next = 0.5 * (low + high);
       if (next == x || next == low || next == high) break;
       x = next;
@@ -121,7 +122,7 @@ class SummitSearch {
   double first_guess() {
     width_.move_to(is_steep_ ? 1 : 0);
     if (is_steep_) return width_.value < rise_ ? width_.value / rise_ : 1;
-    return std::clamp((rise_ + width_.slope) / width_.value, -1.0, 1.0);
+    return width_.value > 0 ? std::clamp((rise_ + width_.slope) / width_.value, -1.0, 1.0) : 0;
   }
 
   /// F at x, or -F where it falls with x.
