@@ -5,19 +5,16 @@
 #include <cmath>
 #include <memory>
 
-#include "supernormal/shapes/callback_shape.hpp"
+#include "shapes/without_hessian.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/solve.hpp"
 
 using namespace supernormal;
+using supernormal::test::without_hessian;
 
 namespace {
-
-CallbackShape without_hessian(const std::shared_ptr<const Shape>& shape) {
-  return {[shape](const Vector3& n) { return shape->support(n); }, [shape](const Vector3& n) { return shape->point(n); }};
-}
 
 double gap_at(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& n) {
   GapFunction gap(shape1, pose1, shape2, pose2);

@@ -9,7 +9,7 @@
 
 #include "reference_pairs.hpp"
 #include "shapes/shape_samples.hpp"
-#include "supernormal/shapes/callback_shape.hpp"
+#include "shapes/without_hessian.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/solvers/solve.hpp"
@@ -32,11 +32,6 @@ Settings with(Solver solver) {
 
 Proximity solve(const ReferencePair& pair, const Settings& settings = {}, const Vector3* first_normal = nullptr) {
   return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, first_normal);
-}
-
-/// The same body as a program's own, without a Hessian.
-CallbackShape without_hessian(const std::shared_ptr<const Shape>& shape) {
-  return {[shape](const Vector3& n) { return shape->support(n); }, [shape](const Vector3& n) { return shape->point(n); }};
 }
 
 /// A body whose functions return what is not a number.
