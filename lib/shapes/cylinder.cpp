@@ -41,7 +41,8 @@ void Cylinder::add_corners(const Vector3& n, const Vector3& toward, Corners& cor
   if (across < kCap) {
     // An equilateral triangle of rim points, one of them in the direction of the point.
     const double distance = std::hypot(toward.x(), toward.y());
-    const Vector3 rim = distance > 0 ? Vector3(toward.x(), toward.y(), 0) * (radius_ / distance) : Vector3(radius_, 0, 0);
+    const Vector3 rim =
+        distance > kPole * radius_ ? Vector3(toward.x(), toward.y(), 0) / distance * radius_ : Vector3(radius_, 0, 0);
     const Vector3 middle = -0.5 * rim;
     const Vector3 aside = 0.5 * std::numbers::sqrt3 * Vector3(-rim.y(), rim.x(), 0);
     for (const Vector3& point : {rim, Vector3(middle + aside), Vector3(middle - aside)})

@@ -45,6 +45,8 @@ void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
   jet.d += offset_ - jet.jet1.r;
 }
 
+bool GapJet::is_finite() const { return std::isfinite(s) && all_finite(d); }
+
 bool GapFunction::is_finite() const { return all_finite(offset_) && all_finite(rotation_) && std::isfinite(length_unit_); }
 
 }  // namespace supernormal

@@ -47,7 +47,7 @@ bool GlobalProof::complete(const Goal& goal, GapJet& best, double& error, Status
   error_ = error;
   status_ = status;
   start();
-  while (!storage_.cells.empty() && gap_.evaluations() < goal_.max_evaluations) {
+  while (!storage_.cells.empty() && status_ != Status::InvalidInput && gap_.evaluations() < goal_.max_evaluations) {
     // Without their balls the bodies are apart: a climb has shown it, and found the only maximum.
     if (best_.s + rho_ > 0 || !(excess_of(storage_.cells.front().bound) > goal_.width)) break;
     refine(pop());
@@ -101,6 +101,7 @@ void GlobalProof::refine(Cell cell) {
 
 GlobalProof::Index GlobalProof::evaluate(const Vector3& direction) {
   gap_.evaluate(direction.normalized(), Order::Point, jet_);
+  if (!jet_.is_finite()) status_ = Status::InvalidInput;
   cuts_.add(jet_.d);
   storage_.cuts.add(jet_.d + rho_ * jet_.n, 0);
   const Index cut = storage_.cuts.size() - 1;

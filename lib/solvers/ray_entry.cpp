@@ -63,8 +63,6 @@ bool is_curved(const Symmetric2& A) {
 // Whether products of such numbers with lengths, and of four of these, are in range.
 bool is_in_range(const Vector2& u) { return std::abs(u.x()) < 1e60 && std::abs(u.y()) < 1e60; }
 
-bool is_finite(const GapJet& jet) { return std::isfinite(jet.s) && all_finite(jet.d); }
-
 /// The smaller root of a t^2 + 2 b t + c, a >= 0; its minimum when there is none. Infinite when it has neither: straight, and not
 /// falling.
 double first_root(double a, double b, double c) {
@@ -119,7 +117,7 @@ void EntrySearch::evaluate(const Vector3& normal) {
   if (!(slope < -kGrazing)) return evaluate_beside((n - slope * v_).normalized());
   Sample sample;
   gap_.evaluate(n, gap_.has_curvature() ? Order::Curvature : Order::Point, sample.jet);
-  is_finite_ = is_finite(sample.jet);
+  is_finite_ = sample.jet.is_finite();
   sample.slope = slope;
   sample.t = sample.jet.s / -slope;
   const double upper_bound = portal_.upper_bound();
@@ -148,7 +146,7 @@ bool EntrySearch::is_better(const Sample& sample) const {
 void EntrySearch::evaluate_beside(const Vector3& normal) {
   const double sector = portal_.sector();
   gap_.evaluate(normal, gap_.has_curvature() ? Order::Curvature : Order::Point, beside_.jet);
-  is_finite_ = is_finite(beside_.jet);
+  is_finite_ = beside_.jet.is_finite();
   misses_ = beside_.jet.s >= 0;
   beside_.t = v_.dot(beside_.jet.jet1.r);
   if (beside_.jet.s > nearest_) {

@@ -62,7 +62,9 @@ Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& sh
   const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
   Proximity out = is_warm ? solve(gap, settings, first_normal->normalized(), Branch::OfStart)
                           : solve(gap, settings, first_guess(gap), Branch::Highest);
-  if (!std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() || !out.point2.allFinite()) return {};
+  if (out.status == Status::InvalidInput || !std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() ||
+      !out.point2.allFinite())
+    return {};
   out.normal = (pose1.rotation * out.normal).normalized();
   out.point1 = pose1.rotation * out.point1 + pose1.position;
   out.point2 = pose1.rotation * out.point2 + pose1.position;

@@ -41,6 +41,21 @@ class NotANumber final : public Shape {
   Vector3 half_extents() const override { return Vector3::Ones(); }
 };
 
+/// A ball whose functions return what is not a number where the normal's z is above a limit.
+class KnownBelow final : public Shape {
+ public:
+  explicit KnownBelow(double limit) : limit_(limit) {}
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override {
+    (n.z() > limit_ ? static_cast<const Shape&>(nothing_) : ball_).evaluate(n, order, jet);
+  }
+  Vector3 half_extents() const override { return Vector3::Ones(); }
+
+ private:
+  double limit_;
+  NotANumber nothing_;
+  Ellipsoid ball_{Vector3(1, 1.1, 0.9)};
+};
+
 std::string refusal(const Settings& settings) {
   try {
     find_proximity(Sphere(1), {}, Sphere(1), {}, settings);
@@ -209,6 +224,18 @@ TEST_CASE("what is not finite is called invalid input") {
     CHECK(std::isfinite(out.gap));
     CHECK(out.normal.norm() == 1);
   }
+}
+
+TEST_CASE("a body that is known only on one side: an answer or invalid input, and an end of the search") {
+  int known = 0;
+  for (int k = 0; k < 200; ++k) {
+    const KnownBelow body(-0.95 + 0.01 * k);
+    const Pose pose2 = at(Vector3{0.3 * std::cos(k), 0.3 * std::sin(k), -0.2});
+    const Proximity out = find_proximity(body, {}, Superellipsoid(Vector3(1, 0.7, 0.5), 1.3, 1.4), pose2);
+    known += out.status == Status::Converged;
+    CHECK((out.status == Status::InvalidInput || (std::isfinite(out.gap) && out.normal.norm() == doctest::Approx(1))));
+  }
+  CHECK(known > 0);
 }
 
 TEST_CASE("an unusable first normal is no worse than none") {

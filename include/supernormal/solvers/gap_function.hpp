@@ -7,13 +7,16 @@
 namespace supernormal {
 
 /// s and its derivatives in one direction, in body 1's frame.
-struct GapJet {
+struct SUPERNORMAL_API GapJet {
   Vector3 n = Vector3::UnitX();   ///< the unit normal it was evaluated for
   double s = 0;                   ///< m; s(n) = n.c - h1(n) - h2(-n)
   Vector3 d = Vector3::Zero();    ///< m; gradient of s: point2 - point1; s = n.d
   Vector3 m = -Vector3::UnitX();  ///< -n in body 2's frame
   Jet jet1;                       ///< of body 1, in its frame
   Jet jet2;                       ///< of body 2, in its frame, for the normal m
+
+  /// Whether s and d are numbers: a shape may give some that are not.
+  bool is_finite() const;
 };
 
 /// s(n) = n.c - h1(n) - h2(-R^T n): how far apart the supporting planes of the two bodies with normal n are. Its maximum over the
