@@ -44,6 +44,11 @@ constexpr double kCornerSafety = 3;
 // is believed, and the one assumed before two steps have shown it.
 constexpr double kSlowestContraction = 0.95;
 
+// Steps that each promise more than this share of the last may zigzag across a ridge, which rises where they never look: beyond so
+// many in a row the cuts are asked, which meet on the ridge.
+constexpr double kSlowShare = 0.3;
+constexpr int kManySlowSteps = 4;
+
 // Steps longer than this (radians) reach to where the curvature may be another (two vertices of exponent 1.02 change theirs within
 // 1/50): the contraction is not believed.
 constexpr double kAsymptoticStep = 1e-3;
@@ -93,11 +98,13 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
 Status Ascent::climb(const Vector3& start, double worth) {
   radius_ = kFirstRadius;
   promised_gain_ = 0;
+  slow_steps_ = 0;
+  grows_ = false;
   evaluate(start, current(), corners_[now_]);
   if (!gap_.has_curvature()) secant_.restart(current());
   Status status = Status::Converged;
   while (true) {
-    if (!std::isfinite(current().s)) return Status::InvalidInput;
+    if (!current().is_finite()) return Status::InvalidInput;
     if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
     const Step step = choose_step();
     if (finished(worth, status)) return status;
@@ -134,7 +141,12 @@ LocalModel Ascent::local_model() const {
 Ascent::Step Ascent::choose_step() {
   const LocalModel local = local_model();
   Step step = has_kinks_ ? kinked_step(local) : smooth_step(local);
-  if (error_ > tolerance_ && ruled_out(step)) cut_step(local, step);
+  if (slow_steps_ >= kManySlowSteps) {
+    slow_steps_ = 0;
+    cut_step(local, step);
+  } else if (error_ > tolerance_ && (is_open_ || ruled_out(step))) {
+    cut_step(local, step);
+  }
   return step;
 }
 
@@ -146,7 +158,7 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   const double error = kGainSafety * step.gain + top.uncertainty;
   const double turn = turn_gain();
   if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
-    error_ = std::min(error_, error + turn);
+    error_ = std::min(error_, turn < tolerance_ ? error + turn : std::max(error, turn));  // turn_gain() may end at the tolerance
   } else {
     probe_step(local, top, error, step);
   }
@@ -242,7 +254,9 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
   const double curvature = std::abs(A.xx + A.yy);
   double gains = kMost;
   const bool is_rounding = whole_gain <= gap_.rounding();
-  grows_ = promised_gain_ > 0 && step_length >= promised_step_ && !is_rounding;
+  const bool is_slow = promised_gain_ > 0 && whole_gain > kSlowShare * promised_gain_ && !is_rounding;
+  slow_steps_ = is_slow ? slow_steps_ + 1 : 0;
+  if (promised_gain_ > 0 || is_rounding) grows_ = step_length >= promised_step_ && !is_rounding;
   if (promised_gain_ > 0 && step_length < kAsymptoticStep) {
     const double contraction = std::min(whole_gain / promised_gain_, kSlowestContraction);
     const auto [low, high] = std::minmax(curvature, promised_curvature_);
@@ -267,9 +281,13 @@ double Ascent::turn_gain() const {
 
 // Along the slope, where the model does not tell how far it goes on: of bodies without Hessians, and where the steps grow, as along
 // the normals of a sharp tip. And with the turn itself.
-double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) const {
+double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
+  is_open_ = false;
   if (gap_.has_curvature() && !grows_) return 0;
-  return std::max(kSecantReach * slope.norm(), is_held_by_curvature ? turn_gain() : 0);
+  const double along_slope = kSecantReach * slope.norm();
+  const double turn = is_held_by_curvature ? turn_gain() : 0;
+  is_open_ = along_slope <= tolerance_ && turn > tolerance_;
+  return std::max(along_slope, turn);
 }
 
 // The boundary point is a function of the normal's components over their sizes: where these hardly change, both steps are the same.

@@ -62,7 +62,7 @@ class Ascent {
   Step kinked_step(const LocalModel& local);
   void estimate_error(const Symmetric2& A, double whole_gain, double step_length);
   double turn_gain() const;
-  double unseen_gain(const Vector2& slope, bool is_held_by_curvature) const;
+  double unseen_gain(const Vector2& slope, bool is_held_by_curvature);
   enum class FlatStep {
     Taken,
     None,        ///< the bodies' proposals do not agree on one
@@ -98,7 +98,9 @@ class Ascent {
   double promised_gain_ = 0;       // m; of the quadratic model at the last accepted normal; 0: no history
   double promised_curvature_ = 0;  // m; the trace of its matrix
   double promised_step_ = 0;       // gnomonic
+  int slow_steps_ = 0;             // in a row
   bool grows_ = false;             // whether the next step is longer than the last
+  bool is_open_ = false;           // whether nothing is left but what a turn may gain that has not been seen
   double error_ = 0;               // m
 };
 

@@ -4,10 +4,17 @@
 #include <limits>
 
 namespace supernormal {
+namespace {
+
+// The cosine of the angle from which on two turns are across one another.
+constexpr double kAcross = 0.95;
+
+}  // namespace
 
 void SecantCurvature::restart(const GapJet& jet) {
   H_ = Matrix3::Identity() * std::abs(jet.jet1.h + jet.jet2.h);
-  reach_.fill(std::numeric_limits<double>::infinity());
+  along_.setZero();
+  reach_along_ = reach_across_ = std::numeric_limits<double>::infinity();
 }
 
 void SecantCurvature::update(const GapJet& from, const GapJet& to) {
@@ -19,7 +26,10 @@ void SecantCurvature::update(const GapJet& from, const GapJet& to) {
   // Rounding can make a vanishing slope negative, or the update larger than the estimate is good for: skip it then.
   const double least = std::numeric_limits<double>::epsilon() * std::abs(predicted_slope);
   if (!(slope > least) || !(predicted_slope > 0)) return;
-  reach_ = {reach_[1], dn.norm()};
+  const double length = dn.norm();
+  if (std::abs(along_.dot(dn)) < kAcross * length) reach_across_ = reach_along_;
+  along_ = dn / length;
+  reach_along_ = length;
   H_ += change * (change / slope).transpose() - predicted * (predicted / predicted_slope).transpose();
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "supernormal/solvers/gap_function.hpp"
 
@@ -22,12 +21,13 @@ class SecantCurvature {
   const Matrix3& matrix() const { return H_; }
 
   /// The turn (about radians) over which both ways of the tangent plane were seen last: what is nearer may be different. Infinite
-  /// before two updates.
-  double reach() const { return std::max(reach_[0], reach_[1]); }
+  /// before there were updates across one another.
+  double reach() const { return std::max(reach_along_, reach_across_); }
 
  private:
   Matrix3 H_ = Matrix3::Identity();
-  std::array<double, 2> reach_{};  // of the last two updates
+  Vector3 along_ = Vector3::Zero();  // unit; the way of the last update
+  double reach_along_ = 0, reach_across_ = 0;
 };
 
 }  // namespace supernormal

@@ -99,3 +99,41 @@ TEST_CASE("on a cylinder's face from a normal beside it: the face's depth to rou
     }
   }
 }
+
+// Both are symmetric about the plane in which the normal climbs: it ends on a saddle, and has never seen a turn out of the plane.
+TEST_CASE("vertices in a common plane of symmetry, one without a Hessian: the way out of the plane is looked at") {
+  const Superellipsoid body1(Vector3(1.32053, 1.33285, 1.40549), 1.298, 1.236);
+  const CallbackShape body2 =
+      without_hessian(std::make_shared<Superellipsoid>(Vector3(0.596023, 0.555018, 0.950173), 1.1784, 1.1886));
+  const Pose pose2{Vector3(0, 1.33285 + 0.555018 - 0.006, 0), Matrix3::Identity()};
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  for (int k = 0; k < 45; ++k) {
+    const Vector3 n = (answer.normal + std::pow(0.7, k) * Vector3::UnitZ()).normalized();
+    REQUIRE(gap_at(body1, {}, body2, pose2, n) <= answer.gap + answer.error + 1e-16);
+  }
+}
+
+// Seen from the needle's flat side the rim's curvature is overestimated to one side and to the other: without the cuts the normal
+// zigzags down to that of the cap, 1e-6 beside the maximum.
+TEST_CASE("needle across a cylinder's rim: steps that stay as long as the last are no convergence") {
+  const Cylinder cylinder(2.7598075274203726, 0.41336571351567486);
+  const Superellipsoid needle(Vector3(0.80612899117088677, 0.14950435281593677, 0.067824181045325865), 5.8889, 50.876);
+  const Pose pose2{Vector3(0.0105, -2.8766, -0.41336571351567486 - 0.067824181045325865 - 5.7e-7), Matrix3::Identity()};
+  const Proximity answer = find_proximity(cylinder, {}, needle, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  for (int k = 0; k < 60; ++k) {
+    const Vector3 n = Vector3(0, -1e-3 * std::pow(0.7, k), -1).normalized();
+    REQUIRE(gap_at(cylinder, {}, needle, pose2, n) <= answer.gap + answer.error + 1e-15);
+  }
+}
+
+// The azimuth of a point that is 1e-312 m off the axis: dividing by that overflows.
+TEST_CASE("next to nothing beside a cylinder's axis: the depth along the axis") {
+  const Cylinder cylinder(1, 1.077920734531224);
+  const Superellipsoid body(Vector3(1.486, 0.68, 1.317), 1.268, 1.151);
+  const Pose pose2{Vector3(0, -2e-312, -1.077920734531224 - 1.317 + 1e-3), Matrix3::Identity()};
+  const Proximity answer = find_proximity(body, {}, cylinder, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  CHECK(answer.gap == doctest::Approx(-1e-3).epsilon(1e-12));
+}
