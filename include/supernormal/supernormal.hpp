@@ -1,17 +1,20 @@
 // Supernormal's C++ core: shapes, gap function and solvers; no ODE needed.
 #pragma once
 
+#include "supernormal/contact_curvature.hpp"
 #include "supernormal/contact_patch.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/immersion.hpp"
 #include "supernormal/shapes/linear_image.hpp"
 #include "supernormal/shapes/minkowski_sum.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/shape.hpp"
+#include "supernormal/shapes/silhouette.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"

@@ -1,0 +1,60 @@
+// Forces on bodies, one pass over them for each effect that is listed.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <optional>
+#include <vector>
+
+#include "effects/law.hpp"
+#include "supernormal/effects.hpp"
+#include "supernormal/shapes/immersion.hpp"
+
+namespace supernormal::effects {
+
+class BodyForces {
+ public:
+  BodyForces(const std::vector<Effect>& list, double step);
+
+  bool is_empty() const { return !quadratic_drag_ && !stokes_drag_ && !buoyancy_; }
+  std::size_t bodies() const { return bodies_.size(); }
+
+  void add(dBodyID body);
+  void remove(dBodyID body);
+
+  /// The passes; each counts the bodies it visits, which are awake.
+  struct Listed {
+    EffectIndex effect;
+    unsigned long long (BodyForces::*run)();
+  };
+  const std::vector<Listed>& passes() const { return passes_; }
+
+ private:
+  /// A geom of ours; a body may have several.
+  struct Part {
+    dGeomID geom;
+    const Shape* shape;
+    double surface = 0;                  // m^2, for Stokes
+    std::optional<Immersion> immersion;  // for buoyancy
+  };
+  struct Entry {
+    dBodyID body;
+    std::vector<Part> parts;
+  };
+
+  template <typename Force>
+  unsigned long long visit(const Force& force);
+  unsigned long long apply_buoyancy();
+  unsigned long long apply_quadratic_drag();
+  unsigned long long apply_stokes_drag();
+
+  double step_;
+  Vector3 gravity_ = Vector3::Zero();
+  std::optional<QuadraticDrag> quadratic_drag_;
+  std::optional<StokesDrag> stokes_drag_;
+  std::optional<Buoyancy> buoyancy_;
+  std::vector<Listed> passes_;
+  std::vector<Entry> bodies_;
+};
+
+}  // namespace supernormal::effects

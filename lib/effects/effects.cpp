@@ -1,0 +1,156 @@
+#include "supernormal/effects.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "effects/body_forces.hpp"
+#include "effects/law.hpp"
+#include "effects/validate.hpp"
+#include "ode/require.hpp"
+
+namespace supernormal::effects {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Sets one parameter of the world for each effect of the world.
+class WorldWriter {
+ public:
+  WorldWriter(dWorldID world, double step) : world_(world), step_(step) {}
+
+  void operator()(const Gravity& e) const {
+    dWorldSetGravity(world_, real(e.acceleration.x()), real(e.acceleration.y()), real(e.acceleration.z()));
+  }
+  void operator()(const Damping& e) const {
+    // ODE multiplies by 1 - scale in every step in which a velocity is above the threshold.
+    dWorldSetLinearDampingThreshold(world_, 0);
+    dWorldSetAngularDampingThreshold(world_, 0);
+    dWorldSetLinearDamping(world_, real(-std::expm1(-e.linear * step_)));
+    dWorldSetAngularDamping(world_, real(-std::expm1(-e.angular * step_)));
+  }
+  void operator()(const AutoDisable& e) const {
+    dWorldSetAutoDisableFlag(world_, 1);
+    dWorldSetAutoDisableLinearThreshold(world_, real(e.linear));
+    dWorldSetAutoDisableAngularThreshold(world_, real(e.angular));
+    dWorldSetAutoDisableTime(world_, real(e.time));
+    dWorldSetAutoDisableSteps(world_, e.samples);
+    dWorldSetAutoDisableAverageSamplesCount(world_, static_cast<unsigned>(e.samples));
+  }
+  void operator()(const MaxCorrectingVelocity& e) const { dWorldSetContactMaxCorrectingVel(world_, real(e.velocity)); }
+  void operator()(const SurfaceLayer& e) const { dWorldSetContactSurfaceLayer(world_, real(e.depth)); }
+  template <typename Other>
+  void operator()(const Other& /*effect*/) const {}
+
+ private:
+  static dReal real(double value) { return static_cast<dReal>(value); }
+  dWorldID world_;
+  double step_;
+};
+
+std::vector<Effect> validated(const std::vector<Effect>& list) {
+  require_valid(list);
+  return list;
+}
+
+bool is_same_normal(const dContact& a, const dContact& b) { return std::equal(a.geom.normal, a.geom.normal + 3, b.geom.normal); }
+
+}  // namespace
+
+struct Effects::State {
+  State(const std::vector<Effect>& effects, double duration)
+      : list(validated(effects)), step(ode::require_positive("step", duration, "s")), laws(list), forces(list, step) {}
+
+  /// Adds the time of a piece of work to an effect's, if asked to.
+  template <typename Work>
+  void timed(EffectIndex effect, const Work& work) {
+    if (!is_measuring) return work();
+    const Clock::time_point start = Clock::now();
+    work();
+    seconds[effect] += std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  int run_passes(Law& law, std::span<dContact> contacts);
+
+  std::vector<Effect> list;
+  double step;
+  Laws laws;
+  BodyForces forces;
+  bool is_measuring = false;
+  std::array<double, std::variant_size_v<Effect>> seconds{};
+  std::array<unsigned long long, std::variant_size_v<Effect>> visits{};
+};
+
+// One pass after the other over the contacts with the same normal, which follow one another; those to be attached move to the
+// front.
+int Effects::State::run_passes(Law& law, std::span<dContact> contacts) {
+  std::size_t kept = 0;
+  for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
+    while (end < contacts.size() && is_same_normal(contacts[first], contacts[end])) ++end;
+    Patch patch{contacts.subspan(first, end - first), step, static_cast<int>(end - first)};
+    for (const Pass& pass : law.passes) timed(pass.effect, [&] { pass.run(law, patch); });
+    law.coarse += static_cast<unsigned long long>(patch.coarse);
+    for (int k = 0; k < patch.kept; ++k, ++kept) {
+      const std::size_t from = first + static_cast<std::size_t>(k);
+      if (from != kept) std::swap(contacts[from], contacts[kept]);
+    }
+  }
+  return static_cast<int>(kept);
+}
+
+Effects::Effects(const std::vector<Effect>& list, double step) : state_(std::make_unique<State>(list, step)) {}
+Effects::~Effects() = default;
+Effects::Effects(Effects&&) noexcept = default;
+Effects& Effects::operator=(Effects&&) noexcept = default;
+
+void Effects::set_up(dWorldID world) const {
+  for (const Effect& effect : state_->list) std::visit(WorldWriter(world, state_->step), effect);
+}
+
+int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, Material material2) {
+  Law& law = state_->laws.of(material1, material2);
+  for (dContact& contact : contacts) contact.surface = law.surface;
+  const int kept = law.passes.empty() ? static_cast<int>(contacts.size()) : state_->run_passes(law, contacts);
+  law.contacts += static_cast<unsigned long long>(kept);
+  return kept;
+}
+
+bool Effects::visits_bodies() const { return !state_->forces.is_empty(); }
+
+void Effects::add_body(dBodyID body) {
+  if (visits_bodies()) state_->forces.add(body);
+}
+
+void Effects::remove_body(dBodyID body) { state_->forces.remove(body); }
+
+void Effects::apply_forces() {
+  for (const BodyForces::Listed& pass : state_->forces.passes()) {
+    state_->timed(pass.effect, [&] { state_->visits[pass.effect] += (state_->forces.*pass.run)(); });
+  }
+}
+
+void Effects::measure() { state_->is_measuring = true; }
+
+std::vector<Cost> Effects::costs() const {
+  std::vector<Cost> costs = {{.name = "rigid_contact"}};
+  for (const Law& law : state_->laws.all()) costs.front().contacts += law.contacts;
+  costs.front().rows = costs.front().contacts;
+  for (EffectIndex index = 0; index < std::variant_size_v<Effect>; ++index) {
+    const bool is_listed = std::ranges::any_of(state_->list, [&](const Effect& effect) { return effect.index() == index; });
+    if (!is_listed) continue;
+    Cost cost{.name = descriptions()[index].name, .bodies = state_->visits[index], .seconds = state_->seconds[index]};
+    for (const Law& law : state_->laws.all()) {
+      if (std::ranges::find(law.listed, index) == law.listed.end()) continue;
+      cost.contacts += law.contacts;
+      cost.rows += law.contacts * static_cast<unsigned long long>(law.rows[index]);
+      if (index == law.spring) cost.coarse += law.coarse;
+    }
+    costs.push_back(cost);
+  }
+  return costs;
+}
+
+}  // namespace supernormal::effects

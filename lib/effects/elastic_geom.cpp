@@ -1,0 +1,59 @@
+#include "effects/elastic_geom.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "ode/body.hpp"
+#include "ode/convert.hpp"
+#include "supernormal/contact_curvature.hpp"
+#include "supernormal/shapes/sphere.hpp"
+
+namespace supernormal::effects {
+namespace {
+
+constexpr double kWall = 1e-3;  // sine of the largest angle between the normal of a wall and the cross-section
+
+Matrix3 curvature_of_wall(double radius, const Vector3& axis, const Vector3& n) {
+  const Vector3 around = axis.cross(n).normalized();
+  return around * around.transpose() / radius;
+}
+
+Vector3 axis_of(dGeomID geom) {
+  const Matrix3 rotation = ode::to_rotation(dGeomGetRotation(geom));
+  return rotation.col(2);
+}
+
+}  // namespace
+
+Matrix3 curvature_of(dGeomID geom, const Vector3& n) {
+  if (const ode::Body* const body = ode::find_body(geom)) return find_curvature(body->shape(), ode::pose_of(geom), n);
+  dReal radius = 0;
+  dReal length = 0;
+  switch (dGeomGetClass(geom)) {
+    case dSphereClass:
+      return find_curvature(Sphere(dGeomSphereGetRadius(geom)), {}, n);
+    case dCapsuleClass: {
+      dGeomCapsuleGetParams(geom, &radius, &length);
+      const Vector3 axis = axis_of(geom);
+      return std::abs(axis.dot(n)) < kWall ? curvature_of_wall(radius, axis, n) : find_curvature(Sphere(radius), {}, n);
+    }
+    case dCylinderClass: {
+      dGeomCylinderGetParams(geom, &radius, &length);
+      const Vector3 axis = axis_of(geom);
+      return std::abs(axis.dot(n)) < kWall ? curvature_of_wall(radius, axis, n) : Matrix3(Matrix3::Zero());
+    }
+    default:
+      return Matrix3::Zero();
+  }
+}
+
+double mean_half_extent(dGeomID geom) {
+  if (const ode::Body* const body = ode::find_body(geom)) return body->shape().half_extents().mean();
+  dReal box[6];
+  dGeomGetAABB(geom, box);
+  const double sum = double{box[1]} - box[0] + box[3] - box[2] + box[5] - box[4];
+  return std::isfinite(sum) ? sum / 6 : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace supernormal::effects

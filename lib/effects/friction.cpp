@@ -1,0 +1,90 @@
+// Coulomb friction within ODE's contact joint, whose two friction forces are limited one by one: a rectangle in the tangent plane.
+#include <cmath>
+
+#include "effects/slip.hpp"
+
+namespace supernormal::effects {
+namespace {
+
+constexpr double kNoSlip = 1e-150;  // m/s; below, there is no direction
+
+// 45 degrees from the slip, so that the corner of ODE's square of forces lies against it.
+void align_corner(const Slip& slip, dContact& contact) {
+  const Vector3 n = ode::to_vector(contact.geom.normal);
+  const Vector3 u = slip.at(contact);
+  const double speed = u.norm();
+  const Vector3 along = speed > kNoSlip ? Vector3(u / speed) : n.unitOrthogonal();
+  // Rounding has left a share along n, which ODE would take for a slanting direction.
+  Vector3 first = along + n.cross(along);
+  first -= n.dot(first) * n;
+  ode::from_vector(first.normalized(), contact.fdir1);
+}
+
+/// The direction in the world, of the body or, without one, of the geom.
+Vector3 world_direction(const Grain& grain, const dContactGeom& geom) {
+  const dGeomID carrier = grain.is_on_second ? geom.g2 : geom.g1;
+  const Vector3& d = grain.direction;
+  dVector3 world;
+  const auto real = [](double value) { return static_cast<dReal>(value); };
+  if (const dBodyID body = dGeomGetBody(carrier)) {
+    dBodyVectorToWorld(body, real(d.x()), real(d.y()), real(d.z()), world);
+  } else {
+    dGeomVectorToWorld(carrier, real(d.x()), real(d.y()), real(d.z()), world);
+  }
+  return ode::to_vector(world);
+}
+
+void set_ellipse(const Grain& grain, const Slip& slip, dContact& contact) {
+  const Vector3 n = ode::to_vector(contact.geom.normal);
+  Vector3 first = world_direction(grain, contact.geom);
+  first -= n.dot(first) * n;
+  // Looked at end on, the grain has no direction.
+  if (first.norm() < 1e-6 * grain.direction.norm()) first = n.unitOrthogonal();
+  first.normalize();
+  const Vector3 u = slip.at(contact);
+  Shares shares = Shares::towards(grain.along * first.dot(u), grain.across * n.cross(first).dot(u));
+  if (grain.along == 0 || grain.across == 0) shares = {1, 1};  // a line in place of the ellipse
+  ode::from_vector(first, contact.fdir1);
+  contact.surface.mu = static_cast<dReal>(grain.along * shares.first);
+  contact.surface.mu2 = static_cast<dReal>(grain.across * shares.second);
+}
+
+}  // namespace
+
+void align_friction(const Law& /*law*/, Patch& patch) {
+  const Slip slip(patch);
+  for (dContact& contact : patch.contacts) align_corner(slip, contact);
+}
+
+void align_anisotropic_friction(const Law& law, Patch& patch) {
+  const Slip slip(patch);
+  for (dContact& contact : patch.contacts) set_ellipse(law.grain, slip, contact);
+}
+
+// The axes are those of friction (fdir1). Torques are limited one by one too. At rest it is the torque of what pulls the bodies
+// along that would set them rolling, about the axis n x slip.
+void align_rolling(const Law& law, Patch& patch) {
+  const Slip slip(patch);
+  const Vector3 spin = spin_of(patch.body1()) - spin_of(patch.body2());
+  for (dContact& contact : patch.contacts) {
+    if ((contact.surface.mode & dContactFDir1) == 0) {
+      align_corner(slip, contact);
+      contact.surface.mode |= dContactFDir1;
+    }
+    if (law.rolling == 0) continue;
+    const Vector3 n = ode::to_vector(contact.geom.normal);
+    const Vector3 first = ode::to_vector(contact.fdir1);
+    double radius = INFINITY;
+    for (const dBodyID body : {patch.body1(), patch.body2()}) {
+      if (body == nullptr) continue;
+      radius = std::min(radius, (ode::to_vector(contact.geom.pos) - ode::to_vector(dBodyGetPosition(body))).norm());
+    }
+    const Vector3 onset = radius > 0 && std::isfinite(radius) ? Vector3(n.cross(slip.at(contact)) / radius) : Vector3::Zero();
+    const Vector3 turn = spin + onset;
+    const Shares shares = Shares::towards(turn.dot(first), turn.dot(n.cross(first)));
+    contact.surface.rho = static_cast<dReal>(law.rolling * shares.first);
+    contact.surface.rho2 = static_cast<dReal>(law.rolling * shares.second);
+  }
+}
+
+}  // namespace supernormal::effects

@@ -1,0 +1,91 @@
+#include "effects/hertz.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace supernormal::effects {
+namespace {
+
+struct EllipticIntegrals {
+  double K, E;
+};
+
+/// Complete ones of the ellipse with axis ratio k' = b/a, by the arithmetic-geometric mean (Abramowitz and Stegun, 17.6).
+EllipticIntegrals elliptic_integrals(double axis_ratio) {
+  double a = 1;
+  double b = axis_ratio;
+  double sum = 0.5 * (1 - axis_ratio * axis_ratio);
+  double weight = 1;
+  for (int i = 0; i < 12 && std::abs(a - b) > 1e-16 * a; ++i) {
+    const double c = 0.5 * (a - b);
+    const double mean = 0.5 * (a + b);
+    b = std::sqrt(a * b);
+    a = mean;
+    sum += weight * c * c;
+    weight *= 2;
+  }
+  const double K = std::numbers::pi / (2 * a);
+  return {K, K * (1 - sum)};
+}
+
+/// Rebound from an impact with mass, stiffness and velocity 1: x'' = -x^(3/2) - sqrt(5) b x^(1/4) x', by Runge-Kutta's method.
+double rebound(double b) {
+  constexpr double kStep = 0.002;
+  const double factor = std::sqrt(5.0) * b;
+  const auto force = [&](double x, double v) {
+    const double root = std::sqrt(std::fmax(x, 0));
+    return x * root + factor * std::sqrt(root) * v;
+  };
+  double x = 0;
+  double v = 1;
+  // From x = 0 the damper starts with an infinite slope; the first step is exact without it, and short.
+  x = 1e-6;
+  while (true) {
+    const double f1 = force(x, v);
+    if (f1 <= 0) return -v;
+    const double f2 = force(x + 0.5 * kStep * v, v - 0.5 * kStep * f1);
+    const double f3 = force(x + 0.5 * kStep * (v - 0.5 * kStep * f1), v - 0.5 * kStep * f2);
+    const double f4 = force(x + kStep * (v - 0.5 * kStep * f2), v - kStep * f3);
+    x += kStep * (v - kStep / 6 * (f1 + f2 + f3));
+    v -= kStep / 6 * (f1 + 2 * f2 + 2 * f3 + f4);
+  }
+}
+
+}  // namespace
+
+double hertz_correction(double ratio) {
+  if (ratio < 1 + 1e-6) return 1;
+  // (a/b)^2 E - K = ratio (K - E), solved for the axis ratio; nearly a power law, so by secants of the logarithms.
+  const auto excess = [&](double log_axes) {
+    const double k = std::exp(log_axes);
+    const auto [K, E] = elliptic_integrals(k);
+    return std::log((E / (k * k) - K) / (K - E)) - std::log(ratio);
+  };
+  double x = -2.0 / 3 * std::log(ratio);
+  double f = excess(x);
+  double slope = -1.6;
+  for (int i = 0; i < 30 && std::abs(f) > 1e-10; ++i) {
+    const double step = -f / slope;
+    const double next = excess(x + step);
+    slope = (next - f) / step;
+    x += step;
+    f = next;
+  }
+  const double k = std::exp(x);
+  const auto [K, E] = elliptic_integrals(k);
+  const double F1 = std::cbrt(4 / (std::numbers::pi * (1 - k * k)) * k * std::sqrt(k) * std::sqrt((E / (k * k) - K) * (K - E)));
+  return 2 / std::numbers::pi * std::sqrt(k) / F1 * K;
+}
+
+double hertz_damping_ratio(double restitution) {
+  if (restitution >= 1) return 0;
+  double low = 0;
+  double high = 4;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (rebound(middle) > restitution ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace supernormal::effects

@@ -1,0 +1,240 @@
+#include "effects/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "effects/hertz.hpp"
+
+namespace supernormal::effects {
+namespace {
+
+constexpr Material kOther = -2;  // one that is not listed
+
+template <typename E>
+constexpr EffectIndex index_of() {
+  EffectIndex index = 0;
+  [&]<std::size_t... kIs>(std::index_sequence<kIs...>) {
+    ((std::is_same_v<E, std::variant_alternative_t<kIs, Effect>> ? (index = kIs, true) : false) || ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Effect>>());
+  return index;
+}
+
+/// The entries of one effect in the list.
+template <typename E>
+class Entries {
+ public:
+  explicit Entries(const std::vector<Effect>& list) : list_(list) {}
+
+  /// Listed for the pair itself.
+  const E* between(Material a, Material b) const {
+    return find([&](const Surfaces& on) {
+      return on.is_pair() && ((on.first() == a && on.second() == b) || (on.first() == b && on.second() == a));
+    });
+  }
+  /// Listed for the material, or for all.
+  const E* of(Material m) const {
+    const E* const own = own_of(m);
+    return own != nullptr ? own : find([](const Surfaces& on) { return on.is_all(); });
+  }
+  const E* own_of(Material m) const {
+    return find([&](const Surfaces& on) { return !on.is_all() && !on.is_pair() && on.first() == m; });
+  }
+
+ private:
+  template <typename Predicate>
+  const E* find(const Predicate& is_wanted) const {
+    for (const Effect& effect : list_) {
+      const E* const entry = std::get_if<E>(&effect);
+      if (entry != nullptr && is_wanted(entry->on)) return entry;
+    }
+    return nullptr;
+  }
+  const std::vector<Effect>& list_;
+};
+
+double geometric(double a, double b) { return std::sqrt(a) * std::sqrt(b); }
+double in_series(double a, double b) { return a > 0 && b > 0 ? 1 / (1 / a + 1 / b) : 0; }
+
+Friction combined(const Friction& a, const Friction& b) { return {geometric(a.coefficient, b.coefficient), {}}; }
+RollingResistance combined(const RollingResistance& a, const RollingResistance& b) {
+  return {geometric(a.rolling, b.rolling), geometric(a.spinning, b.spinning), {}};
+}
+Restitution combined(const Restitution& a, const Restitution& b) {
+  return {geometric(a.coefficient, b.coefficient), std::max(a.threshold, b.threshold), {}};
+}
+Adhesion combined(const Adhesion& a, const Adhesion& b) { return {geometric(a.pull_off, b.pull_off), {}}; }
+
+/// What a pair of materials has of an effect that both must have.
+template <typename E>
+std::optional<E> find_common(const std::vector<Effect>& list, Material a, Material b) {
+  const Entries<E> entries(list);
+  if (const E* const pair = entries.between(a, b)) return *pair;
+  const E* const first = entries.of(a);
+  const E* const second = entries.of(b);
+  if (first == nullptr || second == nullptr) return std::nullopt;
+  return combined(*first, *second);
+}
+
+/// Writes the law of one ordered pair.
+class LawWriter {
+ public:
+  LawWriter(const std::vector<Effect>& list, Material a, Material b, Law& law) : list_(list), a_(a), b_(b), law_(law) {}
+
+  // Adhesion adds to the forces that friction foresees; springs come last, they sort the contacts.
+  void write() {
+    write_adhesion();
+    if (!write_anisotropic_friction()) write_friction();
+    write_rolling();
+    write_restitution();
+    write_compliance();
+    write_hertz();
+  }
+
+ private:
+  template <typename E>
+  void add(int rows, void (*pass)(const Law&, Patch&)) {
+    constexpr EffectIndex kIndex = index_of<E>();
+    law_.listed.push_back(kIndex);
+    law_.rows[kIndex] = rows;
+    if (pass != nullptr) law_.passes.push_back({kIndex, pass});
+  }
+
+  void write_adhesion() {
+    const auto found = find_common<Adhesion>(list_, a_, b_);
+    if (!found) return;
+    law_.pull_off = found->pull_off;
+    law_.surface.mode |= dContactMotionN;
+    add<Adhesion>(0, add_adhesion);
+  }
+
+  void write_friction() {
+    const auto found = find_common<Friction>(list_, a_, b_);
+    if (!found) return;
+    // Approx1: a coefficient; without it ODE takes mu for a force in newtons. A square that fits into the circle.
+    law_.surface.mode |= dContactApprox1 | dContactFDir1;
+    law_.surface.mu = law_.surface.mu2 = static_cast<dReal>(found->coefficient * std::sqrt(0.5));
+    add<Friction>(2, align_friction);
+  }
+
+  bool write_anisotropic_friction() {
+    const Entries<AnisotropicFriction> entries(list_);
+    const AnisotropicFriction* found = entries.between(a_, b_);
+    bool on_second = found != nullptr && found->on.first() != a_;
+    if (found == nullptr) {
+      const AnisotropicFriction* const first = entries.of(a_);
+      const AnisotropicFriction* const second = entries.of(b_);
+      on_second = first == nullptr || (second != nullptr && b_ < a_);
+      found = on_second ? second : first;
+    }
+    if (found == nullptr) return false;
+    law_.grain = {found->along, found->across, found->direction, on_second};
+    law_.surface.mode |= dContactApprox1 | dContactFDir1 | dContactMu2;
+    add<AnisotropicFriction>((found->along > 0 ? 1 : 0) + (found->across > 0 ? 1 : 0), align_anisotropic_friction);
+    return true;
+  }
+
+  void write_rolling() {
+    const auto found = find_common<RollingResistance>(list_, a_, b_);
+    if (!found || (found->rolling == 0 && found->spinning == 0)) return;
+    law_.rolling = found->rolling;
+    law_.spinning = found->spinning;
+    // ODE makes a dead row for a coefficient of 0 and none for a negative one.
+    law_.surface.mode |= dContactApprox1 | dContactRolling | dContactMu2;
+    law_.surface.rho = law_.surface.rho2 = static_cast<dReal>(found->rolling > 0 ? found->rolling : -1);
+    law_.surface.rhoN = static_cast<dReal>(found->spinning > 0 ? found->spinning : -1);
+    add<RollingResistance>((found->rolling > 0 ? 2 : 0) + (found->spinning > 0 ? 1 : 0), align_rolling);
+  }
+
+  void write_restitution() {
+    const auto found = find_common<Restitution>(list_, a_, b_);
+    if (!found) return;
+    law_.surface.mode |= dContactBounce;
+    law_.surface.bounce = static_cast<dReal>(found->coefficient);
+    law_.surface.bounce_vel = static_cast<dReal>(found->threshold);
+    add<Restitution>(0, nullptr);
+  }
+
+  void write_compliance() {
+    const Entries<Compliance> entries(list_);
+    const Compliance* const pair = entries.between(a_, b_);
+    const Compliance* const first = pair != nullptr ? pair : entries.of(a_);
+    const Compliance* const second = pair != nullptr ? pair : entries.of(b_);
+    if (first == nullptr && second == nullptr) return;
+    require_alone("compliance", "restitution", dContactBounce, "its damping decides how it rebounds");
+    const bool two_springs = first != nullptr && second != nullptr && first != second;
+    const Compliance& one = first != nullptr ? *first : *second;
+    law_.stiffness = two_springs ? in_series(first->stiffness, second->stiffness) : one.stiffness;
+    law_.damping = two_springs ? in_series(first->damping, second->damping) : one.damping;
+    make_soft(index_of<Compliance>());
+    add<Compliance>(0, set_spring);
+  }
+
+  void write_hertz() {
+    const Entries<Hertz> entries(list_);
+    const Hertz* const pair = entries.between(a_, b_);
+    const Hertz* const first = pair != nullptr ? pair : entries.of(a_);
+    const Hertz* const second = pair != nullptr ? pair : entries.of(b_);
+    if (first == nullptr && second == nullptr) return;
+    require_alone("hertz", "restitution", dContactBounce, "it has one of its own");
+    require_alone("hertz", "compliance", dContactSoftCFM, "both are the spring of the contact");
+    const auto softness = [](const Hertz* e) {
+      return e == nullptr ? 0 : (1 - e->poisson_ratio * e->poisson_ratio) / e->youngs_modulus;
+    };
+    const auto restitution = [](const Hertz* e) { return e == nullptr ? 1 : e->restitution; };
+    law_.elastic_modulus = 1 / (softness(first) + softness(second));
+    const bool two = first != nullptr && second != nullptr;
+    const double e = two ? geometric(first->restitution, second->restitution) : restitution(first) * restitution(second);
+    law_.damping_ratio = hertz_damping_ratio(e);
+    make_soft(index_of<Hertz>());
+    add<Hertz>(0, set_hertz);
+  }
+
+  // The target velocity is given as it is (motionN); ODE adds none for the depth.
+  void make_soft(EffectIndex spring) {
+    law_.spring = spring;
+    law_.surface.mode |= dContactSoftERP | dContactSoftCFM | dContactMotionN;
+    law_.surface.soft_erp = 0;
+  }
+
+  void require_alone(const char* name, const char* other, int mode_of_other, const char* why) const {
+    if ((law_.surface.mode & mode_of_other) == 0) return;
+    const auto text = [](Material m) { return m == kOther ? std::string("the others") : std::to_string(m); };
+    throw std::invalid_argument(std::string(name) + " and " + other + " are both listed for contacts of materials " + text(a_) +
+                                " and " + text(b_) + "; " + name + " must be without " + other + ": " + why);
+  }
+
+  const std::vector<Effect>& list_;
+  Material a_, b_;
+  Law& law_;
+};
+
+Material last_listed(const std::vector<Effect>& list) {
+  Material last = -1;
+  for (const Effect& effect : list) {
+    std::visit(
+        [&](const auto& e) {
+          if constexpr (requires { e.on; }) last = std::max({last, e.on.first(), e.on.second()});
+        },
+        effect);
+  }
+  return last;
+}
+
+}  // namespace
+
+Laws::Laws(const std::vector<Effect>& list) : size_(static_cast<std::size_t>(last_listed(list) + 2)), laws_(size_ * size_) {
+  const auto material = [&](std::size_t slot) { return slot + 1 == size_ ? kOther : static_cast<Material>(slot); };
+  for (std::size_t row = 0; row < size_; ++row) {
+    for (std::size_t column = 0; column < size_; ++column) {
+      LawWriter(list, material(row), material(column), laws_[row * size_ + column]).write();
+    }
+  }
+}
+
+}  // namespace supernormal::effects

@@ -1,0 +1,96 @@
+// What a pair of materials makes of its contacts.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "supernormal/effects.hpp"
+
+namespace supernormal::effects {
+
+/// The place of an effect in Effect, which is also its place in descriptions().
+using EffectIndex = std::size_t;
+
+struct Law;
+
+/// Contacts of one pair with the same normal: the deepest point and the corners that share its load.
+struct Patch {
+  std::span<dContact> contacts;
+  double step;     ///< s
+  int kept;        ///< contacts to be attached; a pass may move others behind them
+  int coarse = 0;  ///< of them, compliant ones with too few steps
+
+  dContact& deepest() const { return contacts.front(); }
+  /// Our corners have depth 0, and the deepest point lies anywhere between them: what the contacts share equally is shared by the
+  /// corners alone, so that it acts in the middle. Of ODE's own pairs all bear.
+  bool has_corners() const { return contacts.size() > 1 && contacts.back().geom.depth == 0; }
+  bool bears(const dContact& contact) const { return !has_corners() || &contact != &contacts.front(); }
+  double bearers() const { return static_cast<double>(contacts.size() - (has_corners() ? 1 : 0)); }
+  dBodyID body1() const { return dGeomGetBody(contacts.front().geom.g1); }
+  dBodyID body2() const { return dGeomGetBody(contacts.front().geom.g2); }
+};
+
+struct Pass {
+  EffectIndex effect;
+  void (*run)(const Law& law, Patch& patch);
+};
+
+/// What depends on the direction of slip on one of the bodies.
+struct Grain {
+  double along = 0;
+  double across = 0;
+  Vector3 direction = Vector3::UnitX();
+  bool is_on_second = false;  ///< fixed to the body of geom.g2
+};
+
+struct Law {
+  dSurfaceParameters surface{};  ///< that all contacts start from
+  Grain grain;
+  double rolling = 0;                      ///< m
+  double spinning = 0;                     ///< m
+  EffectIndex spring = std::variant_npos;  ///< the effect that makes the contact soft, if any
+  double stiffness = 0;                    ///< N/m
+  double damping = 0;                      ///< N s/m
+  double elastic_modulus = 0;              ///< E*, Pa
+  double damping_ratio = 0;                ///< b of Hertz
+  double pull_off = 0;                     ///< N
+
+  std::vector<Pass> passes;                             ///< that contacts need besides
+  std::vector<EffectIndex> listed;                      ///< that have a share in this law
+  std::array<int, std::variant_size_v<Effect>> rows{};  ///< that each adds to a contact
+  unsigned long long contacts = 0;                      ///< set up so far
+  unsigned long long coarse = 0;
+};
+
+/// Laws for all ordered pairs of materials: one row and one column for each material up to the largest that is listed, and one
+/// more for all others.
+class Laws {
+ public:
+  /// std::invalid_argument when two effects of a pair exclude each other.
+  explicit Laws(const std::vector<Effect>& list);
+
+  Law& of(Material material1, Material material2) { return laws_[slot(material1) * size_ + slot(material2)]; }
+  const std::vector<Law>& all() const { return laws_; }
+
+ private:
+  std::size_t slot(Material material) const {
+    const auto number = static_cast<std::size_t>(material);  // a negative one is a large number
+    return number < size_ ? number : size_ - 1;
+  }
+  std::size_t size_ = 1;
+  std::vector<Law> laws_;
+};
+
+// The passes: friction.cpp, rolling.cpp, compliance.cpp, adhesion.cpp.
+void align_friction(const Law& law, Patch& patch);
+void align_anisotropic_friction(const Law& law, Patch& patch);
+void align_rolling(const Law& law, Patch& patch);
+void set_spring(const Law& law, Patch& patch);
+void set_hertz(const Law& law, Patch& patch);
+void add_adhesion(const Law& law, Patch& patch);
+
+}  // namespace supernormal::effects

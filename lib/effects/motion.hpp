@@ -1,0 +1,47 @@
+// How bodies move, as far as the passes ask.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <Eigen/Geometry>
+
+#include "ode/convert.hpp"
+
+namespace supernormal::effects {
+
+/// m/s^2, of what is known before the step: the forces so far and gravity. `body` may be 0, a wall.
+inline Vector3 acceleration_of(dBodyID body) {
+  if (body == nullptr || dBodyIsKinematic(body) != 0) return Vector3::Zero();
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  Vector3 acceleration = ode::to_vector(dBodyGetForce(body)) / mass.mass;
+  if (dBodyGetGravityMode(body) != 0) {
+    dVector3 gravity;
+    dWorldGetGravity(dBodyGetWorld(body), gravity);
+    acceleration += ode::to_vector(gravity);
+  }
+  return acceleration;
+}
+
+inline Vector3 velocity_at(dBodyID body, const Vector3& point) {
+  if (body == nullptr) return Vector3::Zero();
+  const Vector3 lever = point - ode::to_vector(dBodyGetPosition(body));
+  return ode::to_vector(dBodyGetLinearVel(body)) + ode::to_vector(dBodyGetAngularVel(body)).cross(lever);
+}
+
+inline Vector3 spin_of(dBodyID body) {
+  return body == nullptr ? Vector3(Vector3::Zero()) : ode::to_vector(dBodyGetAngularVel(body));
+}
+
+/// 1/kg: by how much a unit impulse along n at `point` changes the velocity of the point along n.
+inline double mobility(dBodyID body, const Vector3& point, const Vector3& n) {
+  if (body == nullptr || dBodyIsKinematic(body) != 0) return 0;
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  const Matrix3 rotation = ode::to_rotation(dBodyGetRotation(body));
+  const Vector3 arm = rotation.transpose() * (point - ode::to_vector(dBodyGetPosition(body))).cross(n);
+  const Matrix3 inertia = ode::to_rotation(mass.I);
+  return 1 / double{mass.mass} + arm.dot(inertia.inverse() * arm);
+}
+
+}  // namespace supernormal::effects

@@ -1,0 +1,46 @@
+// The slip that a step would bring to a contact without friction: what friction opposes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/law.hpp"
+#include "effects/motion.hpp"
+
+namespace supernormal::effects {
+
+class Slip {
+ public:
+  explicit Slip(const Patch& patch)
+      : body1_(patch.body1()), body2_(patch.body2()), gain_(patch.step * (acceleration_of(body1_) - acceleration_of(body2_))) {}
+
+  /// m/s, tangential, of body 1 against body 2.
+  Vector3 at(const dContact& contact) const {
+    const Vector3 point = ode::to_vector(contact.geom.pos);
+    const Vector3 n = ode::to_vector(contact.geom.normal);
+    const Vector3 velocity = velocity_at(body1_, point) - velocity_at(body2_, point) + gain_;
+    return velocity - n.dot(velocity) * n;
+  }
+
+ private:
+  dBodyID body1_;
+  dBodyID body2_;
+  Vector3 gain_;
+};
+
+/// Shares of a limit for two perpendicular directions, squares that sum to one: a rectangle in the unit circle whose corner is as
+/// near to (x, y) as it gets while neither side is shorter than a tenth.
+struct Shares {
+  double first, second;
+
+  static Shares towards(double x, double y) {
+    constexpr double kLeast = 0.1;
+    const double length = std::hypot(x, y);
+    if (!(length > 1e-150)) return {std::sqrt(0.5), std::sqrt(0.5)};
+    const double most = std::sqrt(1 - kLeast * kLeast);
+    const double first = std::clamp(std::abs(x) / length, kLeast, most);
+    return {first, std::sqrt(1 - first * first)};
+  }
+};
+
+}  // namespace supernormal::effects

@@ -1,0 +1,131 @@
+// What is not named costs nothing: rows, visits and digits.
+#include <doctest/doctest.h>
+
+#include <Eigen/SVD>
+
+#include "effects/effects_world.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr double kStep = 1e-3;
+
+/// Wrenches of a contact about its point, one a column, from many states of motion: as many dimensions as it has live rows.
+int live_rows(const std::vector<fx::Effect>& list) {
+  OdeSession session;
+  std::vector<fx::Effect> with_gravity = list;
+  with_gravity.emplace_back(earth());
+  EffectsWorld scene(with_gravity, kStep);
+  scene.world.add_plane();
+  const dBodyID ball = scene.add_ball(0.05, 1000, {0, 0, 0});
+  Random random(9);
+  Eigen::Matrix<double, 6, 60> wrenches;
+  for (int i = 0; i < wrenches.cols(); ++i) {
+    dBodySetPosition(ball, 0, 0, dReal(0.0499));
+    turn(ball, {0, 0, 1}, 0);  // and with it what is fixed to the body
+    const Vec v = random.direction();
+    const Vec w = 20.0 * random.direction();
+    dBodySetLinearVel(ball, dReal(v[0]), dReal(v[1]), dReal(-0.1));
+    dBodySetAngularVel(ball, dReal(w[0]), dReal(w[1]), dReal(w[2]));
+    scene.step();
+    REQUIRE(scene.loads.size() == 1);
+    const Load& load = scene.loads.front();
+    for (int k = 0; k < 3; ++k) {
+      wrenches(k, i) = load.force[static_cast<std::size_t>(k)];
+      wrenches(3 + k, i) = load.torque[static_cast<std::size_t>(k)] / 0.05;
+    }
+  }
+  const auto sizes = wrenches.jacobiSvd().singularValues();
+  return static_cast<int>((sizes.array() > 1e-6 * sizes[0]).count());
+}
+
+unsigned long long rows_of(const fx::Effects& effects) {
+  unsigned long long rows = 0;
+  for (const fx::Cost& cost : effects.costs()) rows += cost.rows;
+  return rows;
+}
+
+/// A few bodies that fall on one another; their velocities at the end.
+std::vector<double> tumble(const std::vector<fx::Effect>& list, const std::function<fx::Material(dGeomID)>& material_of) {
+  OdeSession session;
+  EffectsWorld scene(list, kStep);
+  scene.material_of = material_of;
+  scene.world.add_plane();
+  std::vector<dBodyID> bodies;
+  Random random(4);
+  for (int i = 0; i < 4; ++i) {
+    const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.08), dReal(0.05), dReal(2 + i), 3);
+    random.turn(geom);
+    bodies.push_back(scene.add(geom, 1000, {0.03 * i, 0, 0.15 + 0.15 * i}));
+  }
+  scene.run_until(0.6);
+  std::vector<double> digits;
+  for (const dBodyID body : bodies) {
+    for (const Vec& v : {to_vec(dBodyGetLinearVel(body)), to_vec(dBodyGetAngularVel(body)), to_vec(dBodyGetPosition(body))}) {
+      digits.insert(digits.end(), v.begin(), v.end());
+    }
+  }
+  return digits;
+}
+
+}  // namespace
+
+TEST_CASE("a contact has the rows of what is named and no more") {
+  const fx::Friction friction{0.5, {}};
+  CHECK(live_rows({}) == 1);
+  CHECK(live_rows({fx::Restitution{0.5, 0, {}}}) == 1);
+  CHECK(live_rows({fx::Compliance{1e5, 10, {}}}) == 1);
+  CHECK(live_rows({fx::Hertz{1e7, 0.3, 0.8, {}}}) == 1);
+  CHECK(live_rows({fx::Adhesion{1, {}}}) == 1);
+  CHECK(live_rows({friction}) == 3);
+  CHECK(live_rows({fx::AnisotropicFriction{0.5, 0.2, {1, 0, 0}, {}}}) == 3);
+  CHECK(live_rows({fx::AnisotropicFriction{0.5, 0, {1, 0, 0}, {}}}) == 2);
+  CHECK(live_rows({friction, fx::RollingResistance{0, 0.005, {}}}) == 4);
+  CHECK(live_rows({friction, fx::RollingResistance{0.005, 0, {}}}) == 5);
+  CHECK(live_rows({friction, fx::RollingResistance{0.005, 0.005, {}}}) == 6);
+}
+
+TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and the rows counted are those asked for") {
+  fx::Effects smooth({fx::Friction{0.5, fx::Surfaces::of(1)}}, kStep);
+  OdeSession session;
+  Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
+  place(ball, {0, 0, 0.99});
+  std::array<dContact, 1> contact{};
+  REQUIRE(dCollide(ball, plane, 1, &contact[0].geom, sizeof(dContact)) == 1);
+  CHECK(smooth.set_up_contacts(contact, 0, 1) == 1);
+  CHECK(contact[0].surface.mode == 0);
+  CHECK(contact[0].surface.mu == 0);
+  CHECK(smooth.set_up_contacts(contact, 1, 1) == 1);
+  CHECK((contact[0].surface.mode & dContactRolling) == 0);
+  CHECK(contact[0].surface.mu > 0);
+  CHECK(rows_of(smooth) == 1 + 3);
+}
+
+TEST_CASE("a list without forces visits no body and keeps nothing of it") {
+  OdeSession session;
+  EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kStep);
+  CHECK_FALSE(scene.effects.visits_bodies());
+  scene.effects.add_body(nullptr);  // not even looked at
+  for (const fx::Cost& cost : scene.effects.costs()) CHECK(cost.bodies == 0);
+  EffectsWorld dragged({fx::QuadraticDrag{1.2, 0.5}}, kStep);
+  CHECK(dragged.effects.visits_bodies());
+  dragged.add_ball(0.1, 1000, {0, 0, 0});
+  const dBodyID asleep = dragged.add_ball(0.1, 1000, {5, 0, 0});
+  dBodyDisable(asleep);
+  dragged.step();
+  CHECK(dragged.effects.costs().back().bodies == 1);
+}
+
+TEST_CASE("trajectories are the same to the bit with an effect that no contact has") {
+  const std::vector<fx::Effect> plain = {earth(), fx::Friction{0.5, {}}, fx::Restitution{0.3, 0.1, {}}};
+  std::vector<fx::Effect> more = plain;
+  more.emplace_back(fx::RollingResistance{0.01, 0.01, fx::Surfaces::of(7)});
+  more.emplace_back(fx::Adhesion{3, fx::Surfaces::between(7, 8)});
+  const auto all_zero = [](dGeomID) { return 0; };
+  const std::vector<double> digits = tumble(plain, all_zero);
+  CHECK(digits == tumble(plain, all_zero));
+  CHECK(digits == tumble(more, all_zero));
+  CHECK(digits != tumble(more, [](dGeomID) { return 7; }));
+}

@@ -1,0 +1,141 @@
+// A world with effects, stepped as a program would.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "ode/ode_world.hpp"
+#include "supernormal/effects.hpp"
+
+namespace supernormal::test {
+
+namespace fx = supernormal::effects;
+
+/// What a joint did to the first of its bodies.
+struct Load {
+  Vec force;   ///< N
+  Vec torque;  ///< N m, about the contact point
+  Vec normal;
+};
+
+class EffectsWorld {
+ public:
+  static constexpr int kRoom = 8;
+
+  EffectsWorld(const std::vector<fx::Effect>& list, double step) : effects(list, step), step_(step), joints_(dJointGroupCreate(0)) {
+    dWorldSetGravity(id(), 0, 0, 0);  // none unless it is listed
+    effects.set_up(id());
+  }
+  ~EffectsWorld() { dJointGroupDestroy(joints_); }
+  EffectsWorld(const EffectsWorld&) = delete;
+  EffectsWorld(EffectsWorld&&) = delete;
+  EffectsWorld& operator=(const EffectsWorld&) = delete;
+  EffectsWorld& operator=(EffectsWorld&&) = delete;
+
+  dWorldID id() const { return world.id(); }
+
+  /// A body of the density in kg/m^3 at a place.
+  dBodyID add(dGeomID geom, double density, const Vec& at) {
+    const dBodyID body = world.add(geom, density);
+    dBodySetPosition(body, dReal(at[0]), dReal(at[1]), dReal(at[2]));
+    effects.add_body(body);
+    return body;
+  }
+  dBodyID add_ball(double radius, double density, const Vec& at) {
+    return add(snCreateEllipsoid(world.space(), dReal(radius), dReal(radius), dReal(radius)), density, at);
+  }
+
+  void step() {
+    loads.clear();
+    feedback_.clear();
+    depth = 0;
+    dSpaceCollide(world.space(), this, near_callback);
+    effects.apply_forces();
+    dWorldQuickStep(id(), dReal(step_));
+    for (std::size_t i = 0; i < feedback_.size(); ++i) read(i);
+    dJointGroupEmpty(joints_);
+  }
+
+  /// Until something holds, or for a time at most (s); returns the time.
+  double run_until(
+      double longest, const std::function<bool()>& is_over = [] { return false; }) {
+    int steps = 0;
+    do {
+      step();
+      ++steps;
+    } while (steps * step_ < longest && !is_over());
+    return steps * step_;
+  }
+
+  World world;
+  fx::Effects effects;
+  std::function<fx::Material(dGeomID)> material_of = [](dGeomID) { return 0; };
+  std::vector<Load> loads;  ///< of the last step
+  double depth = 0;         ///< m, of its deepest contact
+
+ private:
+  struct Attached {
+    dJointFeedback feedback;
+    Vec point;
+    Vec normal;
+    bool is_first;  ///< whether body 1 of the joint is that of geom.g1
+    Vec centre;
+  };
+
+  static void near_callback(void* self, dGeomID o1, dGeomID o2) { static_cast<EffectsWorld*>(self)->collide(o1, o2); }
+
+  void collide(dGeomID o1, dGeomID o2) {
+    std::array<dContact, kRoom> found{};
+    const int count = dCollide(o1, o2, kRoom, &found[0].geom, sizeof(dContact));
+    if (count == 0) return;
+    const auto geom = found[0].geom;
+    const int kept = effects.set_up_contacts(std::span(found).first(static_cast<std::size_t>(count)), material_of(geom.g1),
+                                             material_of(geom.g2));
+    for (int i = 0; i < kept; ++i) attach(found[static_cast<std::size_t>(i)]);
+  }
+
+  void attach(const dContact& contact) {
+    const dBodyID body1 = dGeomGetBody(contact.geom.g1);
+    const dBodyID body2 = dGeomGetBody(contact.geom.g2);
+    const dJointID joint = dJointCreateContact(id(), joints_, &contact);
+    dJointAttach(joint, body1, body2);
+    const dBodyID first = body1 != nullptr ? body1 : body2;
+    feedback_.push_back(
+        {{}, to_vec(contact.geom.pos), to_vec(contact.geom.normal), body1 != nullptr, to_vec(dBodyGetPosition(first))});
+    dJointSetFeedback(joint, &feedback_.back().feedback);
+    depth = std::max(depth, double{contact.geom.depth});
+  }
+
+  // ODE writes the force on the body that is there into f1, also when only the second is.
+  void read(std::size_t i) {
+    const Attached& joint = feedback_[i];
+    const Vec force = to_vec(joint.feedback.f1);
+    const Vec lever = joint.point - joint.centre;
+    const Vec torque = to_vec(joint.feedback.t1) - cross(lever, force);
+    loads.push_back({force, torque, joint.is_first ? joint.normal : -1.0 * joint.normal});
+  }
+  static Vec cross(const Vec& a, const Vec& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+
+  double step_;
+  dJointGroupID joints_;
+  std::deque<Attached> feedback_;  // ODE keeps pointers to its elements
+};
+
+/// doctest's Approx adds 1 to the size of what it compares, which is no measure for lengths of micrometres.
+inline double relative_error(double value, double expected) { return std::abs(value - expected) / std::abs(expected); }
+
+inline fx::Cost cost_of(const fx::Effects& effects, const std::string& name) {
+  for (const fx::Cost& cost : effects.costs()) {
+    if (cost.name == name) return cost;
+  }
+  FAIL("no such cost: ", name);
+  return {};
+}
+
+inline fx::Gravity earth() { return {{0, 0, -kGravity}}; }
+
+}  // namespace supernormal::test

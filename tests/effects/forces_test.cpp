@@ -1,0 +1,181 @@
+// Forces on bodies, and adhesion, against closed forms.
+#include <doctest/doctest.h>
+
+#include "effects/effects_world.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr double kStep = 1e-3;
+
+double falling_speed(EffectsWorld& scene, dBodyID body, double time) {
+  scene.run_until(time);
+  return -dBodyGetLinearVel(body)[2];
+}
+
+}  // namespace
+
+TEST_CASE("terminal velocity under quadratic drag shows the area of the body itself") {
+  const double density = 1.2;
+  const double coefficient = 0.5;
+  const double a = 0.03;
+  const double b = 0.02;
+  const double c = 0.01;
+  const double mass = 1000 * 4.0 / 3 * std::numbers::pi * a * b * c;
+  OdeSession session;
+  EffectsWorld scene({earth(), fx::QuadraticDrag{density, coefficient}}, 0.02);
+  const dBodyID flat = scene.add(snCreateEllipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c)), 1000, {0, 0, 0});
+  const dBodyID tall = scene.add(snCreateEllipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c)), 1000, {1, 0, 0});
+  turn(tall, {0, 1, 0}, 90 * kDegree);
+  const dBodyID box =
+      scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c), 400, 400), 1000, {2, 0, 0});
+  const auto terminal = [&](double m, double area) { return std::sqrt(2 * m * kGravity / (density * coefficient * area)); };
+  scene.run_until(40);
+  CHECK(relative_error(-dBodyGetLinearVel(flat)[2], terminal(mass, std::numbers::pi * a * b)) < 1e-3);
+  CHECK(relative_error(-dBodyGetLinearVel(tall)[2], terminal(mass, std::numbers::pi * b * c)) < 1e-3);
+  CHECK(relative_error(-dBodyGetLinearVel(box)[2], terminal(8000 * a * b * c, 4 * a * b)) < 0.01);
+}
+
+TEST_CASE("terminal velocity under Stokes drag, and that a thick fluid does not throw bodies about") {
+  const double radius = 1e-3;
+  for (const double viscosity : {1.0, 1e4}) {  // the second stops a ball within a millionth of the step
+    OdeSession session;
+    EffectsWorld scene({earth(), fx::StokesDrag{viscosity}}, kStep);
+    const dBodyID ball = scene.add_ball(radius, 2500, {0, 0, 0});
+    dBodySetLinearVel(ball, 1, 0, 0);
+    const double expected = 2.0 / 9 * 2500 * kGravity * radius * radius / viscosity;
+    CHECK(relative_error(falling_speed(scene, ball, 0.2), expected) < 1e-6);
+    CHECK(std::abs(dBodyGetLinearVel(ball)[0]) < 1e-6);
+  }
+}
+
+TEST_CASE("Stokes drag of spheroids is near to Oberbeck's: 4 % at aspect ratio 2, 10 % at 4") {
+  // Clift, Grace and Weber, Bubbles, Drops, and Particles (1978), table 4.1: drag over that of the sphere of the equatorial radius.
+  struct Spheroid {
+    double aspect;  ///< polar over equatorial half-axis
+    bool along;     ///< the polar axis
+    double ratio;
+  };
+  const auto prolate_along = [](double e) {
+    const double root = std::sqrt(e * e - 1);
+    return 8.0 / 3 / ((2 * e * e - 1) / std::pow(root, 3) * std::log((e + root) / (e - root)) - 2 * e / (root * root));
+  };
+  const auto prolate_across = [](double e) {
+    const double root = std::sqrt(e * e - 1);
+    return 8.0 / 3 / ((2 * e * e - 3) / std::pow(root, 3) * std::log(e + root) + e / (root * root));
+  };
+  const auto oblate_along = [](double e) {
+    const double root = std::sqrt(1 - e * e);
+    return 8.0 / 3 / (2 * e / (root * root) + 2 * (1 - 2 * e * e) / std::pow(root, 3) * std::atan(root / e));
+  };
+  const std::vector<Spheroid> spheroids = {{2, true, prolate_along(2)},    {4, true, prolate_along(4)},
+                                           {2, false, prolate_across(2)},  {4, false, prolate_across(4)},
+                                           {0.5, true, oblate_along(0.5)}, {0.25, true, oblate_along(0.25)}};
+  const double radius = 1e-3;
+  for (const Spheroid& s : spheroids) {
+    CAPTURE(s.aspect);
+    CAPTURE(s.along);
+    OdeSession session;
+    EffectsWorld scene({earth(), fx::StokesDrag{10}}, kStep);
+    const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(radius), dReal(radius), dReal(radius * s.aspect));
+    const dBodyID body = scene.add(geom, 2500, {0, 0, 0});
+    if (!s.along) turn(body, {1, 0, 0}, 90 * kDegree);
+    const double drag = mass_of(body) * kGravity / falling_speed(scene, body, 0.1);
+    CHECK(relative_error(drag / (6 * std::numbers::pi * 10 * radius), s.ratio) < (s.aspect == 2 || s.aspect == 0.5 ? 0.04 : 0.1));
+  }
+}
+
+TEST_CASE("an ellipsoid floats at the depth of its density") {
+  // The share t = d / (2c) of the height below water solves 3 t^2 - 2 t^3 = density ratio.
+  const double c = 0.03;
+  for (const double ratio : {0.2, 0.5, 0.8}) {
+    CAPTURE(ratio);
+    double low = 0;
+    double high = 1;
+    for (int i = 0; i < 60; ++i) {
+      const double t = 0.5 * (low + high);
+      (3 * t * t - 2 * t * t * t < ratio ? low : high) = t;
+    }
+    OdeSession session;
+    const double level = 0.4;
+    EffectsWorld scene({earth(), fx::Buoyancy{1000, level}, fx::Damping{5, 5}}, 2e-3);
+    const dBodyID body =
+        scene.add(snCreateEllipsoid(scene.world.space(), dReal(0.06), dReal(0.05), dReal(c)), 1000 * ratio, {0, 0, level + 0.05});
+    turn(body, {1, 1, 0}, 20 * kDegree);  // rights itself
+    scene.run_until(6);
+    const double draught = level - (dBodyGetPosition(body)[2] - c);
+    CHECK(relative_error(draught, 2 * c * low) < 0.01);
+    CHECK(dBodyGetRotation(body)[10] > 0.9999);
+  }
+}
+
+TEST_CASE("what sinks weighs less by the fluid, and what is out of it all of its weight") {
+  OdeSession session;
+  EffectsWorld scene({earth(), fx::Buoyancy{1000, 0}}, kStep);
+  const dBodyID under =
+      scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(0.1), 6, 6), 4000, {0, 0, -1});
+  const dBodyID above = scene.add_ball(0.1, 4000, {1, 0, 5});
+  scene.step();
+  CHECK(relative_error(dBodyGetLinearVel(under)[2], -0.75 * kGravity * kStep) < 1e-6);
+  CHECK(relative_error(dBodyGetLinearVel(above)[2], -kGravity * kStep) < 1e-6);
+}
+
+TEST_CASE("damping decays exponentially, whatever the step") {
+  for (const double step : {1e-3, 0.05}) {
+    OdeSession session;
+    EffectsWorld scene({fx::Damping{2, 3}}, step);
+    const dBodyID ball = scene.add_ball(0.1, 1000, {0, 0, 0});
+    dBodySetLinearVel(ball, 1, 0, 0);
+    dBodySetAngularVel(ball, 0, 1, 0);
+    scene.run_until(1 - 0.5 * step);
+    CHECK(relative_error(dBodyGetLinearVel(ball)[0], std::exp(-2)) < 1e-6);
+    CHECK(relative_error(dBodyGetAngularVel(ball)[1], std::exp(-3)) < 1e-6);
+  }
+}
+
+TEST_CASE("a pull below the pull-off force holds, one above lets go") {
+  const double pull_off = 5;
+  struct Sticky {
+    bool flat;
+    fx::Effect contact;  ///< what else the contact has
+  };
+  for (const Sticky& sticky :
+       {Sticky{false, fx::Friction{0.5, {}}}, Sticky{true, fx::Friction{0.5, {}}}, Sticky{false, fx::Compliance{1e4, 60, {}}}}) {
+    for (const double part : {0.97, 1.03}) {
+      CAPTURE(sticky.flat);
+      CAPTURE(part);
+      OdeSession session;
+      EffectsWorld scene({earth(), fx::Adhesion{pull_off, {}}, sticky.contact}, kStep);
+      scene.world.add_plane();
+      const dReal e = sticky.flat ? 20 : 2;
+      const dBodyID body =
+          scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), e, e), 1000, {0, 0, 0.02});
+      scene.run_until(0.5);
+      double pull = 0;  // slowly: a spring that is let go at once jumps off
+      scene.run_until(1, [&] {
+        pull = std::min(pull + 0.01 * part * pull_off, mass_of(body) * kGravity + part * pull_off);
+        dBodyAddForce(body, 0, 0, dReal(pull));
+        return false;
+      });
+      CHECK((dBodyGetPosition(body)[2] > 0.021) == (part > 1));
+    }
+  }
+}
+
+TEST_CASE("adhesion counts as normal force for friction") {
+  // On a wall: the weight hangs on mu times the adhesion.
+  for (const double part : {0.95, 1.05}) {
+    OdeSession session;
+    EffectsWorld scene({fx::Friction{0.5, {}}, fx::Adhesion{4, {}}}, kStep);
+    scene.world.add_plane();
+    const dBodyID body =
+        scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), 20, 20), 1000, {0, 0, 0.02});
+    scene.run_until(0.1);
+    scene.run_until(0.5, [&] {
+      dBodyAddForceAtRelPos(body, dReal(part * 0.5 * 4), 0, 0, 0, 0, dReal(-0.02));
+      return false;
+    });
+    CHECK((dBodyGetPosition(body)[0] > 1e-3) == (part > 1));
+  }
+}

@@ -1,0 +1,226 @@
+// Rigid and elastic impacts against their closed forms.
+#include <doctest/doctest.h>
+
+#include "effects/effects_world.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr double kRadius = 0.01;   // m
+constexpr double kDensity = 2500;  // kg/m^3
+
+struct Impact {
+  double time = 0;     ///< s, in contact
+  double overlap = 0;  ///< m, the largest
+  double out = 0;      ///< m/s
+};
+
+/// A body without gravity flies down onto the plane z = 0 and off again.
+Impact impact(EffectsWorld& scene, dBodyID body, double speed, double step) {
+  dBodySetLinearVel(body, 0, 0, dReal(-speed));
+  Impact found;
+  bool touched = false;
+  scene.run_until(0.1, [&] {
+    if (scene.depth > 0) {
+      touched = true;
+      found.time += step;
+    }
+    found.overlap = std::max(found.overlap, scene.depth);
+    return touched && scene.depth == 0;
+  });
+  found.out = dBodyGetLinearVel(body)[2];
+  return found;
+}
+
+/// The force law F = k depth^(3/2) of a mass m that hits with v (Johnson, section 11.4).
+double hertz_overlap(double m, double k, double v) { return std::pow(1.25 * m * v * v / k, 0.4); }
+double hertz_time(double m, double k, double v) { return 2.9432675 * hertz_overlap(m, k, v) / v; }
+
+constexpr double kModulus = 5e7;  // Pa
+constexpr double kPoisson = 0.3;
+constexpr double kStar = kModulus / (1 - kPoisson * kPoisson);  // against a rigid plane
+
+}  // namespace
+
+TEST_CASE("a ball bounces to e^2 h") {
+  for (const double e : {0.5, 0.9}) {
+    OdeSession session;
+    const double height = 0.5;
+    EffectsWorld scene({earth(), fx::Restitution{e, 0.05, {}}}, 1e-4);
+    scene.world.add_plane();
+    const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + height});
+    const auto velocity = [&] { return double{dBodyGetLinearVel(ball)[2]}; };
+    double top = height;
+    for (int bounce = 0; bounce < 3; ++bounce) {
+      scene.run_until(1, [&] { return velocity() > 0; });
+      scene.run_until(1, [&] { return velocity() <= 0; });
+      const double reached = dBodyGetPosition(ball)[2] - kRadius;
+      CHECK(relative_error(reached, e * e * top) < 0.01);
+      top = reached;
+    }
+  }
+}
+
+TEST_CASE("below the threshold nothing bounces") {
+  OdeSession session;
+  EffectsWorld scene({fx::Restitution{0.8, 0.2, {}}}, 1e-3);
+  scene.world.add_plane();
+  const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius});
+  dBodySetLinearVel(ball, 0, 0, dReal(-0.19));
+  scene.run_until(0.01);
+  CHECK(dBodyGetLinearVel(ball)[2] < 0.05);  // what pushes the overlap of a step out
+  dBodySetPosition(ball, 0, 0, dReal(kRadius));
+  dBodySetLinearVel(ball, 0, 0, dReal(-0.21));
+  scene.run_until(0.01);
+  CHECK(relative_error(dBodyGetLinearVel(ball)[2], 0.8 * 0.21) < 1e-6);
+}
+
+TEST_CASE("energy never grows at restitution up to 1") {
+  // In free flight ODE's steps keep v^2/2 + g z to a term that is the same at the same velocity, so it is compared after whole
+  // bounces.
+  for (const double e : {0.7, 1.0}) {
+    OdeSession session;
+    EffectsWorld scene({earth(), fx::Restitution{e, 0, {}}}, 5e-4);
+    scene.world.add_plane();
+    Random random(3);
+    const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(0.05), dReal(0.04), dReal(0.02));
+    random.turn(geom);
+    const dBodyID body = scene.add(geom, kDensity, {0, 0, 0.3});
+    const double start = energy(body);
+    double most = 0;
+    for (int i = 0; i < 10000; ++i) {
+      scene.step();
+      if (std::abs(dBodyGetLinearVel(body)[2]) < 0.01) most = std::max(most, energy(body));
+    }
+    CHECK(most > 0);
+    CHECK(most < 1.002 * start);
+  }
+}
+
+TEST_CASE("spring and damper: contact time, overlap and rebound") {
+  const double k = 2000;
+  const double v = 0.4;
+  const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
+  const double w = std::sqrt(k / mass);
+  for (const double ratio : {0.0, 0.1, 0.3}) {  // of the critical damping
+    CAPTURE(ratio);
+    const double step = std::numbers::pi / w / 100;
+    OdeSession session;
+    EffectsWorld scene({fx::Compliance{k, 2 * ratio * mass * w, {}}}, step);
+    scene.world.add_plane();
+    const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-5}), v, step);
+    // Until the force vanishes (Schwager and Poeschel, Granular Matter 9, 2007).
+    const double beta = ratio * w;
+    const double damped = std::sqrt(w * w - beta * beta);
+    const double end = (std::numbers::pi - std::atan2(2 * beta * damped, damped * damped - beta * beta)) / damped;
+    CHECK(relative_error(found.out, v * std::exp(-beta * end)) < 0.01);
+    if (ratio == 0) {
+      CHECK(relative_error(found.time, std::numbers::pi / w) < 0.02);
+      CHECK(relative_error(found.overlap, v / w) < 0.005);
+    } else {
+      const double peak = std::atan2(damped, beta) / damped;
+      CHECK(relative_error(found.overlap, v / w * std::exp(-beta * peak)) < 0.02);
+    }
+  }
+}
+
+TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
+  const double v = 0.5;
+  const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
+  const double k = 4.0 / 3 * kStar * std::sqrt(kRadius);
+  for (const double steps : {200.0, 25.0}) {  // a contact
+    CAPTURE(steps);
+    const double step = hertz_time(mass, k, v) / steps;
+    OdeSession session;
+    EffectsWorld scene({fx::Hertz{kModulus, kPoisson, 1, fx::Surfaces::of(1)}}, step);
+    scene.material_of = [](dGeomID geom) { return dGeomGetBody(geom) != nullptr ? 1 : 0; };
+    scene.world.add_plane();
+    const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.3 * v * step}), v, step);
+    CHECK(relative_error(found.overlap, hertz_overlap(mass, k, v)) < 0.01);
+    CHECK(std::abs(found.time - hertz_time(mass, k, v)) < 0.01 * hertz_time(mass, k, v) + step);
+    CHECK(relative_error(found.out, v) < 0.01);
+    CHECK(cost_of(scene.effects, "hertz").coarse == 0);
+  }
+}
+
+TEST_CASE("Hertz: an ellipsoid on a plane, and two balls") {
+  // With the exact solution for the ellipse k = b/a = 0.5: R'/R'' = 2.842753308671, F2 = 0.985172455666.
+  const double ratio = 2.8427533086709977;
+  const double correction = 0.9851724556662358;
+  const double c = 0.01;
+  const double a = 0.02;
+  const double b = a / std::sqrt(ratio);
+  const double v = 0.3;
+  const double mass = kDensity * 4.0 / 3 * std::numbers::pi * a * b * c;
+  const double k = 4.0 / 3 * kStar * std::sqrt(a * b / c) * std::pow(correction, -1.5);  // radii a^2/c, b^2/c
+  const double step = hertz_time(mass, k, v) / 100;
+  {
+    OdeSession session;
+    EffectsWorld scene({fx::Hertz{2 * kModulus, kPoisson, 1, {}}}, step);  // two materials of twice the modulus
+    scene.world.add_plane();
+    const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c));
+    const Impact found = impact(scene, scene.add(geom, kDensity, {0, 0, c + 1e-6}), v, step);
+    CHECK(relative_error(found.overlap, hertz_overlap(mass, k, v)) < 0.005);
+    CHECK(relative_error(found.time, hertz_time(mass, k, v)) < 0.02);
+    CHECK(relative_error(found.out, v) < 0.01);
+  }
+  {
+    OdeSession session;
+    const double ball_mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
+    const double pair_k = 4.0 / 3 * kStar * std::sqrt(kRadius / 2);
+    EffectsWorld scene({fx::Hertz{2 * kModulus, kPoisson, 1, {}}}, step);
+    const dBodyID low = scene.add_ball(kRadius, kDensity, {0, 0, -kRadius});
+    const dBodyID high = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-6});
+    dBodySetLinearVel(low, 0, 0, dReal(v));
+    const Impact found = impact(scene, high, v, step);
+    CHECK(relative_error(found.overlap, hertz_overlap(ball_mass / 2, pair_k, 2 * v)) < 0.005);
+    CHECK(relative_error(found.out, v) < 0.01);
+  }
+}
+
+TEST_CASE("Hertz with restitution rebounds with it at every velocity") {
+  for (const double e : {0.2, 0.6, 0.9}) {
+    for (const double v : {0.02, 2.0}) {
+      CAPTURE(e);
+      CAPTURE(v);
+      const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
+      const double step = hertz_time(mass, 4.0 / 3 * kStar * std::sqrt(kRadius), v) / 200;
+      OdeSession session;
+      EffectsWorld scene({fx::Hertz{2 * kModulus, kPoisson, e, {}}}, step);
+      scene.world.add_plane();
+      const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.1 * v * step}), v, step);
+      CHECK(relative_error(found.out, e * v) < 0.02);
+    }
+  }
+}
+
+TEST_CASE("a compliant contact that is too stiff for the step is counted and gains no energy") {
+  OdeSession session;
+  EffectsWorld scene({earth(), fx::Compliance{1e9, 0, {}}}, 1e-3);
+  scene.world.add_plane();
+  const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, 0.1});
+  const double start = energy(ball);
+  double most = 0;
+  for (int i = 0; i < 3000; ++i) {
+    scene.step();
+    if (dBodyGetPosition(ball)[2] > kRadius) most = std::max(most, energy(ball));
+  }
+  CHECK(most < 1.01 * start);
+  CHECK(cost_of(scene.effects, "compliance").coarse > 0);
+}
+
+TEST_CASE("a flat body rests on springs at the depth that its weight asks for") {
+  OdeSession session;
+  const double k = 1e5;
+  EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Compliance{k, 300, {}}}, 5e-4);
+  scene.world.add_plane();
+  const dGeomID geom = snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.07), dReal(0.05), 8, 8);
+  const dBodyID body = scene.add(geom, 1000, {0, 0, 0.055});
+  turn(body, {1, 0.5, 0}, 2 * kDegree);
+  scene.run_until(3);
+  CHECK(relative_error(scene.depth, mass_of(body) * kGravity / k) < 0.02);
+  // No more unrest than rigid contacts leave, half of g times the step (README, "Settings of the world").
+  CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.5 * kGravity * 5e-4);
+  CHECK(norm(to_vec(dBodyGetAngularVel(body))) < 0.5 * kGravity * 5e-4 / 0.05);
+}

@@ -1,0 +1,86 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "supernormal/effects.hpp"
+
+using namespace supernormal::effects;
+
+namespace {
+
+std::string refusal(const std::vector<Effect>& list, double step = 1e-3) {
+  try {
+    const Effects effects(list, step);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("bad parameters are refused with effect, parameter, value and range") {
+  struct Case {
+    Effect effect;
+    const char* says;
+  };
+  const std::vector<Case> cases = {
+      {Friction{0, {}}, "friction: coefficient = 0 is outside (0, 100]"},
+      {Friction{kNan, {}}, "friction: coefficient = nan is outside (0, 100]"},
+      {Friction{0.5, Surfaces::of(64)}, "friction: material = 64 is outside [0, 63]"},
+      {Friction{0.5, Surfaces::between(1, -3)}, "friction: material = -3 is outside [0, 63]"},
+      {AnisotropicFriction{-1, 0, {1, 0, 0}, {}}, "anisotropic_friction: along = -1 is outside [0, 100]"},
+      {AnisotropicFriction{0, 0, {1, 0, 0}, {}}, "anisotropic_friction: along and across are both 0"},
+      {AnisotropicFriction{1, 0, {0, 0, 0}, {}}, "anisotropic_friction: direction = (0, 0, 0) is no direction"},
+      {RollingResistance{-1e-3, 0, {}}, "rolling_resistance: rolling = -0.001 m is outside [0, 1000] m"},
+      {RollingResistance{0, 0, {}}, "both 0"},
+      {Restitution{1.1, 0, {}}, "restitution: coefficient = 1.1 is outside (0, 1]"},
+      {Restitution{1, -1, {}}, "restitution: threshold = -1 m/s is outside [0, 100] m/s"},
+      {Compliance{0, 0, {}}, "compliance: stiffness = 0 N/m is outside (0, 1e+15] N/m"},
+      {Compliance{1, kInfinity, {}}, "compliance: damping = inf N s/m is outside [0, 1e+15] N s/m"},
+      {Hertz{1e9, 0.6, 1, {}}, "hertz: poisson_ratio = 0.6 is outside [0, 0.5]"},
+      {Hertz{1e9, 0.3, 0, {}}, "hertz: restitution = 0 is outside [0.05, 1]"},
+      {Adhesion{0, {}}, "adhesion: pull_off = 0 N is outside (0, 1e+09] N"},
+      {Gravity{{0, 0, kNan}}, "gravity: acceleration = nan m/s^2 is outside [-10000, 10000] m/s^2"},
+      {QuadraticDrag{1.2, 0}, "quadratic_drag: coefficient = 0 is outside (0, 100]"},
+      {StokesDrag{-1}, "stokes_drag: viscosity = -1 Pa s is outside (0, 1e+06] Pa s"},
+      {Damping{0, 0}, "damping: linear and angular are both 0"},
+      {AutoDisable{0.01, 0.01, 0, 0}, "auto_disable: samples = 0 is outside [1, 1000]"},
+      {MaxCorrectingVelocity{0}, "max_correcting_velocity: velocity = 0 m/s is outside (0, 1e+06] m/s"},
+      {SurfaceLayer{0}, "surface_layer: depth = 0 m is outside (0, 1000] m"},
+  };
+  for (const Case& c : cases) {
+    const std::string text = refusal({c.effect});
+    CAPTURE(text);
+    CHECK(text.find(c.says) != std::string::npos);
+  }
+  CHECK(refusal({}, 0).find("step = 0 s is outside (0, inf) s") != std::string::npos);
+}
+
+TEST_CASE("effects that exclude one another or lack another are refused") {
+  const Gravity gravity{{0, 0, -9.81}};
+  CHECK(refusal({gravity, gravity}) == "gravity is listed twice; it must be listed once");
+  CHECK(refusal({Friction{0.5, Surfaces::between(1, 2)}, Friction{0.4, Surfaces::between(2, 1)}}) ==
+        "friction is listed twice for the same surfaces; it must be listed once");
+  CHECK(refusal({Buoyancy{1000, 0}}).find("buoyancy is listed without gravity") == 0);
+  CHECK(refusal({Hertz{1e9, 0.3, 1, {}}, MaxCorrectingVelocity{1}})
+            .find("max_correcting_velocity is listed with compliance or hertz") == 0);
+  CHECK(refusal({Hertz{1e9, 0.3, 1, {}}, Restitution{0.5, 0, {}}})
+            .find("hertz and restitution are both listed for contacts of materials the others") == 0);
+  CHECK(refusal({Compliance{1e9, 0, Surfaces::of(1)}, Hertz{1e9, 0.3, 1, Surfaces::of(2)}})
+            .find("hertz and compliance are both listed for contacts of materials 1 and 2") == 0);
+  CHECK(refusal({Compliance{1e9, 0, Surfaces::between(1, 1)}, Restitution{0.5, 0, Surfaces::of(2)}}).empty());
+}
+
+TEST_CASE("every effect is described") {
+  CHECK(descriptions().size() == std::variant_size_v<Effect>);
+  for (const Description& description : descriptions()) {
+    CHECK_FALSE(std::string(description.name).empty());
+    CHECK_FALSE(std::string(description.source).empty());
+  }
+}
