@@ -16,7 +16,9 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -183,6 +185,20 @@ struct SurfaceLayer {
 
 using Effect = std::variant<Friction, AnisotropicFriction, RollingResistance, Restitution, Compliance, Hertz, Adhesion, Gravity,
                             QuadraticDrag, StokesDrag, Buoyancy, Damping, AutoDisable, MaxCorrectingVelocity, SurfaceLayer>;
+
+/// Why a list was refused, and where. The text names effect, parameter, value and range, or the two effects that exclude each
+/// other.
+class SUPERNORMAL_API BadEffect : public std::invalid_argument {
+ public:
+  BadEffect(std::string effect, std::string parameter, const std::string& text)
+      : std::invalid_argument(text), effect_(std::move(effect)), parameter_(std::move(parameter)) {}
+  const std::string& effect() const { return effect_; }        ///< as in descriptions()
+  const std::string& parameter() const { return parameter_; }  ///< "" where it is about the effect as a whole
+
+ private:
+  std::string effect_;
+  std::string parameter_;
+};
 
 /// What an effect is, for people: one entry for each alternative of Effect, in its order.
 struct Description {

@@ -205,8 +205,9 @@ class LawWriter {
   void require_alone(const char* name, const char* other, int mode_of_other, const char* why) const {
     if ((law_.surface.mode & mode_of_other) == 0) return;
     const auto text = [](Material m) { return m == kOther ? std::string("the others") : std::to_string(m); };
-    throw std::invalid_argument(std::string(name) + " and " + other + " are both listed for contacts of materials " + text(a_) +
-                                " and " + text(b_) + "; " + name + " must be without " + other + ": " + why);
+    throw BadEffect(name, "",
+                    std::string(name) + " and " + other + " are both listed for contacts of materials " + text(a_) + " and " +
+                        text(b_) + "; " + name + " must be without " + other + ": " + why);
   }
 
   const std::vector<Effect>& list_;

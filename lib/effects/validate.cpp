@@ -13,16 +13,21 @@ class Check {
   explicit Check(const Effect& effect) : name_(descriptions()[effect.index()].name) {}
 
   void closed(const char* parameter, double value, double low, double high, const char* unit = "") const {
-    require_in(full(parameter).c_str(), value, low, high, unit);
+    try {
+      require_in(full(parameter).c_str(), value, low, high, unit);
+    } catch (const std::invalid_argument& error) {
+      throw BadEffect(name_, parameter, error.what());
+    }
   }
   void above_zero(const char* parameter, double value, double high, const char* unit = "") const {
     if (value > 0 && value <= high) return;
     const std::string tail = *unit == '\0' ? "" : " " + std::string(unit);
-    throw std::invalid_argument(full(parameter) + " = " + to_text(value) + tail + " is outside (0, " + to_text(high) + "]" + tail);
+    throw BadEffect(name_, parameter,
+                    full(parameter) + " = " + to_text(value) + tail + " is outside (0, " + to_text(high) + "]" + tail);
   }
   void not_both_zero(const char* first, double value1, const char* second, double value2) const {
     if (value1 > 0 || value2 > 0) return;
-    throw std::invalid_argument(full(first) + " and " + second + " are both 0; one must be above 0, or the effect left out");
+    throw BadEffect(name_, first, full(first) + " and " + second + " are both 0; one must be above 0, or the effect left out");
   }
   void materials(const Surfaces& on) const {
     if (!on.is_all()) closed("material", on.first(), 0, kLastMaterial);
@@ -35,8 +40,9 @@ class Check {
     closed("across", e.across, 0, 100);
     not_both_zero("along", e.along, "across", e.across);
     if (e.direction.allFinite() && e.direction.norm() > 0) return;
-    throw std::invalid_argument(full("direction") + " = (" + to_text(e.direction.x()) + ", " + to_text(e.direction.y()) + ", " +
-                                to_text(e.direction.z()) + ") is no direction; it must be finite and not 0");
+    throw BadEffect(name_, "direction",
+                    full("direction") + " = (" + to_text(e.direction.x()) + ", " + to_text(e.direction.y()) + ", " +
+                        to_text(e.direction.z()) + ") is no direction; it must be finite and not 0");
   }
   void operator()(const RollingResistance& e) const {
     closed("rolling", e.rolling, 0, 1e3, "m");
@@ -112,8 +118,9 @@ void require_listed_once(const std::vector<Effect>& list, const Effect& effect) 
   for (const Effect& other : list) {
     if (&other == &effect || other.index() != effect.index()) continue;
     if (on == nullptr || is_same(*on, *surfaces_of(other))) {
-      throw std::invalid_argument(std::string(Check(effect).name()) + " is listed twice" +
-                                  (on == nullptr ? "" : " for the same surfaces") + "; it must be listed once");
+      throw BadEffect(Check(effect).name(), "",
+                      std::string(Check(effect).name()) + " is listed twice" + (on == nullptr ? "" : " for the same surfaces") +
+                          "; it must be listed once");
     }
   }
 }
@@ -128,11 +135,11 @@ bool has(const std::vector<Effect>& list) {
 
 void require_company(const std::vector<Effect>& list) {
   if (has<Buoyancy>(list) && !has<Gravity>(list)) {
-    throw std::invalid_argument("buoyancy is listed without gravity, which it is the reaction to: list both or none");
+    throw BadEffect("buoyancy", "", "buoyancy is listed without gravity, which it is the reaction to: list both or none");
   }
   if (has<MaxCorrectingVelocity>(list) && (has<Compliance>(list) || has<Hertz>(list))) {
-    throw std::invalid_argument(
-        "max_correcting_velocity is listed with compliance or hertz, whose forces it would cut: list one of them");
+    throw BadEffect("max_correcting_velocity", "",
+                    "max_correcting_velocity is listed with compliance or hertz, whose forces it would cut: list one of them");
   }
 }
 

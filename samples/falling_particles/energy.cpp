@@ -1,7 +1,6 @@
 #include "energy.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace falling_particles {
 namespace {
@@ -22,21 +21,22 @@ double kinetic_energy(const Body& body) {
 
 Energy measure_energy(const World& world, const Scene& scene) {
   Energy energy{0, 0};
+  const auto* const gravity = scene.gravity();
   for (const Body& body : world.bodies()) {
     energy.kinetic += kinetic_energy(body);
-    if (!scene.gravity) continue;
+    if (gravity == nullptr) continue;
     const dReal* position = dBodyGetPosition(body.body);
-    for (std::size_t i = 0; i < 3; ++i) energy.potential -= body.mass.mass * scene.gravity->acceleration[i] * position[i];
+    for (int i = 0; i < 3; ++i) energy.potential -= body.mass.mass * gravity->acceleration[i] * position[i];
   }
   return energy;
 }
 
 double kinetic_height(const World& world, const Scene& scene) {
-  if (!scene.gravity) return 0;
-  const auto [x, y, z] = scene.gravity->acceleration;
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr) return 0;
   double mass = 0;
   for (const Body& body : world.bodies()) mass += body.mass.mass;
-  const double weight = mass * std::hypot(x, y, z);
+  const double weight = mass * gravity->acceleration.norm();
   return weight > 0 ? measure_energy(world, scene).kinetic / weight : 0;
 }
 

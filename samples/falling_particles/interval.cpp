@@ -13,6 +13,7 @@ bool Interval::contains(double value) const {
 }
 
 std::string Interval::describe() const {
+  if (upper == std::numeric_limits<double>::max()) return std::string("a number: ") + unit;
   std::string text = "a number in ";
   text += includes_lower ? '[' : '(';
   text += shortest(lower) + ", " + shortest(upper);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 namespace falling_particles {
@@ -13,6 +14,10 @@ struct Interval {
   const char* unit;  ///< "" for pure numbers
 
   static Interval positive(double upper, const char* unit) { return {0, upper, false, true, unit}; }
+  /// Any number; `note` says what somebody else will allow.
+  static Interval finite(const char* note) {
+    return {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), true, true, note};
+  }
   static Interval closed(double lower, double upper, const char* unit) { return {lower, upper, true, true, unit}; }
 
   bool contains(double value) const;

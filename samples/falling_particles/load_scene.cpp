@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "catalogue.hpp"
 #include "input_error.hpp"
 #include "load_container.hpp"
+#include "load_effects.hpp"
 #include "nearest_word.hpp"
 #include "scene.hpp"
 #include "toml_input.hpp"
@@ -118,28 +120,17 @@ Solver read_solver(const TomlTable& table) {
           table.number("cfm", Interval::closed(0, 1, "s/kg"))};
 }
 
-Contact read_contact(const TomlTable& table) {
-  return {table.number("surface_layer", Interval::closed(0, 0.1, "(relative to the smallest half-axis)")),
-          table.number("max_correcting_velocity", Interval::positive(100, "m/s"))};
-}
-
-void read_effects(const TomlTable& root, Scene& scene) {
-  if (const auto table = root.find_table("gravity", {"acceleration"})) {
-    const std::vector<double> g = table->numbers("acceleration", 3, Interval::closed(-1000, 1000, "m/s^2"));
-    scene.gravity = Gravity{{g[0], g[1], g[2]}};
-  }
-  if (const auto table = root.find_table("friction", {"coefficient"})) {
-    // 0 is no friction: leave the section out, so that nobody pays for rows that do nothing.
-    scene.friction = Friction{table->number("coefficient", Interval::positive(100, ""))};
-  }
+/// The keys of the top of the file.
+std::vector<std::string> sections() {
+  std::vector<std::string> names = {"seed", "catalogue", "container", "drop", "grain", "time", "solver"};
+  for (std::string& name : effect_sections()) names.push_back(std::move(name));
+  return names;
 }
 
 }  // namespace
 
 Scene load_scene(const std::string& path) {
-  const TomlTable root =
-      TomlFile(path, "scene file")
-          .root({"seed", "catalogue", "container", "drop", "grain", "time", "solver", "contact", "gravity", "friction"});
+  const TomlTable root = TomlFile(path, "scene file").root(sections());
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
@@ -149,8 +140,7 @@ Scene load_scene(const std::string& path) {
   scene.drop = {drop.number("height", Interval::closed(0, 1000, "m")), drop.number("gap", Interval::closed(0, 10, ""))};
   scene.grains = read_grains(root, drop, path);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
-  scene.contact = read_contact(root.table("contact", {"surface_layer", "max_correcting_velocity"}));
-  read_effects(root, scene);
+  scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   check_fit(root, scene);
   return scene;
 }

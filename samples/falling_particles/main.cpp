@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <supernormal/effects.hpp>
 
 #include "input_error.hpp"
 #include "interrupt.hpp"
@@ -20,6 +21,15 @@ constexpr const char* kFooter =
     "Exit code: 0 done; 1 failed (disk full, say); 2 bad input, nothing written;\n"
     "3 with --check-leaks: a grain left the container, all results written;\n"
     "130 stopped by Ctrl-C, with all results up to then written.";
+
+void list_effects() {
+  std::puts(
+      "A scene runs with the effects whose sections it has, and with nothing else. Rigid contact itself is 1 row a contact.\n");
+  for (const supernormal::effects::Description& effect : supernormal::effects::descriptions()) {
+    std::printf("[%s]\n  parameters  %s\n  cost        %d rows per contact; passes per step: %s\n  source      %s\n", effect.name,
+                effect.parameters, effect.rows, effect.passes, effect.source);
+  }
+}
 
 ExitCode simulate(const std::string& scene_path, const std::string& out, bool quiet, bool check_leaks) {
   const falling_particles::Scene scene = falling_particles::load_scene(scene_path);
@@ -39,6 +49,11 @@ ExitCode run_program(int argc, char** argv) {
   app.add_option("-o,--out", out, "folder for the results")->capture_default_str();
   app.add_flag("-q,--quiet", quiet, "no progress");
   app.add_flag("--check-leaks", check_leaks, "exit with 3 when a grain leaves its container");
+  const auto list = [] {
+    list_effects();
+    throw CLI::Success();
+  };
+  app.add_flag_callback("--list-effects", list, "print what a scene may name, with units, ranges, costs and sources");
   app.footer(kFooter);
   try {
     app.parse(argc, argv);

@@ -141,7 +141,8 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet) {
                         count_outside(world, scene.container),
                         watches.leaks.count(),
                         box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, random)),
-                        watches.discharge ? &*watches.discharge : nullptr};
+                        watches.discharge ? &*watches.discharge : nullptr,
+                        world.effects().costs()};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);
   folder.commit();

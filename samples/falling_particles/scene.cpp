@@ -2,11 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace falling_particles {
 
 int Time::steps() const { return static_cast<int>(std::lround(duration / step)); }
 int Time::steps_per_frame() const { return static_cast<int>(std::lround(frame / step)); }
+
+const supernormal::effects::Gravity* Scene::gravity() const {
+  for (const supernormal::effects::Effect& effect : effects) {
+    if (const auto* gravity = std::get_if<supernormal::effects::Gravity>(&effect)) return gravity;
+  }
+  return nullptr;
+}
 
 int Scene::bodies() const {
   int sum = 0;

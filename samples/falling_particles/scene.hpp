@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <supernormal/effects.hpp>
 #include <vector>
 
 #include "container/container.hpp"
@@ -36,19 +35,6 @@ struct Solver {
   double cfm;      ///< s/kg: softness of all constraints
 };
 
-struct Contact {
-  double surface_layer;            ///< depth left alone, relative to the scene's smallest half-axis
-  double max_correcting_velocity;  ///< m/s, with which overlaps may be pushed out
-};
-
-/// Effects: a scene without the section runs without the effect.
-struct Gravity {
-  std::array<double, 3> acceleration;  ///< m/s^2
-};
-struct Friction {
-  double coefficient;  ///< Coulomb's, between all surfaces
-};
-
 struct Scene {
   std::string name;  ///< of the file, without folder and extension
   std::uint64_t seed;
@@ -57,9 +43,10 @@ struct Scene {
   Drop drop;
   Time time;
   Solver solver;
-  Contact contact;
-  std::optional<Gravity> gravity;
-  std::optional<Friction> friction;
+  std::vector<supernormal::effects::Effect> effects;  ///< those that the scene names; nothing else exists for it
+
+  /// Null when the scene names none.
+  const supernormal::effects::Gravity* gravity() const;
 
   int bodies() const;
   double smallest_half_axis() const;       ///< m, of all grains

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <variant>
 
 namespace falling_particles {
 namespace {
@@ -9,20 +10,28 @@ namespace {
 /// The most contacts that a pair may ask for: a face on a face is held by four points and the deepest one.
 constexpr int kContactsPerPair = 5;
 
-dSurfaceParameters compile_surface(const Scene& scene) {
-  dSurfaceParameters surface{};  // mode 0, mu 0: one constraint row a contact
-  if (scene.friction) {
-    // Three rows. Approx1 makes mu Coulomb's coefficient; without it ODE takes mu for a force in newtons.
-    surface.mode = dContactApprox1;
-    surface.mu = scene.friction->coefficient;
-  }
-  return surface;
+/// The contacts of a pair follow one another.
+bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; }
+
+bool is_awake(dGeomID geom) {
+  const dBodyID body = dGeomGetBody(geom);
+  return body != nullptr && dBodyIsEnabled(body) != 0;
+}
+
+bool may_sleep(const Scene& scene) {
+  return std::ranges::any_of(scene.effects,
+                             [](const auto& effect) { return std::holds_alternative<supernormal::effects::AutoDisable>(effect); });
 }
 
 }  // namespace
 
 Stepper::Stepper(const World& world, const Scene& scene)
-    : world_(world), step_(scene.time.step), surface_(compile_surface(scene)), joints_(dJointGroupCreate(0)) {}
+    : world_(world),
+      step_(scene.time.step),
+      near_callback_(may_sleep(scene) ? &Stepper::near_callback_of_sleepers : &Stepper::near_callback),
+      joints_(dJointGroupCreate(0)) {
+  world_.effects().measure();
+}
 
 Stepper::~Stepper() { dJointGroupDestroy(joints_); }
 
@@ -30,23 +39,39 @@ void Stepper::step() {
   contacts_.clear();
   {
     const Stopwatch::Lap lap(costs_.collision);
-    dSpaceCollide(world_.space(), this, &Stepper::near_callback);
+    dSpaceCollide(world_.space(), this, near_callback_);
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
     dJointGroupEmpty(joints_);
-    dContact contact{};
-    contact.surface = surface_;
-    for (const dContactGeom& geom : contacts_) {
-      deepest_contact_ = std::max<double>(deepest_contact_, geom.depth);
-      contact.geom = geom;
-      dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
-      dJointAttach(joint, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));
+    for (std::size_t first = 0, end = 0; first < contacts_.size(); first = end) {
+      while (end < contacts_.size() && is_same_pair(contacts_[first], contacts_[end])) ++end;
+      attach(std::span(contacts_).subspan(first, end - first));
     }
+    world_.effects().apply_forces();
   }
   costs_.contacts += contacts_.size();
   const Stopwatch::Lap lap(costs_.solver);
   dWorldQuickStep(world_.id(), step_);
+}
+
+void Stepper::attach(std::span<const dContactGeom> pair) {
+  std::array<dContact, kContactsPerPair> contacts;
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    contacts[i].geom = pair[i];
+    deepest_contact_ = std::max<double>(deepest_contact_, pair[i].depth);
+  }
+  const int count =
+      world_.effects().set_up_contacts(std::span(contacts).first(pair.size()), material_of(pair[0].g1), material_of(pair[0].g2));
+  for (int i = 0; i < count; ++i) {
+    const dContact& contact = contacts[static_cast<std::size_t>(i)];
+    const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
+    dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
+  }
+}
+
+void Stepper::near_callback_of_sleepers(void* self, dGeomID g1, dGeomID g2) {
+  if (is_awake(g1) || is_awake(g2)) near_callback(self, g1, g2);
 }
 
 void Stepper::near_callback(void* self, dGeomID g1, dGeomID g2) { static_cast<Stepper*>(self)->collide(g1, g2); }

@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <span>
 #include <vector>
 
 #include "scene.hpp"
@@ -14,7 +15,7 @@ namespace falling_particles {
 struct StepCosts {
   Stopwatch collision;      ///< dSpaceCollide: broad and narrow phase
   Stopwatch narrow_phase;   ///< dCollide, within collision
-  Stopwatch contact_setup;  ///< contact joints made and removed
+  Stopwatch contact_setup;  ///< effects' passes, contact joints made and removed
   Stopwatch solver;         ///< dWorldQuickStep
   unsigned long long pairs_tested = 0;
   unsigned long long contacts = 0;
@@ -37,11 +38,14 @@ class Stepper {
 
  private:
   static void near_callback(void* self, dGeomID g1, dGeomID g2);
+  /// Of scenes whose bodies may sleep: leaves pairs alone of which neither is awake.
+  static void near_callback_of_sleepers(void* self, dGeomID g1, dGeomID g2);
   void collide(dGeomID g1, dGeomID g2);
+  void attach(std::span<const dContactGeom> pair);
 
   const World& world_;
   double step_;
-  dSurfaceParameters surface_;  // compiled once from the effects that the scene names
+  dNearCallback* near_callback_;
   dJointGroupID joints_;
   std::vector<dContactGeom> contacts_;
   double deepest_contact_ = 0;

@@ -88,7 +88,7 @@ void add_end_state(Lines& lines, const Summary& s) {
   lines.add("overlapping_pairs", static_cast<unsigned long long>(s.overlap.pairs));
   lines.add("bodies_outside", static_cast<unsigned long long>(s.outside), "centre beyond a wall or the floor");
   lines.add("bodies_leaked", static_cast<unsigned long long>(s.leaked), "outside after any step");
-  if (s.scene.gravity) {
+  if (s.scene.gravity() != nullptr) {
     lines.add("kinetic_height", s.kinetic_height, "m, to which the kinetic energy would lift all grains");
     lines.add("settled", s.kinetic_height < kSettledHeight * size, "kinetic_height below 0.1 % of smallest_half_axis");
   }
@@ -103,9 +103,10 @@ void add_mass_flow(Lines& lines, const Scene& scene, const Hopper& hopper, const
   const Charge& charge = *discharge.charge();
   const std::optional<double> flow = discharge.mass_flow();
   if (flow) lines.add("mass_flow", *flow, "kg/s, mean from 20 % to 60 % of the charge");
-  if (!scene.gravity) return;
-  const auto [x, y, z] = scene.gravity->acceleration;
-  const double predicted = beverloo_mass_flow(hopper.outlet, charge.grain_diameter, charge.bed.bulk_density, std::hypot(x, y, z));
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr) return;
+  const double predicted =
+      beverloo_mass_flow(hopper.outlet, charge.grain_diameter, charge.bed.bulk_density, gravity->acceleration.norm());
   lines.add("beverloo", predicted, "kg/s, 0.58 rho_b sqrt(g) (D - 1.4 d)^2.5 (Beverloo et al. 1961), flat bottom");
   if (flow && predicted > 0) lines.add("mass_flow_relative", *flow / predicted, "to beverloo");
 }
@@ -144,6 +145,23 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, dCollide");
 }
 
+/// What each effect that the scene names cost; rigid contact itself comes first. Seconds are those of its own passes and, by rows,
+/// its share of the solver's.
+void add_effect_costs(Lines& lines, const Summary& s) {
+  unsigned long long rows = 0;
+  for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;
+  for (const supernormal::effects::Cost& cost : s.effects) {
+    const std::string section = std::string("effect.") + cost.name + ".";
+    const auto add = [&](const char* key, auto value, const char* comment) { lines.add((section + key).c_str(), value, comment); };
+    add("seconds", cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(),
+        "s, in its passes and its rows' share of the solver");
+    if (cost.rows > 0) add("rows", cost.rows, "constraint rows added");
+    if (cost.contacts > 0) add("contacts", cost.contacts, "touched");
+    if (cost.coarse > 0) add("coarse", cost.coarse, "contacts of fewer than ten steps: a shorter step would be better");
+    if (cost.bodies > 0) add("bodies", cost.bodies, "visited");
+  }
+}
+
 }  // namespace
 
 std::string to_toml(const Summary& summary) {
@@ -153,6 +171,7 @@ std::string to_toml(const Summary& summary) {
   add_end_state(lines, summary);
   if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);
   add_costs(lines, summary);
+  add_effect_costs(lines, summary);
   return lines.text();
 }
 

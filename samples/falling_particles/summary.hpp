@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bed.hpp"
 #include "discharge.hpp"
@@ -36,6 +37,7 @@ struct Summary {
   std::size_t leaked;          ///< at any time
   std::optional<Bed> bed;      ///< of a box
   const Discharge* discharge;  ///< of a hopper, or null
+  std::vector<supernormal::effects::Cost> effects;
 };
 
 /// As TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.

@@ -62,12 +62,9 @@ void World::set_parameters(const Scene& scene) {
   dWorldSetQuickStepNumIterations(world_, scene.solver.iterations);
   dWorldSetERP(world_, scene.solver.erp);
   dWorldSetCFM(world_, scene.solver.cfm);
-  dWorldSetContactSurfaceLayer(world_, scene.contact.surface_layer * scene.smallest_half_axis());
-  dWorldSetContactMaxCorrectingVel(world_, scene.contact.max_correcting_velocity);
-  if (scene.gravity) {
-    const auto [x, y, z] = scene.gravity->acceleration;
-    dWorldSetGravity(world_, x, y, z);
-  }
+  // Before the bodies are made, which take some settings from the world.
+  effects_ = std::make_unique<supernormal::effects::Effects>(scene.effects, scene.time.step);
+  effects_->set_up(world_);
 }
 
 void World::add_body(const Grain& grain, const Placement& placement) {
@@ -84,6 +81,7 @@ void World::add_body(const Grain& grain, const Placement& placement) {
   dBodySetPosition(entry.body, x, y, z);
   const dQuaternion q = {placement.quaternion[0], placement.quaternion[1], placement.quaternion[2], placement.quaternion[3]};
   dBodySetQuaternion(entry.body, q);
+  effects_->add_body(entry.body);
 }
 
 }  // namespace falling_particles

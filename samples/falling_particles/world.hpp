@@ -2,10 +2,13 @@
 
 #include <ode/ode.h>
 
+#include <memory>
 #include <optional>
+#include <supernormal/effects.hpp>
 #include <vector>
 
 #include "container/walls.hpp"
+#include "material.hpp"
 #include "placement.hpp"
 #include "scene.hpp"
 
@@ -27,6 +30,10 @@ struct Body {
 /// The body of a geom in a World; null for a wall.
 inline const Body* body_of(dGeomID geom) { return static_cast<const Body*>(dGeomGetData(geom)); }
 
+inline supernormal::effects::Material material_of(dGeomID geom) {
+  return body_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;
+}
+
 /// The ODE world of a scene, which must outlive it.
 class World {
  public:
@@ -40,6 +47,8 @@ class World {
   dWorldID id() const { return world_; }
   dSpaceID space() const { return space_; }
   const std::vector<Body>& bodies() const { return bodies_; }
+  /// Compiled from what the scene names.
+  supernormal::effects::Effects& effects() const { return *effects_; }
   const Walls& walls() const { return *walls_; }
 
   /// Takes the lid off a hopper's outlet; once.
@@ -51,6 +60,7 @@ class World {
 
   dWorldID world_;
   dSpaceID space_;
+  std::unique_ptr<supernormal::effects::Effects> effects_;
   std::vector<Body> bodies_;
   std::optional<Walls> walls_;
 };

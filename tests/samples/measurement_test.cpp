@@ -11,14 +11,21 @@
 #include "world.hpp"
 
 using namespace falling_particles;
+namespace fx = supernormal::effects;
 
 namespace {
 
 Grain ellipsoid() { return {"ellipsoid", {0.02, 0.03, 0.01}, 2, 2, 0, 1000, "typical"}; }
 
 Scene scene_of(const Grain& grain, int count) {
-  return {"test", 1, Box{{0.2, 0.2}}, {{grain, count}}, {0, 0}, {1, 1e-3, 0.1}, {50, 0.2, 1e-10}, {1e-3, 1}, Gravity{{0, 0, -10}},
-          {}};
+  return {"test",
+          1,
+          Box{{0.2, 0.2}},
+          {{grain, count}},
+          {0, 0},
+          {1, 1e-3, 0.1},
+          {50, 0.2, 1e-10},
+          {fx::Gravity{{0, 0, -10}}, fx::MaxCorrectingVelocity{1}, fx::SurfaceLayer{1e-3 * grain.smallest_half_axis()}}};
 }
 
 Placement upright(double x, double y, double z) { return {0, {x, y, z}, {1, 0, 0, 0}}; }
@@ -123,7 +130,7 @@ TEST_CASE("friction stops a sliding grain and without friction it slides on") {
   for (const bool rough : {true, false}) {
     CAPTURE(rough);
     Scene scene = scene_of(Grain{"puck", {0.02, 0.02, 0.002}, 2, 2, 0, 1000, "typical"}, 1);
-    if (rough) scene.friction = Friction{0.5};
+    if (rough) scene.effects.emplace_back(fx::Friction{0.5, {}});
     const World world(scene, {upright(0.06, 0.1, 0.002)});
     Stepper stepper(world, scene);
     dBodySetLinearVel(world.bodies()[0].body, 0.2, 0, 0);

@@ -43,9 +43,10 @@ frame = 0.01
 iterations = 20
 erp = 0.2
 cfm = 1e-10
-[contact]
-surface_layer = 0.002
-max_correcting_velocity = 0.05
+[surface_layer]
+relative_depth = 0.002
+[max_correcting_velocity]
+velocity = 0.05
 [gravity]
 acceleration = [0, 0, -9.81]
 [friction]

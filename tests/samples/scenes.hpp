@@ -1,6 +1,7 @@
 // Scenes for tests: from a file's text, or of a few grains in a container.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,9 @@ inline Scene scene_of(const std::string& text) {
 }
 
 inline Scene scene_of(Container container, std::vector<GrainCount> grains) {
+  namespace fx = supernormal::effects;
+  double smallest = 1;
+  for (const GrainCount& kind : grains) smallest = std::min(smallest, kind.grain.smallest_half_axis());
   return {.name = "test",
           .seed = 1,
           .container = std::move(container),
@@ -26,9 +30,8 @@ inline Scene scene_of(Container container, std::vector<GrainCount> grains) {
           .drop = {0.001, 0.02},
           .time = {2, 5e-4, 0.1},
           .solver = {40, 0.2, 1e-10},
-          .contact = {2e-3, 0.05},
-          .gravity = Gravity{{0, 0, -9.81}},
-          .friction = Friction{0.4}};
+          .effects = {fx::Gravity{{0, 0, -9.81}}, fx::Friction{0.4, {}}, fx::MaxCorrectingVelocity{0.05},
+                      fx::SurfaceLayer{2e-3 * smallest}}};
 }
 
 inline Grain lentil() { return {"lentil", {3.36e-3, 3.36e-3, 1.29e-3}, 2, 2, 0, 1170, "test"}; }
