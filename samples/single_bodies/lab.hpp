@@ -1,0 +1,77 @@
+// A plane, a few bodies and the effects that the experiment names.
+#pragma once
+
+#include <supernormal/supernormal.h>
+
+#include <string>
+#include <supernormal/effects.hpp>
+#include <vector>
+
+namespace single_bodies {
+
+using supernormal::Vector3;
+namespace fx = supernormal::effects;
+
+constexpr double kGravity = 9.81;  // m/s^2
+
+class Lab {
+ public:
+  Lab(const std::vector<fx::Effect>& effects, double step);
+  ~Lab();
+  Lab(const Lab&) = delete;
+  Lab(Lab&&) = delete;
+  Lab& operator=(const Lab&) = delete;
+  Lab& operator=(Lab&&) = delete;
+
+  dWorldID world() const { return world_; }
+  dSpaceID space() const { return space_; }
+  double step_length() const { return step_; }
+
+  /// z = 0, frictionless or not as the effects say.
+  void add_floor();
+  dBodyID add(dGeomID geom, double density);
+  dBodyID add(dGeomID geom, const dMass& mass);
+
+  void step();
+
+ private:
+  static void near_callback(void* self, dGeomID g1, dGeomID g2);
+
+  double step_;
+  dWorldID world_;
+  dSpaceID space_;
+  dJointGroupID joints_;
+  fx::Effects effects_;
+};
+
+Vector3 position(dBodyID body);
+Vector3 velocity(dBodyID body);
+Vector3 spin(dBodyID body);
+void set_position(dBodyID body, const Vector3& x);
+void set_velocity(dBodyID body, const Vector3& v);
+void set_spin(dBodyID body, const Vector3& w);
+void turn(dBodyID body, const Vector3& axis, double angle);
+Vector3 angular_momentum(dBodyID body);  ///< kg m^2/s, about the centre of mass
+double mass_of(dBodyID body);
+double translation_energy(dBodyID body);  ///< J
+double rotation_energy(dBodyID body);     ///< J
+
+/// One line of the table.
+struct Result {
+  std::string experiment;
+  std::string quantity;
+  double ours;
+  double reference;
+  std::string source;
+};
+using Results = std::vector<Result>;
+
+Results elastic_gas();
+Results rocking();
+Results rolling();
+Results incline();
+Results skipping_bean();
+Results rattleback();
+Results tippe_top();
+
+}  // namespace single_bodies
