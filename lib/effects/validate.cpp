@@ -21,7 +21,7 @@ class Check {
   }
   void above_zero(const char* parameter, double value, double high, const char* unit = "") const {
     if (value > 0 && value <= high) return;
-    const std::string tail = *unit == '\0' ? "" : " " + std::string(unit);
+    const std::string tail = std::string(*unit == '\0' ? "" : " ") + unit;
     throw BadEffect(name_, parameter,
                     full(parameter) + " = " + to_text(value) + tail + " is outside (0, " + to_text(high) + "]" + tail);
   }
