@@ -2,7 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+
+#include "solvers/tangent_plane.hpp"
 
 namespace supernormal {
 namespace {
@@ -11,65 +12,42 @@ constexpr double kSharpest = 1e-9;    // radius of an edge, relative to the smal
 constexpr double kFlattest = 1e12;    // radius of a face
 constexpr double kDifference = 1e-4;  // rad; boundary points are good to rounding, so the differences to about 1e-8
 
-/// Radii of curvature in the tangent plane t1, t2.
-struct Radii {
-  double xx, xy, yy;
-};
-
-Radii find_radii(const Shape& shape, const Vector3& m, const Vector3& t1, const Vector3& t2) {
-  Vector3 H1;
-  Vector3 H2;
-  if (shape.has_curvature()) {
-    const Matrix3 H = shape.jet(m).H;
-    H1 = H * t1;
-    H2 = H * t2;
-  } else {
-    const auto slope = [&](const Vector3& t) -> Vector3 {
-      const Vector3 forward = shape.point((m + kDifference * t).normalized());
-      const Vector3 backward = shape.point((m - kDifference * t).normalized());
-      return (forward - backward) / (2 * kDifference);
-    };
-    H1 = slope(t1);
-    H2 = slope(t2);
-  }
-  return {t1.dot(H1), 0.5 * (t1.dot(H2) + t2.dot(H1)), t2.dot(H2)};
+/// The tangent plane at m with an axis of the body's frame: the flattest, so that a face does not drown the curvature across it.
+TangentPlane plane_along(const Vector3& m, const Vector3& flatness) {
+  int axis = 0;
+  if (flatness.maxCoeff(&axis) > 0) return {m, Vector3::Unit(axis)};
+  return {m, m.unitOrthogonal()};
 }
 
-/// The eigenvalue of larger magnitude's direction comes first: (cos, sin) of its angle from t1.
-struct Principal {
-  double larger, smaller, cosine, sine;
-};
-
-Principal principal(double xx, double xy, double yy) {
-  const double mean = 0.5 * (xx + yy);
-  const double half = 0.5 * (xx - yy);
-  const double radius = std::hypot(half, xy);
-  const double angle = 0.5 * std::atan2(xy, half);
-  return {mean + radius, mean - radius, std::cos(angle), std::sin(angle)};
+/// By differences of boundary points.
+Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
+  const auto change = [&](const Vector3& t) {
+    const Vector3 forward = shape.point((plane.n + kDifference * t).normalized());
+    const Vector3 backward = shape.point((plane.n - kDifference * t).normalized());
+    return plane.project((forward - backward) / (2 * kDifference));
+  };
+  const Vector2 along1 = change(plane.t1), along2 = change(plane.t2);
+  return {along1.x(), 0.5 * (along1.y() + along2.x()), along2.y()};
 }
 
 }  // namespace
 
 Matrix3 find_curvature(const Shape& shape, const Pose& pose, const Vector3& n) {
   const Vector3 m = pose.rotation.transpose() * n;
-  const Vector3 t1 = m.unitOrthogonal();
-  const Vector3 t2 = m.cross(t1);
+  const Matrix3 H = shape.has_curvature() ? shape.jet(m).H : Matrix3(Matrix3::Zero());
+  const TangentPlane plane = plane_along(m, H.diagonal());
+  const Eigen2 radii(shape.has_curvature() ? Symmetric2::project(plane, H) : find_radii(shape, plane));
   const double size = shape.half_extents().minCoeff();
-  // Scaled, since radii of faces go up to 1e120.
-  const Radii radii = find_radii(shape, m, t1, t2);
-  const auto bounded = [&](double radius) { return std::clamp(radius / size, -kFlattest, kFlattest); };
-  const Principal found = principal(bounded(radii.xx), bounded(radii.xy), bounded(radii.yy));
-  const auto curvature = [&](double radius) { return radius < kFlattest / 2 ? 1 / (size * std::max(radius, kSharpest)) : 0.0; };
-  const Vector3 first = pose.rotation * (found.cosine * t1 + found.sine * t2);
-  const Vector3 second = n.cross(first);
-  return curvature(found.larger) * first * first.transpose() + curvature(found.smaller) * second * second.transpose();
+  const auto curvature = [&](double radius) { return radius < kFlattest * size ? 1 / std::max(radius, kSharpest * size) : 0.0; };
+  const Vector3 first = pose.rotation * plane.lift(radii.high_vector);
+  const Vector3 second = pose.rotation * plane.lift(radii.low_vector);
+  return curvature(radii.high) * first * first.transpose() + curvature(radii.low) * second * second.transpose();
 }
 
 ContactCurvature find_contact_curvature(const Matrix3& sum, const Vector3& n) {
-  const Vector3 t1 = n.unitOrthogonal();
-  const Vector3 t2 = n.cross(t1);
-  const Principal found = principal(t1.dot(sum * t1), t1.dot(sum * t2), t2.dot(sum * t2));
-  return {std::max(0.0, found.smaller), std::max(0.0, found.larger)};
+  const TangentPlane plane(n, n.unitOrthogonal());
+  const Eigen2 curvature(Symmetric2::project(plane, sum));
+  return {std::max(0.0, curvature.low), std::max(0.0, curvature.high)};
 }
 
 }  // namespace supernormal
