@@ -150,6 +150,44 @@ SUPERNORMAL_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
  * is_global tells. Tens to hundreds of evaluations. Without a proof for a dTriMesh or dHeightfield, where it is snGeomProximity. */
 SUPERNORMAL_API int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out);
 
+/* --- many pairs at once ------------------------------------------------------------------------------------------------ */
+
+/* What it takes to collide a space on several threads. It keeps its memory and its threads from one call to the next. */
+typedef struct snBatch* snBatchID;
+
+/* With `threads` in [1, 256], the calling one among them, or as many as the machine has when 0. Returns 0 (and snLastError) when
+ * refused. */
+SUPERNORMAL_API snBatchID snBatchCreate(int threads);
+
+/* Calls task(context, i) once for every i in [0, count), on whatever threads, and returns when all calls have. */
+typedef void snParallelFor(void* pool, int count, void (*task)(void* context, int i), void* context);
+
+/* With the threads of the program: `run` is called with `pool`, once in every snBatchCollide. */
+SUPERNORMAL_API snBatchID snBatchCreateOn(snParallelFor* run, void* pool);
+
+SUPERNORMAL_API void snBatchDestroy(snBatchID batch);
+
+/* Nonzero: collide these two. For pairs that need no contacts: of bodies that sleep, or hang together by a joint. */
+typedef int snPairFilter(void* data, dGeomID g1, dGeomID g2);
+
+/* The contacts of a pair, as dCollide(g1, g2, …) would have written them; count > 0. */
+typedef void snContactsCallback(void* data, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
+
+/* dSpaceCollide with a dCollide of every pair, for max_contacts in [1, 65535], and the same contacts bit for bit: first it collects
+ * the pairs, those that `wanted` (may be NULL: all) agrees to; then it solves those of two geoms of ours on all threads, and the
+ * others, by dCollide, on the calling one; then it calls `contacts` for each pair that has some, in the order in which
+ * dSpaceCollide named the pairs. Both callbacks are called on the calling thread, `contacts` with the space unlocked. Geoms of
+ * spaces within the space meet those outside, as in dSpaceCollide2; for those among themselves call it for that space.
+ *
+ * Until it returns nothing may move or change a geom, and nobody may use the batch elsewhere. Callbacks of snCreateConvex are
+ * called on all threads. Statistics count on the calling thread. A dSetColliderOverride for two geoms of our class is not asked.
+ * No memory is allocated unless there are more pairs than ever before. Returns the number of contacts; -1 (and snLastError)
+ * when an argument is refused or memory has run out. */
+SUPERNORMAL_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
+                                   snContactsCallback* contacts);
+
+/* --- statistics --------------------------------------------------------------------------------------------------------- */
+
 /* Of this thread since the last reset: what the colliders and snGeomProximity did. With meshes, heightfields and rays no normal is
  * remembered. */
 typedef struct snStatistics {

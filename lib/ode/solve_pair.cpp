@@ -14,14 +14,14 @@ ContactPatch solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
   const RelativePose relative_pose = RelativePose::of(partner.pose, pose);
   const PairKey key = PairKey::of_direction(body.serial(), relative_pose.offset, partner.kind);
   Vector3 first_normal;
-  const bool warm = recall_normal(key, relative_pose, body.size(), first_normal);
+  const bool warm = recall_normal(reserve_entry(key), relative_pose, body.size(), first_normal);
   if (warm) first_normal = pose.rotation.transpose() * (partner.pose.rotation * first_normal);
   const Settings settings = for_goal(body.settings(), goal);
   const Proximity result =
       find_proximity(body.shape(), pose, partner.shape, partner.pose, settings, warm ? &first_normal : nullptr);
   count_query(result, warm);
   if (result.status != Status::InvalidInput) {
-    remember_normal(key, relative_pose, partner.pose.rotation.transpose() * result.normal);
+    fill_entry(key, relative_pose, partner.pose.rotation.transpose() * result.normal);
   }
   return goal == Goal::Contacts ? find_contact_patch(body.shape(), pose, partner.shape, partner.pose, result)
                                 : ContactPatch(result);

@@ -1,5 +1,7 @@
 #include "ode/statistics.hpp"
 
+#include <utility>
+
 #include "ode/last_error.hpp"
 #include "ode/require.hpp"
 #include "supernormal/supernormal.h"
@@ -21,6 +23,18 @@ void count_query(const Proximity& result, bool warm) noexcept {
 void count_closed_form() noexcept { ++statistics.closed_forms; }
 
 void count_contact() noexcept { ++statistics.contacts; }
+
+snStatistics exchange_statistics(const snStatistics& other) noexcept { return std::exchange(statistics, other); }
+
+void add_statistics(const snStatistics& more) noexcept {
+  statistics.queries_cold += more.queries_cold;
+  statistics.queries_warm += more.queries_warm;
+  statistics.evaluations_cold += more.evaluations_cold;
+  statistics.evaluations_warm += more.evaluations_warm;
+  statistics.closed_forms += more.closed_forms;
+  statistics.contacts += more.contacts;
+  statistics.not_converged += more.not_converged;
+}
 
 }  // namespace supernormal::ode
 

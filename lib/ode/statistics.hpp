@@ -2,6 +2,7 @@
 #pragma once
 
 #include "supernormal/solvers/proximity.hpp"
+#include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
 
@@ -12,5 +13,9 @@ void count_query(const Proximity& result, bool warm) noexcept;
 void count_closed_form() noexcept;
 
 void count_contact() noexcept;
+
+/// Replaces this thread's counts and returns what they were: what is counted for another thread is taken out here and added there.
+snStatistics exchange_statistics(const snStatistics& statistics) noexcept;
+void add_statistics(const snStatistics& more) noexcept;
 
 }  // namespace supernormal::ode

@@ -14,10 +14,9 @@ namespace {
 // 64 bytes: a line of the processor's cache.
 struct Entry {
   PairKey key;
-  std::array<double, 3> normal;
-  std::array<float, 3> offset;
-  std::array<float, 4> attitude;  // x, y, z, w
+  Remembered remembered;
 };
+static_assert(sizeof(Entry) == 64);
 
 constexpr double kSimilarOffset = 0.5;           // of the size
 const double kSimilarAttitude = std::cos(0.25);  // of half the angle
@@ -42,13 +41,6 @@ thread_local std::unique_ptr<Set[], Free> table;  // of zeros at first, which no
 // that a scene built for the second time in a process runs as the first. 20251 is 2^15 / golden ratio: neighbouring numbers fall
 // far apart.
 std::size_t set_index(const PairKey& key) { return (key.body * 20251U + key.partner * 12345U) % kSets; }
-
-bool is_similar(const Entry& entry, const RelativePose& pose, double size) {
-  const Vector3 moved = pose.offset - Vector3(entry.offset[0], entry.offset[1], entry.offset[2]);
-  const Eigen::Quaterniond attitude(entry.attitude[3], entry.attitude[0], entry.attitude[1], entry.attitude[2]);
-  return moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size &&
-         std::abs(pose.attitude.dot(attitude)) >= kSimilarAttitude;  // q and -q are the same attitude
-}
 
 bool same(const PairKey& a, const PairKey& b) { return a.body == b.body && a.partner == b.partner; }
 
@@ -83,32 +75,46 @@ RelativePose RelativePose::of(const Pose& frame, const Pose& other) {
 
 void set_warm_start(bool on) noexcept { enabled.store(on, std::memory_order_relaxed); }
 
-bool recall_normal(const PairKey& key, const RelativePose& pose, double size, Vector3& normal) noexcept {
-  if (!table || !enabled.load(std::memory_order_relaxed)) return false;
-  for (const Entry& entry : table[set_index(key)]) {
-    if (!same(entry.key, key)) continue;
-    if (!is_similar(entry, pose, size)) return false;
-    normal = Vector3(entry.normal[0], entry.normal[1], entry.normal[2]);
-    return true;
-  }
-  return false;
-}
-
-void remember_normal(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept {
-  if (!enabled.load(std::memory_order_relaxed)) return;
+Remembered reserve_entry(const PairKey& key) noexcept {
+  if (!enabled.load(std::memory_order_relaxed)) return {};
   if (!table) {
     table.reset(static_cast<Set*>(std::calloc(kSets, sizeof(Set))));
-    if (!table) return;
+    if (!table) return {};
   }
   Set& set = table[set_index(key)];
-  const auto known = std::find_if(set.begin(), set.end() - 1, [&](const Entry& entry) { return same(entry.key, key); });
-  std::move_backward(set.begin(), known, known + 1);  // drops the known entry, or the oldest
+  const auto known = std::find_if(set.begin(), set.end(), [&](const Entry& entry) { return same(entry.key, key); });
+  const Entry entry = known == set.end() ? Entry{key, {}} : *known;
+  const auto last = known == set.end() ? known - 1 : known;  // the oldest is dropped
+  std::move_backward(set.begin(), last, last + 1);
+  set.front() = entry;
+  return entry.remembered;
+}
+
+void prefetch_entry(const PairKey& key) noexcept {
+  if (table) __builtin_prefetch(&table[set_index(key)], 1);
+}
+
+bool recall_normal(const Remembered& remembered, const RelativePose& pose, double size, Vector3& normal) noexcept {
+  const auto& [direction, offset, attitude] = remembered;
+  const Vector3 moved = pose.offset - Vector3(offset[0], offset[1], offset[2]);
+  const Eigen::Quaterniond then(attitude[3], attitude[0], attitude[1], attitude[2]);
+  const bool is_similar = moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size &&
+                          std::abs(pose.attitude.dot(then)) >= kSimilarAttitude;  // q and -q are the same attitude
+  if (is_similar) normal = Vector3(direction[0], direction[1], direction[2]);
+  return is_similar;
+}
+
+void fill_entry(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept {
+  if (!table || !enabled.load(std::memory_order_relaxed)) return;
   const Eigen::Vector3f offset = pose.offset.cast<float>();
   const Eigen::Vector4f attitude = pose.attitude.coeffs().cast<float>();
-  set.front() = {key,
-                 {normal.x(), normal.y(), normal.z()},
-                 {offset.x(), offset.y(), offset.z()},
-                 {attitude.x(), attitude.y(), attitude.z(), attitude.w()}};
+  for (Entry& entry : table[set_index(key)]) {
+    if (!same(entry.key, key)) continue;
+    entry.remembered = {{normal.x(), normal.y(), normal.z()},
+                        {offset.x(), offset.y(), offset.z()},
+                        {attitude.x(), attitude.y(), attitude.z(), attitude.w()}};
+    return;
+  }
 }
 
 }  // namespace supernormal::ode

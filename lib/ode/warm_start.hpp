@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 
@@ -37,14 +38,28 @@ struct RelativePose {
 
 void set_warm_start(bool on) noexcept;
 
-/// Copies the remembered unit normal of the pair and returns true; false when there is none, when warm start is off, or when the
-/// pair has moved too far since: by more than half of `size` (the smallest half-extent of our bodies, m) or half a radian. A deep
-/// overlap has several local maxima, and the solver stays on the one that a first normal leads to. That is continuity when the
-/// pair has just been there, and an arbitrary depth when a body was moved by the program, or another sphere is in the old one's
-/// place.
-bool recall_normal(const PairKey& key, const RelativePose& pose, double size, Vector3& normal) noexcept;
+/// What is remembered of a pair; of a pair that is not known all zeros, which no pose is similar to.
+struct Remembered {
+  std::array<double, 3> normal{};
+  std::array<float, 3> offset{};
+  std::array<float, 4> attitude{};  // x, y, z, w
+};
 
-/// Does nothing when warm start is off or there is no memory.
-void remember_normal(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept;
+/// Keeps room for the pair in this thread's table, until others push it out, and tells what is in it; zeros when warm start is off
+/// or there is no memory. Which pairs are pushed out depends on the order of these calls alone: when the normals are found and
+/// filled in does not matter.
+Remembered reserve_entry(const PairKey& key) noexcept;
+
+/// Makes the processor fetch what reserve_entry will read.
+void prefetch_entry(const PairKey& key) noexcept;
+
+/// Copies the remembered unit normal of the pair and returns true; false when there is none or when the pair has moved too far
+/// since: by more than half of `size` (the smallest half-extent of our bodies, m) or half a radian. A deep overlap has several
+/// local maxima, and the solver stays on the one that a first normal leads to. That is continuity when the pair has just been
+/// there, and an arbitrary depth when a body was moved by the program, or another sphere is in the old one's place.
+bool recall_normal(const Remembered& remembered, const RelativePose& pose, double size, Vector3& normal) noexcept;
+
+/// Writes into the room that was kept; does nothing when the pair has been pushed out since or warm start is off.
+void fill_entry(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept;
 
 }  // namespace supernormal::ode

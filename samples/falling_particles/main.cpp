@@ -31,24 +31,33 @@ void list_effects() {
   }
 }
 
-ExitCode simulate(const std::string& scene_path, const std::string& out, bool quiet, bool check_leaks) {
-  const falling_particles::Scene scene = falling_particles::load_scene(scene_path);
+struct Options {
+  std::string scene_path;
+  std::string out = "out";
+  int threads = 0;
+  bool quiet = false;
+  bool check_leaks = false;
+};
+
+ExitCode simulate(const Options& options) {
+  const falling_particles::Scene scene = falling_particles::load_scene(options.scene_path);
   falling_particles::catch_interrupts();
-  const falling_particles::RunEnd end = falling_particles::run(scene, out, quiet);
+  const falling_particles::RunEnd end = falling_particles::run(scene, options.out, options.quiet, options.threads);
   if (end.interrupted) return Interrupted;
-  return end.leaked && check_leaks ? Leaked : Done;
+  return end.leaked && options.check_leaks ? Leaked : Done;
 }
 
 ExitCode run_program(int argc, char** argv) {
   CLI::App app("Simulates falling grains in a container with ODE and Supernormal.", "falling_particles");
-  std::string scene_path;
-  std::string out = "out";
-  bool quiet = false;
-  bool check_leaks = false;
-  app.add_option("-s,--scene", scene_path, "scene file (TOML)")->required();
-  app.add_option("-o,--out", out, "folder for the results")->capture_default_str();
-  app.add_flag("-q,--quiet", quiet, "no progress");
-  app.add_flag("--check-leaks", check_leaks, "exit with 3 when a grain leaves its container");
+  Options options;
+  app.add_option("-s,--scene", options.scene_path, "scene file (TOML)")->required();
+  app.add_option("-o,--out", options.out, "folder for the results")->capture_default_str();
+  app.add_option("-t,--threads", options.threads,
+                 "that look for contacts; 0: as many as the machine has. Same results with any number")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  app.add_flag("-q,--quiet", options.quiet, "no progress");
+  app.add_flag("--check-leaks", options.check_leaks, "exit with 3 when a grain leaves its container");
   const auto list = [] {
     list_effects();
     throw CLI::Success();
@@ -60,7 +69,7 @@ ExitCode run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? Done : BadInput;
   }
-  return simulate(scene_path, out, quiet, check_leaks);
+  return simulate(options);
 }
 
 }  // namespace

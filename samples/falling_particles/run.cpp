@@ -109,11 +109,11 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet) {
+RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int threads) {
   OutputFolder folder(out, scene.name);
   Random random(scene.seed);
   World world(scene, place(scene, random));
-  Stepper stepper(world, scene);
+  Stepper stepper(world, scene, threads);
   Watches watches(world, scene, random);
   Recorder recorder(folder, world, scene, watches.discharge);
   snResetStatistics();

@@ -11,7 +11,8 @@ struct RunEnd {
   bool leaked;  ///< a grain was outside the container at some time
 };
 
-/// Simulates the scene and writes `out`/<scene>/; prints the summary to stdout, warnings to stderr and, unless quiet, progress too.
-RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet);
+/// Simulates the scene, looking for contacts on `threads` (0: as many as the machine has), and writes `out`/<scene>/; prints the
+/// summary to stdout, warnings to stderr and, unless quiet, progress too.
+RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int threads);
 
 }  // namespace falling_particles

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <variant>
 
 namespace falling_particles {
@@ -25,21 +26,29 @@ bool may_sleep(const Scene& scene) {
 
 }  // namespace
 
-Stepper::Stepper(const World& world, const Scene& scene)
+Stepper::Stepper(const World& world, const Scene& scene, int threads)
     : world_(world),
       step_(scene.time.step),
-      near_callback_(may_sleep(scene) ? &Stepper::near_callback_of_sleepers : &Stepper::near_callback),
-      joints_(dJointGroupCreate(0)) {
+      name_pair_(may_sleep(scene) ? &Stepper::name_pair_of_sleepers : &Stepper::name_pair),
+      joints_(dJointGroupCreate(0)),
+      batch_(snBatchCreate(threads)) {
+  if (batch_ == nullptr) throw std::runtime_error(snLastError());
   world_.effects().measure();
 }
 
-Stepper::~Stepper() { dJointGroupDestroy(joints_); }
+Stepper::~Stepper() {
+  snBatchDestroy(batch_);
+  dJointGroupDestroy(joints_);
+}
 
 void Stepper::step() {
   contacts_.clear();
   {
     const Stopwatch::Lap lap(costs_.collision);
-    dSpaceCollide(world_.space(), this, near_callback_);
+    costs_.broad_phase.start();
+    if (snBatchCollide(batch_, world_.space(), kContactsPerPair, this, name_pair_, &Stepper::add_contacts) < 0) {
+      throw std::runtime_error(snLastError());
+    }
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
@@ -70,21 +79,20 @@ void Stepper::attach(std::span<const dContactGeom> pair) {
   }
 }
 
-void Stepper::near_callback_of_sleepers(void* self, dGeomID g1, dGeomID g2) {
-  if (is_awake(g1) || is_awake(g2)) near_callback(self, g1, g2);
+int Stepper::name_pair_of_sleepers(void* self, dGeomID g1, dGeomID g2) {
+  return is_awake(g1) || is_awake(g2) ? name_pair(self, g1, g2) : 0;
 }
 
-void Stepper::near_callback(void* self, dGeomID g1, dGeomID g2) { static_cast<Stepper*>(self)->collide(g1, g2); }
+int Stepper::name_pair(void* self, dGeomID /*g1*/, dGeomID /*g2*/) {
+  StepCosts& costs = static_cast<Stepper*>(self)->costs_;
+  ++costs.pairs_tested;
+  costs.broad_phase.lap();  // the last of these ends it
+  return 1;
+}
 
-void Stepper::collide(dGeomID g1, dGeomID g2) {
-  std::array<dContactGeom, kContactsPerPair> found;
-  ++costs_.pairs_tested;
-  int count = 0;
-  {
-    const Stopwatch::Lap lap(costs_.narrow_phase);
-    count = dCollide(g1, g2, kContactsPerPair, found.data(), sizeof(dContactGeom));
-  }
-  contacts_.insert(contacts_.end(), found.begin(), found.begin() + count);
+void Stepper::add_contacts(void* self, dGeomID /*g1*/, dGeomID /*g2*/, const dContactGeom* contacts, int count) {
+  std::vector<dContactGeom>& all = static_cast<Stepper*>(self)->contacts_;
+  all.insert(all.end(), contacts, contacts + count);
 }
 
 }  // namespace falling_particles

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ode/ode.h>
+#include <supernormal/supernormal.h>
 
 #include <span>
 #include <vector>
@@ -13,19 +14,20 @@ namespace falling_particles {
 
 /// Where the time of the steps went, and how much was done in them.
 struct StepCosts {
-  Stopwatch collision;      ///< dSpaceCollide: broad and narrow phase
-  Stopwatch narrow_phase;   ///< dCollide, within collision
+  Stopwatch collision;      ///< snBatchCollide: broad and narrow phase
+  Stopwatch broad_phase;    ///< bounding boxes and pairs, within collision
   Stopwatch contact_setup;  ///< effects' passes, contact joints made and removed
   Stopwatch solver;         ///< dWorldQuickStep
   unsigned long long pairs_tested = 0;
   unsigned long long contacts = 0;
-  double broad_phase_seconds() const { return collision.seconds() - narrow_phase.seconds(); }
+  double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
 };
 
 /// Advances a world: find contacts, turn them into constraints, step.
 class Stepper {
  public:
-  Stepper(const World& world, const Scene& scene);
+  /// `threads` that look for contacts, in [1, 256]; 0: as many as the machine has. The motion is the same with any number.
+  Stepper(const World& world, const Scene& scene, int threads = 1);
   ~Stepper();
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
@@ -37,16 +39,17 @@ class Stepper {
   const StepCosts& costs() const { return costs_; }
 
  private:
-  static void near_callback(void* self, dGeomID g1, dGeomID g2);
+  static int name_pair(void* self, dGeomID g1, dGeomID g2);
   /// Of scenes whose bodies may sleep: leaves pairs alone of which neither is awake.
-  static void near_callback_of_sleepers(void* self, dGeomID g1, dGeomID g2);
-  void collide(dGeomID g1, dGeomID g2);
+  static int name_pair_of_sleepers(void* self, dGeomID g1, dGeomID g2);
+  static void add_contacts(void* self, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
   void attach(std::span<const dContactGeom> pair);
 
   const World& world_;
   double step_;
-  dNearCallback* near_callback_;
+  snPairFilter* name_pair_;
   dJointGroupID joints_;
+  snBatchID batch_;
   std::vector<dContactGeom> contacts_;
   double deepest_contact_ = 0;
   StepCosts costs_;

@@ -132,17 +132,17 @@ void add_discharge(Lines& lines, const Scene& scene, const Discharge& discharge)
 void add_costs(Lines& lines, const Summary& s) {
   const StepCosts& c = s.costs;
   const double total = s.real_seconds;
-  const double narrow = c.narrow_phase.seconds();
+  const double narrow = c.narrow_phase_seconds();
   const double solver = c.solver.seconds();
   lines.section("cost");
-  lines.add("real", total, "s, steps and output, one thread");
+  lines.add("real", total, "s, steps and output");
   lines.add("real_per_step", total / s.steps, "s");
-  lines.add("share_broad_phase", c.broad_phase_seconds() / total, "dSpaceCollide without dCollide: bounding boxes and hash space");
-  lines.add("share_narrow_phase", narrow / total, "dCollide");
+  lines.add("share_broad_phase", c.broad_phase.seconds() / total, "bounding boxes and hash space");
+  lines.add("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
   lines.add("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
   lines.add("share_solver", solver / total, "dWorldQuickStep");
   lines.add("share_output", (total - c.collision.seconds() - c.contact_setup.seconds() - solver) / total, "the rest");
-  lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, dCollide");
+  lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 
 /// What each effect that the scene names cost; rigid contact itself comes first. Seconds are those of its own passes and, by rows,

@@ -103,3 +103,29 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
   }
   CHECK(contacts_seen > 1000);
 }
+
+TEST_CASE("no allocation in a batch after the first") {
+  OdeSession session;
+  Random random(27);
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  std::vector<dGeomID> bodies;
+  for (int i = 0; i < 60; ++i) {
+    bodies.push_back(random_body(random, space));
+    place(bodies.back(), random.uniform(0, 4) * random.direction());
+  }
+  dCreatePlane(space, 0, 0, 1, -1);
+  const snBatchID batch = snBatchCreate(1);  // of several, a thread might come too late for the warm-up
+  int contacts_seen = 0;
+  const auto collide_all = [&] {
+    const auto count = [](void* seen, dGeomID, dGeomID, const dContactGeom*, int more) { *static_cast<int*>(seen) += more; };
+    snBatchCollide(batch, space, 8, &contacts_seen, nullptr, count);
+  };
+  collide_all();
+  for (const dGeomID body : bodies) place(body, 1.001 * to_vec(dGeomGetPosition(body)));  // apart: not more pairs than before
+  const long before = allocations;
+  collide_all();
+  CHECK(allocations == before);
+  CHECK(contacts_seen > 500);
+  snBatchDestroy(batch);
+  dSpaceDestroy(space);
+}
