@@ -6,9 +6,11 @@
 #include <exception>
 #include <iostream>
 
+#include "atlas.hpp"
 #include "measurement.hpp"
 #include "partner_cost.hpp"
 #include "report.hpp"
+#include "scene_cost.hpp"
 #include "sweep.hpp"
 
 namespace {
@@ -23,10 +25,17 @@ struct Options {
   std::string csv, sweep;
   bool partners = false;
   std::size_t poses = 200;
+  bool scene = false;
+  std::string scene_path = "samples/scenes/pile.toml";
+  std::string out = "out/accuracy_cost";
 };
 
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
+  if (options.scene) {
+    run_parts({scene_forms(options.scene_path), scene_growth(options.scene_path), scene_outcomes(options.scene_path)}, options.out);
+    return;
+  }
   if (options.partners) {
     write_partner_costs(options.poses, options.seed, effort, std::cout);
     return;
@@ -72,6 +81,12 @@ int main(int argc, char** argv) {
         ->excludes(sweep);
     app.add_option("--poses", options.poses, "with --partners: of each body at each partner")
         ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")
+        ->excludes(csv)
+        ->excludes(sweep);
+    app.add_option("--scene-file", options.scene_path, "with --scene: the grains, in a box")->capture_default_str();
+    app.add_option("--out", options.out, "with --scene: folder for the results; what is there is not measured again")
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     run(options);

@@ -12,25 +12,41 @@ namespace {
 
 double signed_power(double x, double exponent) { return std::copysign(std::pow(std::abs(x), exponent), x); }
 
+/// Of (|x|^delta + |y|^delta)^(epsilon/delta) + |z|^epsilon = 1, for a direction of the parameters.
+Vector3 surface_point(double x, double y, double z, double delta, double epsilon) {
+  const double across = std::pow(std::hypot(x, y), 2 / epsilon);
+  const double length = std::hypot(x, y);
+  return {across * signed_power(x / length, 2 / delta), across * signed_power(y / length, 2 / delta), signed_power(z, 2 / epsilon)};
+}
+
+/// Of the left side of that equation, over epsilon.
+Vector3 gradient(const Vector3& p, double delta, double epsilon) {
+  const double across = std::pow(std::pow(std::abs(p.x()), delta) + std::pow(std::abs(p.y()), delta), 1 / delta);
+  const double factor = std::pow(across, epsilon - 1);
+  return {factor * signed_power(p.x() / across, delta - 1), factor * signed_power(p.y() / across, delta - 1),
+          signed_power(p.z(), epsilon - 1)};
+}
+
 }  // namespace
 
-Mesh superellipsoid_mesh(const Vector3& half_axes, double exponent, unsigned meridians, unsigned rings) {
-  const double power = 2 / exponent;
+Mesh superellipsoid_mesh(const Vector3& half_axes, double delta, double epsilon, double rounding, MeshSize size) {
+  const auto [meridians, rings] = size;
   Mesh mesh;
   for (unsigned ring = 1; ring <= rings; ++ring) {
     const double latitude = std::numbers::pi * (static_cast<double>(ring) / (rings + 1) - 0.5);
-    const double across = signed_power(std::cos(latitude), power);
+    const double across = std::cos(latitude);
     for (unsigned k = 0; k < meridians; ++k) {
       const double longitude = 2 * std::numbers::pi * k / meridians;
-      const Vector3 unit(across * signed_power(std::cos(longitude), power), across * signed_power(std::sin(longitude), power),
-                         signed_power(std::sin(latitude), power));
-      mesh.vertices.emplace_back(half_axes.cwiseProduct(unit));
+      const Vector3 unit =
+          surface_point(across * std::cos(longitude), across * std::sin(longitude), std::sin(latitude), delta, epsilon);
+      const Vector3 normal = gradient(unit, delta, epsilon).cwiseQuotient(half_axes).normalized();
+      mesh.vertices.emplace_back(half_axes.cwiseProduct(unit) + rounding * normal);
     }
   }
   const unsigned south = meridians * rings;
   const unsigned north = south + 1;
-  mesh.vertices.emplace_back(0, 0, -half_axes.z());
-  mesh.vertices.emplace_back(0, 0, half_axes.z());
+  mesh.vertices.emplace_back(0, 0, -half_axes.z() - rounding);
+  mesh.vertices.emplace_back(0, 0, half_axes.z() + rounding);
   for (unsigned k = 0; k < meridians; ++k) {
     const unsigned next = (k + 1) % meridians;
     mesh.triangles.push_back({south, next, k});

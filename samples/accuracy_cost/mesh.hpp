@@ -13,8 +13,16 @@ struct Mesh {
   std::vector<std::array<unsigned, 3>> triangles;  ///< counter-clockwise from outside
 };
 
-/// A superellipsoid with both exponents equal, by meridians and the rings between its two poles: 2 meridians rings triangles.
-Mesh superellipsoid_mesh(const supernormal::Vector3& half_axes, double exponent, unsigned meridians, unsigned rings);
+/// How fine: by meridians and the rings between the two poles.
+struct MeshSize {
+  unsigned meridians, rings;
+
+  unsigned vertices() const { return meridians * rings + 2; }
+  unsigned triangles() const { return 2 * meridians * rings; }
+};
+
+/// A superellipsoid swept by a sphere of the radius `rounding` (m); the vertices are on its boundary.
+Mesh superellipsoid_mesh(const supernormal::Vector3& half_axes, double delta, double epsilon, double rounding, MeshSize size);
 
 Mesh icosahedron(double radius);
 

@@ -9,14 +9,16 @@ namespace {
 
 constexpr double kA = 0.5, kB = 0.4, kC = kSmallestHalfAxis;
 constexpr double kExponent = 4;
-constexpr unsigned kMeridians = 24, kRings = 20;  // 960 triangles, 482 vertices
-constexpr unsigned kTerrainCells = 40;            // 3200 triangles
+constexpr MeshSize kConvexSize{24, 20};  // 960 triangles, 482 vertices
+constexpr unsigned kTerrainCells = 40;   // 3200 triangles
 
 OdeGeom superellipsoid() { return OdeGeom(snCreateSuperellipsoid(nullptr, kA, kB, kC, kExponent, kExponent)); }
 OdeGeom ellipsoid() { return OdeGeom(snCreateEllipsoid(nullptr, kA, kB, kC)); }
 OdeGeom box() { return OdeGeom(dCreateBox(nullptr, 2 * kA, 2 * kB, 2 * kC)); }
 OdeGeom capsule() { return OdeGeom(dCreateCapsule(nullptr, kC, 2 * (kA - kC))); }
-OdeGeom convex() { return make_convex(superellipsoid_mesh(supernormal::Vector3(kA, kB, kC), kExponent, kMeridians, kRings)); }
+OdeGeom convex() {
+  return make_convex(superellipsoid_mesh(supernormal::Vector3(kA, kB, kC), kExponent, kExponent, 0, kConvexSize));
+}
 
 }  // namespace
 

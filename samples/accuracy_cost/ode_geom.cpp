@@ -39,7 +39,7 @@ OdeGeom::~OdeGeom() {
   if (id_ != nullptr) dGeomDestroy(id_);
 }
 
-OdeGeom make_convex(const Mesh& mesh) {
+GeomMaker convex_maker(const Mesh& mesh) {
   const auto data = std::make_shared<ConvexData>();
   for (const Vector3& vertex : mesh.vertices) data->points.insert(data->points.end(), vertex.begin(), vertex.end());
   for (const auto& triangle : mesh.triangles) {
@@ -50,19 +50,19 @@ OdeGeom make_convex(const Mesh& mesh) {
     data->polygons.push_back(3);
     data->polygons.insert(data->polygons.end(), triangle.begin(), triangle.end());
   }
-  const dGeomID id = dCreateConvex(nullptr, data->planes.data(), static_cast<unsigned>(mesh.triangles.size()), data->points.data(),
-                                   static_cast<unsigned>(mesh.vertices.size()), data->polygons.data());
-  return OdeGeom(id, data);
+  return [data, planes = static_cast<unsigned>(mesh.triangles.size()), points = static_cast<unsigned>(mesh.vertices.size())] {
+    return OdeGeom(dCreateConvex(nullptr, data->planes.data(), planes, data->points.data(), points, data->polygons.data()), data);
+  };
 }
 
-OdeGeom make_trimesh(const Mesh& mesh) {
+GeomMaker trimesh_maker(const Mesh& mesh) {
   const auto data = std::make_shared<TrimeshData>();
   for (const Vector3& vertex : mesh.vertices) data->vertices.insert(data->vertices.end(), vertex.begin(), vertex.end());
   for (const auto& triangle : mesh.triangles) data->indices.insert(data->indices.end(), triangle.begin(), triangle.end());
   dGeomTriMeshDataBuildDouble(data->id, data->vertices.data(), 3 * sizeof(double), static_cast<int>(mesh.vertices.size()),
                               data->indices.data(), static_cast<int>(data->indices.size()), 3 * sizeof(dTriIndex));
   dGeomTriMeshDataPreprocess2(data->id, 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);
-  return OdeGeom(dCreateTriMesh(nullptr, data->id, nullptr, nullptr, nullptr), data);
+  return [data] { return OdeGeom(dCreateTriMesh(nullptr, data->id, nullptr, nullptr, nullptr), data); };
 }
 
 }  // namespace accuracy_cost

@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <functional>
 #include <memory>
 
 #include "mesh.hpp"
@@ -27,9 +28,15 @@ class OdeGeom {
   std::shared_ptr<void> data_;
 };
 
-OdeGeom make_convex(const Mesh& mesh);
+/// What makes geoms of one mesh: they share what ODE refers to.
+using GeomMaker = std::function<OdeGeom()>;
+
+GeomMaker convex_maker(const Mesh& mesh);
 
 /// With the face angles that ODE's collider with dConvex asserts.
-OdeGeom make_trimesh(const Mesh& mesh);
+GeomMaker trimesh_maker(const Mesh& mesh);
+
+inline OdeGeom make_convex(const Mesh& mesh) { return convex_maker(mesh)(); }
+inline OdeGeom make_trimesh(const Mesh& mesh) { return trimesh_maker(mesh)(); }
 
 }  // namespace accuracy_cost

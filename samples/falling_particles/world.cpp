@@ -23,6 +23,8 @@ dSpaceID create_space(const Scene& scene) {
   return space;
 }
 
+}  // namespace
+
 dGeomID create_geom(dSpaceID space, const Grain& grain) {
   const double r = grain.rounding;
   const auto [a, b, c] = grain.half_axes;
@@ -34,8 +36,6 @@ dGeomID create_geom(dSpaceID space, const Grain& grain) {
   }
   return geom;
 }
-
-}  // namespace
 
 World::World(const Scene& scene, const std::vector<Placement>& placements) {
   dInitODE2(0);

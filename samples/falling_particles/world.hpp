@@ -34,6 +34,9 @@ inline supernormal::effects::Material material_of(dGeomID geom) {
   return body_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;
 }
 
+/// The grain as a geom of ours. Throws std::runtime_error when the library refuses it.
+dGeomID create_geom(dSpaceID space, const Grain& grain);
+
 /// The ODE world of a scene, which must outlive it.
 class World {
  public:

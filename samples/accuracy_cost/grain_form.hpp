@@ -1,0 +1,24 @@
+// The grains of a scene as bodies of several classes.
+#pragma once
+
+#include <string>
+
+#include "grain.hpp"
+#include "ode_geom.hpp"
+
+namespace accuracy_cost {
+
+enum class FormKind { Smooth, Box, Convex, Trimesh };  // ours; ODE's classes
+
+struct Form {
+  FormKind kind = FormKind::Smooth;
+  double tolerance = 1e-9;       ///< of Smooth
+  MeshSize mesh = {24, 20};      ///< of Convex and Trimesh, whose vertices are on the grain's boundary
+  std::string name() const;      ///< "dConvex"
+  std::string accuracy() const;  ///< the tolerance, or the number of vertices; "" of a box
+};
+
+/// Makes geoms of the grain, in no space; a dBox has the half-axes of its grain.
+GeomMaker grain_maker(const Form& form, const falling_particles::Grain& grain);
+
+}  // namespace accuracy_cost

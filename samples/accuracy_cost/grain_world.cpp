@@ -1,0 +1,175 @@
+#include "grain_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace accuracy_cost {
+namespace {
+
+using falling_particles::Stopwatch;
+
+constexpr int kContactsPerPair = 5;  // as in falling_particles
+constexpr unsigned long kWallBit = 1;
+constexpr unsigned long kGrainBit = 2;
+
+dSpaceID create_space(SpaceKind kind, const falling_particles::Scene& scene) {
+  switch (kind) {
+    case SpaceKind::Hash:
+      return dHashSpaceCreate(nullptr);
+    case SpaceKind::QuadTree: {
+      // Blocks of about two of the largest grains, over the plan of the container; ODE's tree divides x and y.
+      const auto plan = falling_particles::plan_of(scene.container);
+      const dVector3 half = {0.5 * plan.width[0], 0.5 * plan.width[1], 1};
+      const dVector3 middle = {plan.corner[0] + half[0], plan.corner[1] + half[1], 0};
+      const double cells = plan.width[0] / (4 * scene.largest_bounding_radius());
+      return dQuadTreeSpaceCreate(nullptr, middle, half, std::clamp(static_cast<int>(std::lround(std::log2(cells))), 1, 8));
+    }
+    case SpaceKind::SweepAndPrune:
+      return dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+    case SpaceKind::Simple:
+      return dSimpleSpaceCreate(nullptr);
+  }
+  throw std::logic_error("no such space");
+}
+
+void collect(void* pairs, dGeomID g1, dGeomID g2) {
+  static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(pairs)->emplace_back(g1, g2);
+}
+
+bool is_unit(const dReal* normal) {
+  const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  return std::abs(square - 1) < 1e-6;  // false for what is not a number, too
+}
+
+}  // namespace
+
+const char* name_of(SpaceKind kind) {
+  constexpr std::array<const char*, 4> kNames = {"hash", "quadtree", "sweep and prune", "simple"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& start, const Form& form, SpaceKind space)
+    : scene_(scene), world_(scene, start.placements), space_(create_space(space, scene)), joints_(dJointGroupCreate(0)) {
+  for (const auto& placement : start.placements) kinds_.push_back(placement.kind);
+  add_geoms(form);
+  set_velocities(start);
+  set_space_cells(space);
+  walls_ = std::make_unique<falling_particles::Walls>(space_, scene.container, kWallBit, kGrainBit);
+}
+
+GrainWorld::~GrainWorld() {
+  dJointGroupDestroy(joints_);
+  walls_.reset();
+  geoms_.clear();
+  dSpaceDestroy(space_);
+}
+
+void GrainWorld::add_geoms(const Form& form) {
+  std::vector<GeomMaker> makers;
+  for (const auto& [grain, count] : scene_.grains) makers.push_back(grain_maker(form, grain));
+  geoms_.reserve(kinds_.size());
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    const falling_particles::Body& body = world_.bodies()[i];
+    const dGeomID geom = geoms_.emplace_back(makers[kinds_[i]]()).id();
+    dGeomSetBody(geom, body.body);
+    dGeomSetData(geom, dGeomGetData(body.geom));  // by which the effects know it
+    dGeomSetBody(body.geom, nullptr);             // the twin stays behind: moving it would be part of the time
+    dGeomSetCategoryBits(geom, kGrainBit);
+    dGeomSetCollideBits(geom, kGrainBit | kWallBit);
+    dSpaceAdd(space_, geom);
+  }
+}
+
+void GrainWorld::set_velocities(const Snapshot& start) {
+  for (std::size_t i = 0; i < start.velocities.size(); ++i) {
+    const auto& v = start.velocities[i];
+    dBodySetLinearVel(world_.bodies()[i].body, v[0], v[1], v[2]);
+    dBodySetAngularVel(world_.bodies()[i].body, v[3], v[4], v[5]);
+  }
+}
+
+/// A level for every power of two between the smallest and the largest box of a grain: each lies in cells of its own size.
+void GrainWorld::set_space_cells(SpaceKind kind) {
+  if (kind != SpaceKind::Hash) return;
+  double smallest = std::numeric_limits<double>::infinity();
+  double largest = 0;
+  for (const OdeGeom& geom : geoms_) {
+    dReal aabb[6];
+    dGeomGetAABB(geom.id(), aabb);
+    const double side = std::max({aabb[1] - aabb[0], aabb[3] - aabb[2], aabb[5] - aabb[4]});
+    smallest = std::min<double>(smallest, side);
+    largest = std::max<double>(largest, side);
+  }
+  dHashSpaceSetLevels(space_, static_cast<int>(std::ceil(std::log2(smallest))), static_cast<int>(std::ceil(std::log2(largest))));
+}
+
+void GrainWorld::step() {
+  {
+    const Stopwatch::Lap lap(costs_.broad);
+    pairs_.clear();
+    dSpaceCollide(space_, &pairs_, collect);
+  }
+  {
+    const Stopwatch::Lap lap(costs_.narrow);
+    find_contacts();
+  }
+  {
+    const Stopwatch::Lap lap(costs_.joints);
+    make_joints();
+  }
+  {
+    const Stopwatch::Lap lap(costs_.solver);
+    dWorldQuickStep(world_.id(), scene_.time.step);
+  }
+  ++costs_.steps;
+  costs_.pairs += pairs_.size();
+  costs_.contacts += contacts_.size();
+}
+
+void GrainWorld::find_contacts() {
+  contacts_.clear();
+  std::array<dContactGeom, kContactsPerPair> found;
+  for (const auto& [g1, g2] : pairs_) {
+    const int count = dCollide(g1, g2, kContactsPerPair, found.data(), sizeof(dContactGeom));
+    contacts_.insert(contacts_.end(), found.begin(), found.begin() + count);
+  }
+}
+
+void GrainWorld::make_joints() {
+  costs_.refused += std::erase_if(contacts_, [](const dContactGeom& contact) { return !is_unit(contact.normal); });
+  dJointGroupEmpty(joints_);
+  const auto is_same_pair = [](const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; };
+  for (std::size_t first = 0, end = 0; first < contacts_.size(); first = end) {
+    while (end < contacts_.size() && is_same_pair(contacts_[first], contacts_[end])) ++end;
+    attach(std::span(contacts_).subspan(first, end - first));
+  }
+}
+
+void GrainWorld::attach(std::span<const dContactGeom> pair) {
+  std::array<dContact, kContactsPerPair> contacts;
+  for (std::size_t i = 0; i < pair.size(); ++i) contacts[i].geom = pair[i];
+  const int count =
+      world_.effects().set_up_contacts(std::span(contacts).first(pair.size()), falling_particles::material_of(pair[0].g1),
+                                       falling_particles::material_of(pair[0].g2));
+  for (int i = 0; i < count; ++i) {
+    const dContact& contact = contacts[static_cast<std::size_t>(i)];
+    dJointAttach(dJointCreateContact(world_.id(), joints_, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
+  }
+}
+
+Snapshot GrainWorld::snapshot() const {
+  Snapshot snapshot;
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    const falling_particles::Body& body = world_.bodies()[i];
+    const dReal* const q = dBodyGetQuaternion(body.body);
+    const dReal* const v = dBodyGetLinearVel(body.body);
+    const dReal* const w = dBodyGetAngularVel(body.body);
+    snapshot.placements.push_back({kinds_[i], body.position(), {q[0], q[1], q[2], q[3]}});
+    snapshot.velocities.push_back({v[0], v[1], v[2], w[0], w[1], w[2]});
+  }
+  return snapshot;
+}
+
+}  // namespace accuracy_cost

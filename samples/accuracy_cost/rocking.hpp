@@ -1,0 +1,11 @@
+// One body whose motion is known: how far a form's accuracy takes it from the truth.
+#pragma once
+
+#include "grain_form.hpp"
+
+namespace accuracy_cost {
+
+/// |period / exact - 1| of an ellipsoid that rocks on a dBox without friction; NaN when it does not rock.
+double rocking_error(const Form& form);
+
+}  // namespace accuracy_cost
