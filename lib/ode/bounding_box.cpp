@@ -22,11 +22,13 @@ struct Interval {
 };
 
 // The body between its two supporting planes perpendicular to a world axis. Row i of R is axis i in the body's frame.
-Interval extent_along(int axis, const Shape& shape, const Pose& pose) {
+Interval extent_along(int axis, const Body& body, const Pose& pose) {
+  const Shape& shape = body.shape();
   const Vector3 direction = pose.rotation.row(axis).transpose();
   const double position = pose.position[axis];
   const double up = shape.support(direction);
-  const double down = shape.support(-direction);
+  const bool is_symmetric = body.superellipsoid() != nullptr;  // about its origin, also when it is rounded
+  const double down = is_symmetric ? up : shape.support(-direction);
   const double margin = rounding_of(std::abs(position) + std::abs(up) + std::abs(down));
   return {position - down - margin, position + up + margin};
 }
@@ -35,7 +37,7 @@ int write_finite_aabb(dGeomID geom, dReal* aabb) {
   const Body& body = require_body(geom);
   const Pose pose = pose_of(geom);
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval extent = extent_along(axis, body.shape(), pose);
+    const Interval extent = extent_along(axis, body, pose);
     if (!std::isfinite(extent.low) || !std::isfinite(extent.high)) return 0;
     aabb[2 * axis] = static_cast<dReal>(extent.low);
     aabb[2 * axis + 1] = static_cast<dReal>(extent.high);
