@@ -1,5 +1,6 @@
 #include "atlas.hpp"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -74,6 +75,18 @@ class Bar {
 };
 
 }  // namespace
+
+std::string joined(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line += (&cell == cells.data() ? "" : ",") + cell;
+  return line;
+}
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
 
 void run_parts(const std::vector<Part>& parts, const std::string& folder) {
   fs::create_directories(folder);

@@ -20,6 +20,10 @@ struct Part {
   std::vector<Task> tasks;
 };
 
+/// A line of CSV.
+std::string joined(const std::vector<std::string>& cells);
+std::string number(double value);
+
 /// Does the tasks that `folder` does not have the lines of, with a progress bar on stderr. A file begins with where and with what
 /// it was measured; each task's lines are on the disk before the next task starts. Throws when they cannot be written.
 void run_parts(const std::vector<Part>& parts, const std::string& folder);

@@ -1,7 +1,13 @@
 #include "environment.hpp"
 
+#include <ode/ode.h>
+
 #include <Eigen/Core>
+#include <array>
+#include <cstdio>
 #include <fstream>
+
+#include "method.hpp"
 
 namespace accuracy_cost {
 namespace {
@@ -27,14 +33,31 @@ std::string eigen_version() {
          std::to_string(EIGEN_MINOR_VERSION);
 }
 
+std::string commit() {
+  std::FILE* const pipe = popen("git -C '" ACCURACY_COST_SOURCE "' describe --always --dirty 2>/dev/null", "r");
+  if (pipe == nullptr) return "unknown";
+  std::array<char, 128> text{};
+  const bool found = std::fgets(text.data(), text.size(), pipe) != nullptr;
+  pclose(pipe);
+  std::string name = found ? text.data() : "unknown";
+  if (name.ends_with('\n')) name.pop_back();
+  return name;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> environment() {
-  return {{"processor", processor()},
-          {"compiler", compiler()},
-          {"build", ACCURACY_COST_FLAGS},
-          {"Eigen", eigen_version()},
-          {"libccd (by its ccd.pc)", ACCURACY_COST_CCD_VERSION}};
+  std::vector<std::pair<std::string, std::string>> lines = {{"processor", processor()},
+                                                            {"compiler", compiler()},
+                                                            {"build", ACCURACY_COST_FLAGS},
+                                                            {"commit", commit()},
+                                                            {"Eigen", eigen_version()},
+                                                            {"ODE", dODE_VERSION},
+                                                            {"libccd (by its ccd.pc)", ACCURACY_COST_CCD_VERSION}};
+  for (const Library& library : libraries()) {
+    lines.emplace_back(library.name, library.version.empty() ? "missing at the build: not measured" : library.version);
+  }
+  return lines;
 }
 
 }  // namespace accuracy_cost

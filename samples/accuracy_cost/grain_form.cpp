@@ -1,9 +1,9 @@
 #include "grain_form.hpp"
 
 #include <array>
-#include <cstdio>
 #include <stdexcept>
 
+#include "method.hpp"
 #include "supernormal/supernormal.h"
 #include "world.hpp"
 
@@ -43,15 +43,14 @@ GeomMaker grain_maker(const Form& form, const Grain& grain) {
 
 std::string Form::name() const {
   constexpr std::array<const char*, 4> kNames = {"Supernormal", "dBox", "dConvex", "dTriMesh"};
-  return kNames[static_cast<std::size_t>(kind)];
+  const std::string name = kNames[static_cast<std::size_t>(kind)];
+  return threads == 0 ? name : name + " (batch; " + std::to_string(threads) + (threads == 1 ? " thread)" : " threads)");
 }
 
 std::string Form::accuracy() const {
   if (kind == FormKind::Box) return "";
   if (kind != FormKind::Smooth) return std::to_string(mesh.vertices());
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.0e", tolerance);
-  return text.data();
+  return power_of_ten(tolerance);
 }
 
 }  // namespace accuracy_cost

@@ -12,8 +12,10 @@ enum class FormKind { Smooth, Box, Convex, Trimesh };  // ours; ODE's classes
 
 struct Form {
   FormKind kind = FormKind::Smooth;
-  double tolerance = 1e-9;       ///< of Smooth
-  MeshSize mesh = {24, 20};      ///< of Convex and Trimesh, whose vertices are on the grain's boundary
+  double tolerance = 1e-9;   ///< of Smooth
+  MeshSize mesh = {24, 20};  ///< of Convex and Trimesh, whose vertices are on the grain's boundary
+  int threads = 0;           ///< that collide, in a batch; 0: one pair after the other
+
   std::string name() const;      ///< "dConvex"
   std::string accuracy() const;  ///< the tolerance, or the number of vertices; "" of a box
 };

@@ -60,6 +60,7 @@ GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& st
 }
 
 GrainWorld::~GrainWorld() {
+  snBatchDestroy(batch_);
   dJointGroupDestroy(joints_);
   walls_.reset();
   geoms_.clear();
@@ -106,14 +107,12 @@ void GrainWorld::set_space_cells(SpaceKind kind) {
 }
 
 void GrainWorld::step() {
-  {
-    const Stopwatch::Lap lap(costs_.broad);
-    pairs_.clear();
-    dSpaceCollide(space_, &pairs_, collect);
-  }
-  {
-    const Stopwatch::Lap lap(costs_.narrow);
-    find_contacts();
+  contacts_.clear();
+  pairs_.clear();
+  if (batch_ != nullptr) {
+    collide_batch();
+  } else {
+    collide_one_by_one();
   }
   {
     const Stopwatch::Lap lap(costs_.joints);
@@ -128,13 +127,35 @@ void GrainWorld::step() {
   costs_.contacts += contacts_.size();
 }
 
-void GrainWorld::find_contacts() {
-  contacts_.clear();
+void GrainWorld::collide_one_by_one() {
+  {
+    const Stopwatch::Lap lap(costs_.broad);
+    dSpaceCollide(space_, &pairs_, collect);
+  }
+  const Stopwatch::Lap lap(costs_.narrow);
   std::array<dContactGeom, kContactsPerPair> found;
   for (const auto& [g1, g2] : pairs_) {
     const int count = dCollide(g1, g2, kContactsPerPair, found.data(), sizeof(dContactGeom));
     contacts_.insert(contacts_.end(), found.begin(), found.begin() + count);
   }
+}
+
+void GrainWorld::collide_batch() {
+  costs_.broad.start();
+  const auto append = [](void* self, dGeomID, dGeomID, const dContactGeom* contacts, int count) {
+    auto& all = static_cast<GrainWorld*>(self)->contacts_;
+    all.insert(all.end(), contacts, contacts + count);
+  };
+  if (snBatchCollide(batch_, space_, kContactsPerPair, this, name_pair, append) < 0) throw std::runtime_error(snLastError());
+  costs_.narrow.start_where_ended(costs_.broad);
+  costs_.narrow.lap();
+}
+
+int GrainWorld::name_pair(void* self, dGeomID g1, dGeomID g2) {
+  auto& world = *static_cast<GrainWorld*>(self);
+  world.pairs_.emplace_back(g1, g2);
+  world.costs_.broad.lap();  // the last of these ends it
+  return 1;
 }
 
 void GrainWorld::make_joints() {

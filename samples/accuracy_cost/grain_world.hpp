@@ -10,6 +10,7 @@
 #include "grain_form.hpp"
 #include "placement.hpp"
 #include "stopwatch.hpp"
+#include "supernormal/supernormal.h"
 #include "world.hpp"
 
 namespace accuracy_cost {
@@ -55,7 +56,9 @@ class GrainWorld {
   void add_geoms(const Form& form);
   void set_velocities(const Snapshot& start);
   void set_space_cells(SpaceKind kind);
-  void find_contacts();
+  void collide_one_by_one();
+  void collide_batch();
+  static int name_pair(void* self, dGeomID g1, dGeomID g2);
   void make_joints();
   void attach(std::span<const dContactGeom> pair);
 
@@ -66,6 +69,7 @@ class GrainWorld {
   std::vector<OdeGeom> geoms_;
   std::unique_ptr<falling_particles::Walls> walls_;
   dJointGroupID joints_;
+  snBatchID batch_;  // null: one by one
   std::vector<std::pair<dGeomID, dGeomID>> pairs_;
   std::vector<dContactGeom> contacts_;
   PhaseCosts costs_;

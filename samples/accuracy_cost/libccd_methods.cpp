@@ -40,7 +40,8 @@ using Penetration = int (*)(const void*, const void*, const ccd_t*, ccd_real_t*,
 
 class Libccd final : public Method {
  public:
-  Libccd(std::string name, Penetration penetration, double tolerance) : Method(std::move(name)), penetration_(penetration) {
+  Libccd(std::string name, Penetration penetration, double tolerance)
+      : Method(std::move(name), power_of_ten(tolerance)), penetration_(penetration) {
     CCD_INIT(&settings_);
     settings_.support1 = support;
     settings_.support2 = support;
@@ -60,7 +61,8 @@ class Libccd final : public Method {
     const double evaluations = 0.5 * (body1.evaluations + body2.evaluations);
     if (result == -1) return {Answer::Kind::Apart, 0, Vector3::UnitX(), evaluations};
     if (result != 0) return {Answer::Kind::None, 0, Vector3::UnitX(), evaluations};
-    return {Answer::Kind::Gap, -depth, Vector3(direction.v[0], direction.v[1], direction.v[2]), evaluations};
+    return {Answer::Kind::Gap, -depth, Vector3(direction.v[0], direction.v[1], direction.v[2]), evaluations,
+            Vector3(position.v[0], position.v[1], position.v[2])};
   }
 
  private:

@@ -9,22 +9,28 @@
 #include "atlas.hpp"
 #include "measurement.hpp"
 #include "partner_cost.hpp"
+#include "partner_sweep.hpp"
+#include "query_cost.hpp"
 #include "report.hpp"
 #include "scene_cost.hpp"
-#include "sweep.hpp"
 
 namespace {
 
 using namespace accuracy_cost;
+
+constexpr std::size_t kAtlasPairs = 240;     // of each class and situation: 6000 in all
+constexpr std::size_t kAtlasMeshPairs = 12;  // each is four meshes at every size
+constexpr std::size_t kAtlasPoses = 100;     // at each partner
 
 struct Options {
   std::size_t pairs = 6000;
   std::uint64_t seed = 1;
   int rounds = Effort{}.rounds;
   double batch_us = Effort{}.batch * 1e6;
-  std::string csv, sweep;
+  std::string csv;
   bool partners = false;
   std::size_t poses = 200;
+  bool atlas = false;
   bool scene = false;
   std::string scene_path = "samples/scenes/pile.toml";
   std::string out = "out/accuracy_cost";
@@ -32,16 +38,19 @@ struct Options {
 
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
-  if (options.scene) {
-    run_parts({scene_forms(options.scene_path), scene_growth(options.scene_path), scene_outcomes(options.scene_path)}, options.out);
+  if (options.atlas || options.scene) {
+    std::vector<Part> parts;
+    if (options.atlas) {
+      parts.push_back(query_costs(kAtlasPairs, options.seed, effort));
+      parts.push_back(mesh_costs(kAtlasMeshPairs, options.seed, effort));
+      parts.push_back(partner_sweep(kAtlasPoses, options.seed, effort));
+    }
+    for (const auto& make : {scene_forms, scene_growth, scene_outcomes}) parts.push_back(make(options.scene_path));
+    run_parts(parts, options.out);
     return;
   }
   if (options.partners) {
     write_partner_costs(options.poses, options.seed, effort, std::cout);
-    return;
-  }
-  if (!options.sweep.empty()) {
-    write_sweep(options.pairs, options.seed, effort, options.sweep);
     return;
   }
   std::vector<Pair> pairs = draw_pairs(options.pairs, options.seed);
@@ -49,6 +58,7 @@ void run(const Options& options) {
   for (Methods more = libccd_methods(); auto& method : more) methods.push_back(std::move(method));
   methods.push_back(evaluation_cost(supernormal::Order::Point));
   methods.push_back(evaluation_cost(supernormal::Order::Curvature));
+  methods.push_back(floor_cost());
 
   const auto samples = measure(methods, pairs, effort);
   improve_references(samples, pairs);
@@ -74,19 +84,14 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     CLI::Option* const csv = app.add_option("--csv", options.csv, "file for the results");
-    CLI::Option* const sweep =
-        app.add_option("--sweep", options.sweep, "file for the results of all methods at all tolerances instead")->excludes(csv);
-    app.add_flag("--partners", options.partners, "times dCollide against every class of ODE instead")
-        ->excludes(csv)
-        ->excludes(sweep);
+    app.add_flag("--partners", options.partners, "times dCollide against every class of ODE instead")->excludes(csv);
     app.add_option("--poses", options.poses, "with --partners: of each body at each partner")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")
-        ->excludes(csv)
-        ->excludes(sweep);
-    app.add_option("--scene-file", options.scene_path, "with --scene: the grains, in a box")->capture_default_str();
-    app.add_option("--out", options.out, "with --scene: folder for the results; what is there is not measured again")
+    app.add_flag("--atlas", options.atlas, "measures all levels instead: queries, meshes, partners, scenes")->excludes(csv);
+    app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")->excludes(csv);
+    app.add_option("--scene-file", options.scene_path, "with --atlas and --scene: the grains, in a box")->capture_default_str();
+    app.add_option("--out", options.out, "with --atlas and --scene: folder for the results; what is there is not measured again")
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     run(options);

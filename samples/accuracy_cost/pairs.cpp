@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "random_geometry.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
@@ -25,17 +26,36 @@ constexpr double kWarmDistance = 1e-3;     // m and rad
 constexpr double kEvaluationSpread = 0.1;  // rad
 constexpr int kReferenceStarts = 60;       // per overlapping pair
 
+struct Range {
+  double low, high;
+};
+
+Range exponents_of(BodyClass body_class) {
+  switch (body_class) {
+    case BodyClass::Ellipsoid:
+      return {2, 2};
+    case BodyClass::Moderate:
+      return {1.3, 5};
+    case BodyClass::Boxy:
+      return {6, 20};
+    case BodyClass::Octahedral:
+      return {1.1, 1.3};
+    case BodyClass::Needle:
+      return {2, 5};
+  }
+  throw std::logic_error("no such class");
+}
+
 std::shared_ptr<const Shape> random_body(Random& random, BodyClass body_class) {
   const double a = uniform(random, 0.5, 1.5);
   const double b = uniform(random, 0.5, 1.5);
   const double c = uniform(random, 0.5, 1.5);
   if (body_class == BodyClass::Ellipsoid) return std::make_shared<supernormal::Ellipsoid>(Vector3(a, b, c));
-  const bool boxy = body_class == BodyClass::Boxy;
-  const double low = boxy ? 6 : 1.3;
-  const double high = boxy ? 20 : 5;
-  const double delta = uniform(random, low, high);
-  const double epsilon = uniform(random, low, high);
-  return std::make_shared<supernormal::Superellipsoid>(Vector3(a, b, c), delta, epsilon);
+  const Range range = exponents_of(body_class);
+  const double delta = uniform(random, range.low, range.high);
+  const double epsilon = uniform(random, range.low, range.high);
+  const double thin = body_class == BodyClass::Needle ? 0.1 : 1;
+  return std::make_shared<supernormal::Superellipsoid>(Vector3(thin * a, thin * b, c), delta, epsilon);
 }
 
 double wanted_gap(Random& random, Situation situation, double size) {
@@ -46,6 +66,8 @@ double wanted_gap(Random& random, Situation situation, double size) {
       return -0.3 * size;
     case Situation::Near:
       return 0.01 * size;
+    case Situation::Touching:
+      return 0;
     case Situation::Far:
       break;
   }
@@ -61,7 +83,7 @@ Vector3 spiral_direction(int i) {
 }
 
 Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
-  Pair pair{body_class, situation, random_body(random, body_class), random_body(random, body_class), {}, {}, 0, 0, {}, {}, {}};
+  Pair pair{body_class, situation, random_body(random, body_class), random_body(random, body_class), {}, {}, 0, 0, {}, {}, {}, {}};
   pair.size = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
   pair.pose1.rotation = random_attitude(random);
   pair.pose2.rotation = random_attitude(random);
@@ -75,6 +97,7 @@ Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
   const auto answer = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, exact);
   pair.gap = answer.gap;
   pair.normal = answer.normal;
+  pair.contact = answer.contact;
   improve_reference(pair, n);
   if (pair.gap < 0) {  // then there may be several maxima
     for (int i = 0; i < kReferenceStarts; ++i) improve_reference(pair, spiral_direction(i));
@@ -93,9 +116,9 @@ Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
 
 }  // namespace
 
-char letter(BodyClass body_class) { return "EMB"[static_cast<int>(body_class)]; }
+char letter(BodyClass body_class) { return "EMBON"[static_cast<int>(body_class)]; }
 
-char letter(Situation situation) { return "SDNF"[static_cast<int>(situation)]; }
+char letter(Situation situation) { return "SDNFT"[static_cast<int>(situation)]; }
 
 std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed) {
   Random random(seed);
@@ -109,6 +132,13 @@ std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed) {
   return pairs;
 }
 
+std::vector<Pair> draw_pairs_of(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < count; ++i) pairs.push_back(draw_pair(random, body_class, situation));
+  return pairs;
+}
+
 void improve_reference(Pair& pair, const Vector3& world_normal) {
   Settings exact;
   exact.tolerance = kReferenceTolerance;
@@ -117,6 +147,7 @@ void improve_reference(Pair& pair, const Vector3& world_normal) {
   if (!(answer.gap > pair.gap)) return;
   pair.gap = answer.gap;
   pair.normal = answer.normal;
+  pair.contact = answer.contact;
 }
 
 }  // namespace accuracy_cost

@@ -1,92 +1,29 @@
 #include "partner_cost.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <limits>
 #include <numeric>
 
 #include "environment.hpp"
-#include "ode_poses.hpp"
+#include "ode_timing.hpp"
 #include "statistics.hpp"
 #include "supernormal/supernormal.h"
 
 namespace accuracy_cost {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using supernormal::Pose;
-
 constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m; and as far apart
 constexpr double kRayShare = 0.5;                    // of the distance at which a ray grazes
-constexpr int kMaxRepeats = 4096;                    // even: as many of either pose
 
 enum class Lie { Overlap, Apart };
 constexpr std::array kLies = {Lie::Overlap, Lie::Apart};
 
 const char* name_of(Lie lie) { return lie == Lie::Overlap ? "overlap" : "apart"; }
 
-struct Query {
-  OdePair pair;
-  bool is_warm;
-  std::array<Pose, 2> poses;
-  int repeats = 2;
-  // s; shortest of all rounds: to move the body, and to move it and ask.
-  double moving = std::numeric_limits<double>::infinity();
-  double asking = std::numeric_limits<double>::infinity();
-  double contacts = 0;  // mean
-};
-
-/// What the compiler must not drop.
-volatile int sink;
-
-/// s per query; alternating between the two poses.
-template <typename Ask>
-double time_of(const Query& query, const Ask& ask) {
-  const auto start = Clock::now();
-  for (int k = 0; k < query.repeats; ++k) {
-    query.pair.move_body(query.poses[static_cast<std::size_t>(k % 2)]);
-    sink = ask();
-  }
-  return std::chrono::duration<double>(Clock::now() - start).count() / query.repeats;
-}
-
-void time_once(Query& query) {
-  snSetWarmStart(query.is_warm ? 1 : 0);
-  std::array<dContactGeom, kMaxContacts> contacts;
-  query.pair.move_body(query.poses[1]);
-  query.pair.collide(contacts);
-  query.asking = std::min(query.asking, time_of(query, [&] { return query.pair.collide(contacts); }));
-  query.moving = std::min(query.moving, time_of(query, [] { return 0; }));
-}
-
-double count_contacts(const Query& query) {
-  std::array<dContactGeom, kMaxContacts> contacts;
-  double count = 0;
-  for (const Pose& pose : query.poses) {
-    query.pair.move_body(pose);
-    count += query.pair.collide(contacts);
-  }
-  return count / 2;
-}
-
 double distance_of(Lie lie, PartnerClass partner, double touching) {
   if (lie == Lie::Apart) return touching + kDepth;
   return partner == PartnerClass::Ray ? kRayShare * touching : touching - kDepth;
-}
-
-void measure_all(std::vector<Query>& queries, const Effort& effort) {
-  for (Query& query : queries) {
-    query.contacts = count_contacts(query);
-    time_once(query);
-    query.repeats = 2 * std::clamp(static_cast<int>(0.5 * effort.batch / query.asking), 1, kMaxRepeats / 2);
-  }
-  for (int round = 0; round < effort.rounds; ++round) {
-    for (std::size_t turn = 0; turn < queries.size(); ++turn) {
-      // Nobody is always after the same one.
-      time_once(queries[(turn + static_cast<std::size_t>(round)) % queries.size()]);
-    }
-  }
 }
 
 /// Of one body in one row of the table.
@@ -125,7 +62,7 @@ class Meeting {
   OdePair pair(std::size_t b) const { return {geoms_[b].id(), partners_[std::min(b, partners_.size() - 1)].id()}; }
 
   void measure_pose(const Approach& approach, const Effort& effort, Row& row) const {
-    std::vector<Query> queries;
+    std::vector<OdeQuery> queries;
     std::vector<Cell*> cells;
     snSetWarmStart(0);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -134,9 +71,9 @@ class Meeting {
       queries.push_back({pair(b), bodies_[b].is_warm, approach.poses_at(distance_of(row.lie, partner_, *touching))});
       cells.push_back(&row.cells[b]);
     }
-    measure_all(queries, effort);
+    measure_queries(queries, effort);
     for (std::size_t q = 0; q < queries.size(); ++q) {
-      cells[q]->times.push_back(queries[q].asking - queries[q].moving);
+      cells[q]->times.push_back(queries[q].time());
       cells[q]->contacts.push_back(queries[q].contacts);
     }
   }

@@ -15,11 +15,13 @@ constexpr double kLarge = 0.99;  // of the samples are below
 
 bool is_failure(const Answer& answer, const Pair& pair) {
   const bool is_apart = pair.gap > 0;
+  const bool is_touching = std::abs(pair.gap) <= kInexact * pair.size;
   switch (answer.kind) {
     case Answer::Kind::Apart:
-      return !is_apart;
+      return !is_apart && !is_touching;
     case Answer::Kind::Gap:
-      return (answer.gap > 0) != is_apart || !(std::abs(answer.gap - pair.gap) <= 0.1 * std::abs(pair.gap) + 0.001 * pair.size);
+      return ((answer.gap > 0) != is_apart && !is_touching) ||
+             !(std::abs(answer.gap - pair.gap) <= 0.1 * std::abs(pair.gap) + 0.001 * pair.size);
     case Answer::Kind::None:
       break;
   }
@@ -39,7 +41,7 @@ double quantile(std::vector<double> values, double share) {
 Statistics statistics(const std::vector<Sample>& samples, const std::vector<Pair>& pairs,
                       const std::function<bool(const Pair&)>& is_chosen) {
   Statistics result;
-  std::vector<double> times, evaluations, errors, normal_errors;
+  std::vector<double> times, evaluations, errors, normal_errors, contact_errors;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     if (!is_chosen(pairs[p])) continue;
     const Sample& sample = samples[p];
@@ -49,6 +51,7 @@ Statistics statistics(const std::vector<Sample>& samples, const std::vector<Pair
       errors.push_back(std::abs(sample.answer.gap - pairs[p].gap) / pairs[p].size);
       normal_errors.push_back(2 * std::asin(std::min(1.0, 0.5 * (sample.answer.normal - pairs[p].normal).norm())));
     }
+    if (sample.answer.contact) contact_errors.push_back((*sample.answer.contact - pairs[p].contact).norm() / pairs[p].size);
     if (is_failure(sample.answer, pairs[p])) ++result.failures;
   }
   result.inexact = static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), [](double e) { return !(e <= kInexact); }));
@@ -57,6 +60,7 @@ Statistics statistics(const std::vector<Sample>& samples, const std::vector<Pair
   result.slow_time = quantile(times, kLarge);
   result.large_error = quantile(errors, kLarge);
   result.normal_error = median(std::move(normal_errors));
+  result.contact_error = median(std::move(contact_errors));
   result.time = median(std::move(times));
   result.evaluations = median(std::move(evaluations));
   result.median_error = median(std::move(errors));

@@ -17,8 +17,10 @@ struct Statistics {
   double large_error = 0;   ///< 99th percentile
   double worst_error = 0;
   double normal_error = 0;   ///< rad; median of the angle between the normals
+  double contact_error = 0;  ///< median distance of the contact points, relative to the smallest half-axis; NaN if none was told
   std::size_t inexact = 0;   ///< gaps off by more than 1e-6 of the smallest half-axis
-  std::size_t failures = 0;  ///< no answer, wrong verdict, or wrong by more than 10 % of the gap + 0.001 of the smallest half-axis
+  std::size_t failures = 0;  ///< no answer, wrong verdict, or wrong by more than 10 % of the gap + 0.001 of the smallest half-axis;
+                             ///< of bodies that touch any verdict is right
 };
 
 /// The value that `share` of them are below; NaN for none.

@@ -24,6 +24,7 @@ class Stopwatch {
 
   /// For an interval of which nobody knows that it ends: each lap() adds the time since start() or the last lap().
   void start() { last_ = Clock::now(); }
+  void start_where_ended(const Stopwatch& other) { last_ = other.last_; }
   void lap() {
     const Clock::time_point now = Clock::now();
     total_ += now - last_;

@@ -1,0 +1,96 @@
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <cmath>
+#include <csetjmp>
+#include <csignal>
+#include <exception>
+#include <limits>
+#include <unordered_set>
+
+#include "method.hpp"
+
+namespace accuracy_cost {
+namespace {
+
+using supernormal::Vector3;
+
+fcl::Transform3d to_fcl(const supernormal::Pose& pose) {
+  fcl::Transform3d transform = fcl::Transform3d::Identity();
+  transform.linear() = pose.rotation;
+  transform.translation() = pose.position;
+  return transform;
+}
+
+sigjmp_buf way_back;
+
+/// Debian's FCL has its assertions on, and some fail: the way out of abort() for the time of a call.
+class AbortCatcher {
+ public:
+  AbortCatcher() {
+    struct sigaction action {};
+    action.sa_handler = [](int /*signal*/) { siglongjmp(way_back, 1); };
+    action.sa_flags = SA_NODEFER;
+    sigaction(SIGABRT, &action, &before_);
+  }
+  ~AbortCatcher() { sigaction(SIGABRT, &before_, nullptr); }
+  AbortCatcher(const AbortCatcher&) = delete;
+  AbortCatcher& operator=(const AbortCatcher&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
+class FclDistance final : public Method {
+ public:
+  explicit FclDistance(double tolerance) : Method("FCL signed distance", power_of_ten(tolerance)), request_(true, true) {
+    request_.distance_tolerance = tolerance;
+    request_.gjk_solver_type = fcl::GJKSolverType::GST_LIBCCD;
+  }
+
+  Answer query(const Pair& pair) const override {
+    if (aborted_.contains(&pair)) return {};
+    if (seen_.insert(&pair).second && aborts(pair)) {
+      aborted_.insert(&pair);
+      return {};
+    }
+    return ask(pair);
+  }
+
+ private:
+  /// Outside the time that is measured: the first query of a pair is not timed.
+  bool aborts(const Pair& pair) const {
+    const AbortCatcher catcher;
+    if (sigsetjmp(way_back, 0) != 0) return true;  // what FCL had allocated is lost
+    ask(pair);
+    return false;
+  }
+
+  Answer ask(const Pair& pair) const {
+    const fcl::Ellipsoidd body1(pair.shape1->half_extents());
+    const fcl::Ellipsoidd body2(pair.shape2->half_extents());
+    fcl::DistanceResultd result;
+    double gap = std::numeric_limits<double>::quiet_NaN();
+    try {
+      gap = fcl::distance(&body1, to_fcl(pair.pose1), &body2, to_fcl(pair.pose2), request_, result);
+    } catch (const std::exception&) {  // of touching bodies: its two stages disagree
+    }
+    if (!std::isfinite(gap)) return {};
+    const auto& [point1, point2] = result.nearest_points;
+    const Vector3 normal = (gap < 0 ? -1 : 1) * (point2 - point1).normalized();
+    return {Answer::Kind::Gap, gap, normal, 0, 0.5 * (point1 + point2)};
+  }
+
+  fcl::DistanceRequestd request_;
+  mutable std::unordered_set<const Pair*> seen_, aborted_;
+};
+
+}  // namespace
+
+Methods fcl_methods() {
+  Methods methods;
+  for (int digits = 1; digits <= 8; ++digits) methods.push_back(std::make_unique<FclDistance>(std::pow(10.0, -digits)));
+  return methods;
+}
+
+}  // namespace accuracy_cost

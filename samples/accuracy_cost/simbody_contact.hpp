@@ -1,0 +1,34 @@
+// Simbody behind plain numbers: its headers are not C++20, which all of ours are.
+#pragma once
+
+#include <array>
+#include <memory>
+
+namespace accuracy_cost {
+
+struct SimbodyPose {
+  std::array<double, 9> rotation;  ///< by rows
+  std::array<double, 3> position;  ///< m
+};
+
+struct SimbodyContact {
+  bool is_apart = false;
+  bool has_converged = false;
+  double gap = 0;                   ///< m
+  std::array<double, 3> normal{};   ///< unit, from body 1 to body 2, world frame
+  std::array<double, 3> contact{};  ///< m, world frame
+};
+
+class SimbodyEllipsoid {
+ public:
+  explicit SimbodyEllipsoid(const std::array<double, 3>& half_axes);
+
+  /// What its tracker of convex implicit surfaces does: MPR for a start, then Newton's method on the two points.
+  SimbodyContact meet(const SimbodyPose& pose, const SimbodyEllipsoid& other, const SimbodyPose& other_pose, double accuracy) const;
+
+ private:
+  struct Geometry;
+  std::shared_ptr<const Geometry> geometry_;
+};
+
+}  // namespace accuracy_cost
