@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "atlas.hpp"
+#include "atlas_report.hpp"
 #include "measurement.hpp"
 #include "partner_cost.hpp"
 #include "partner_sweep.hpp"
@@ -47,6 +48,7 @@ void run(const Options& options) {
     }
     for (const auto& make : {scene_forms, scene_growth, scene_outcomes}) parts.push_back(make(options.scene_path));
     run_parts(parts, options.out);
+    write_report(options.out);
     return;
   }
   if (options.partners) {

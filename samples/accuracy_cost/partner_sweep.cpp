@@ -21,6 +21,12 @@ const falling_particles::Grain& body() {
   return grain;
 }
 
+/// Without the number of triangles.
+std::string short_name(PartnerClass partner) {
+  const std::string name = name_of(partner);
+  return name.substr(0, name.find(','));
+}
+
 struct Contender {
   Form form;
   bool is_warm;
@@ -102,7 +108,7 @@ std::vector<std::string> measure_partner(PartnerClass partner, std::size_t poses
 Part partner_sweep(std::size_t poses, std::uint64_t seed, const Effort& effort) {
   Part part{"partners", "partner,method,accuracy,poses,time_s,time_p99_s,depth_error,depth_error_worst,contacts,misses", {}};
   for (const PartnerClass partner : kPartners) {
-    part.tasks.push_back({name_of(partner), [=] { return measure_partner(partner, poses, seed, effort); }});
+    part.tasks.push_back({short_name(partner), [=] { return measure_partner(partner, poses, seed, effort); }});
   }
   return part;
 }
