@@ -90,7 +90,7 @@ set style data histograms
 set style histogram rowstacked
 set style fill solid 0.8
 set boxwidth 0.7
-set xtics rotate by 40 right font ",9"
+set xtics rotate by -35 font ",9"
 set key top left
 set bmargin 8
 plot csv every ::1 using (1e3 * column(7)):xticlabels(strcol(1)[1:1] eq "d" ? strcol(1)." ".strcol(2) : strcol(1)) linecolor rgb "#999999" title "broad phase", \

@@ -51,7 +51,11 @@ const char* name_of(SpaceKind kind) {
 }
 
 GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& start, const Form& form, SpaceKind space)
-    : scene_(scene), world_(scene, start.placements), space_(create_space(space, scene)), joints_(dJointGroupCreate(0)) {
+    : scene_(scene),
+      world_(scene, start.placements),
+      space_(create_space(space, scene)),
+      joints_(dJointGroupCreate(0)),
+      batch_(form.threads == 0 ? nullptr : snBatchCreate(form.threads)) {
   for (const auto& placement : start.placements) kinds_.push_back(placement.kind);
   add_geoms(form);
   set_velocities(start);

@@ -1,8 +1,12 @@
 // A batch gives the contacts of one dCollide after the other, bit for bit, whoever solves what.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <functional>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -20,6 +24,7 @@ struct Crowd {
   dSpaceID space = dHashSpaceCreate(nullptr);
   std::vector<PartnerGeom> partners;
   std::vector<dGeomID> geoms;
+  std::vector<std::size_t> numbers;  // theirs, as their data
   MeshGeom mesh;
   bool throws = false;
 
@@ -33,7 +38,9 @@ struct Crowd {
     for (const dGeomID geom : geoms) place(geom, {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)});
     geoms.push_back(dCreatePlane(space, 0, 0, 1, -3));
     geoms.push_back(mesh);
-    for (std::size_t i = 0; i < geoms.size(); ++i) dGeomSetData(geoms[i], reinterpret_cast<void*>(i));
+    numbers.resize(geoms.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    for (std::size_t i = 0; i < geoms.size(); ++i) dGeomSetData(geoms[i], &numbers[i]);
   }
   ~Crowd() {
     partners.clear();
@@ -68,19 +75,27 @@ struct Line {
   dContactGeom contact;
 };
 
+std::size_t number_of(dGeomID geom) { return *static_cast<const std::size_t*>(dGeomGetData(geom)); }
+
 void append(void* lines, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count) {
-  const auto number = [](dGeomID geom) { return reinterpret_cast<std::size_t>(dGeomGetData(geom)); };
   for (int k = 0; k < count; ++k) {
     CHECK(contacts[k].g1 == g1);
     CHECK(contacts[k].g2 == g2);
-    static_cast<std::vector<Line>*>(lines)->push_back({number(g1), number(g2), contacts[k]});
+    static_cast<std::vector<Line>*>(lines)->push_back({number_of(g1), number_of(g2), contacts[k]});
   }
 }
 
+using Bits = std::array<unsigned char, sizeof(dReal)>;  // -0 is not 0
+
+bool same_bits(dReal a, dReal b) { return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b); }
+
+bool same_bits(const dReal* a, const dReal* b) {
+  return std::equal(a, a + 3, b, [](dReal x, dReal y) { return same_bits(x, y); });
+}
+
 bool same_bits(const Line& a, const Line& b) {
-  const auto same = [](const dReal* x, const dReal* y) { return std::memcmp(x, y, 3 * sizeof(dReal)) == 0; };
-  return a.number1 == b.number1 && a.number2 == b.number2 && same(a.contact.pos, b.contact.pos) &&
-         same(a.contact.normal, b.contact.normal) && std::memcmp(&a.contact.depth, &b.contact.depth, sizeof(dReal)) == 0 &&
+  return a.number1 == b.number1 && a.number2 == b.number2 && same_bits(a.contact.pos, b.contact.pos) &&
+         same_bits(a.contact.normal, b.contact.normal) && same_bits(a.contact.depth, b.contact.depth) &&
          a.contact.side1 == b.contact.side1 && a.contact.side2 == b.contact.side2;
 }
 
@@ -180,10 +195,11 @@ TEST_CASE("a batch passes over pairs that the program does not want, and pairs o
   const dWorldID world = dWorldCreate();
   const dBodyID body = dBodyCreate(world);
   std::vector<dGeomID> geoms;
-  for (int i = 0; i < 4; ++i) {
+  std::array<std::size_t, 4> numbers = {0, 1, 2, 3};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
     geoms.push_back(snCreateEllipsoid(space, 1, 1, 1));
-    dGeomSetData(geoms.back(), reinterpret_cast<void*>(static_cast<std::size_t>(i)));
-    place(geoms.back(), {0.1 * i, 0, 0});
+    dGeomSetData(geoms.back(), &numbers[i]);
+    place(geoms.back(), {0.1 * static_cast<double>(i), 0, 0});
   }
   const snBatchID batch = snBatchCreate(0);
   std::vector<Line> lines;
@@ -193,8 +209,7 @@ TEST_CASE("a batch passes over pairs that the program does not want, and pairs o
   lines.clear();
   CHECK(snBatchCollide(batch, space, 1, &lines, nullptr, append) == 5);
   const auto without_the_last = [](void* /*data*/, dGeomID g1, dGeomID g2) {
-    const auto last = reinterpret_cast<void*>(std::size_t{3});
-    return dGeomGetData(g1) != last && dGeomGetData(g2) != last ? 1 : 0;
+    return number_of(g1) != 3 && number_of(g2) != 3 ? 1 : 0;
   };
   lines.clear();
   CHECK(snBatchCollide(batch, space, 1, &lines, without_the_last, append) == 2);
@@ -207,7 +222,8 @@ TEST_CASE("a batch enters spaces within the space") {
   const OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const dSpaceID inner = dSimpleSpaceCreate(space);
-  for (const dSpaceID home : {space, inner, inner}) snCreateEllipsoid(home, 1, 2, 3);
+  std::size_t number = 0;
+  for (const dSpaceID home : {space, inner, inner}) dGeomSetData(snCreateEllipsoid(home, 1, 2, 3), &number);
   const snBatchID batch = snBatchCreate(2);
   std::vector<Line> lines;
   CHECK(snBatchCollide(batch, space, 1, &lines, nullptr, append) == 2);  // the outer one with both
