@@ -165,6 +165,9 @@ Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, d
       outer_gauge_(PowerNorm::of_exponent(epsilon)) {
   require_convex_taper(delta, epsilon, taper_x, taper_y);
   half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};
+  // Where the section has shrunk to this share, the radius of its meridian has shrunk with its square.
+  const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
+  sharpest_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).sharpest_radius() * narrowest * narrowest;
 }
 
 double Superovoid::max_taper(double epsilon) {
@@ -235,12 +238,6 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
                                           : 0;
   const double along = std::copysign(meridian.dy, gauge_point.z()) - meridian.dx * growth;
   return meridian.dx * direction + Vector3(0, 0, along / half_axes_.z());
-}
-
-double Superovoid::sharpest_radius() const {
-  // Where the section has shrunk to this share, the radius of its meridian has shrunk with its square.
-  const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
-  return Superellipsoid(half_axes_, delta_, epsilon_).sharpest_radius() * narrowest * narrowest;
 }
 
 }  // namespace supernormal

@@ -40,7 +40,7 @@ class SUPERNORMAL_API Superovoid final : public Shape {
 
   /// The body reaches from z = -c to c; its widest section is above or below z = 0.
   Vector3 half_extents() const override { return half_extents_; }
-  double sharpest_radius() const override;
+  double sharpest_radius() const override { return sharpest_radius_; }
 
   /// In closed form. With a taper the centroid is not the origin but on the z-axis.
   MassProperties mass_properties() const override;
@@ -60,6 +60,7 @@ class SUPERNORMAL_API Superovoid final : public Shape {
   PowerNorm inner_potential_, outer_potential_;  // the dual norms of the section and of the meridian: exponents p and q
   PowerNorm inner_gauge_, outer_gauge_;          // of (x/(a X), y/(b Y)) and of (inner, z/c): exponents delta and epsilon
   Vector3 half_extents_;
+  double sharpest_radius_;  // m
 };
 
 }  // namespace supernormal
