@@ -44,6 +44,10 @@ constexpr double kCornerSafety = 3;
 // is believed, and the one assumed before two steps have shown it.
 constexpr double kSlowestContraction = 0.95;
 
+// Towards the normals of a sharp tip, where the radii of curvature are 0, s may rise this much farther: unless the contraction is
+// fast.
+constexpr double kTipSafety = 10;
+
 // Steps that each promise more than this share of the last may zigzag across a ridge, which rises where they never look: beyond so
 // many in a row the cuts are asked, which meet on the ridge.
 constexpr double kSlowShare = 0.3;
@@ -66,6 +70,9 @@ constexpr double kProbe = 2;
 
 // A radius of curvature beyond this, in units of the bodies' size, is that of a flat face.
 constexpr double kFlatRadius = 1e8;
+
+// Share of a corner in the point of a face or an edge below which it is rounding.
+constexpr double kNoWeight = 1e-12;
 
 // Corners that share a normal; more than this are coplanar, and any three of them know the normal.
 constexpr std::size_t kMaxTied = 24;
@@ -236,7 +243,12 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
   for (const Piece& piece : pieces) {
     if (piece.value <= gap_.rounding() && count < tied.size()) tied[count++] = {0, piece.slope};
   }
-  const auto rest = PiecewiseModel{{tied.data(), count}, {1, 0, 1}}.maximize();
+  auto rest = PiecewiseModel{{tied.data(), count}, {1, 0, 1}}.maximize();
+  // Where the point of body 1 is beside a corner, or on an edge of the face, the others do not hold the normal.
+  for (std::size_t i = rest.count; i-- > 0;) {
+    if (rest.weight[i] > kNoWeight) continue;
+    rest.active[i] = rest.active[--rest.count];
+  }
   const double size = std::max(std::abs(A.xx) + std::abs(A.yy), gap_.length_unit());
   if (rest.count == 3) return {size, 0, size};
   if (rest.count == 1) return A;
@@ -267,6 +279,11 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
   promised_curvature_ = curvature;
   promised_step_ = step_length;
   error_ = kGainSafety * gains * whole_gain;
+  if ((is_slow || gains == kMost) && error_ <= tolerance_ && !is_rounding && has_tips()) error_ *= kTipSafety;
+}
+
+bool Ascent::has_tips() const {
+  return gap_.shape1().sharpest_radius() == 0 || (!has_kinks_ && gap_.shape2().sharpest_radius() == 0);
 }
 
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.

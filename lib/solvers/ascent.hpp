@@ -61,6 +61,7 @@ class Ascent {
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
   void estimate_error(const Symmetric2& A, double whole_gain, double step_length);
+  bool has_tips() const;
   double turn_gain() const;
   double unseen_gain(const Vector2& slope, bool is_held_by_curvature);
   enum class FlatStep {

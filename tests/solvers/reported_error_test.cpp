@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "shapes/without_hessian.hpp"
+#include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
@@ -136,4 +137,33 @@ TEST_CASE("next to nothing beside a cylinder's axis: the depth along the axis") 
   const Proximity answer = find_proximity(body, {}, cylinder, pose2, {});
   CHECK(answer.status == Status::Converged);
   CHECK(answer.gap == doctest::Approx(-1e-3).epsilon(1e-12));
+}
+
+// A face normal of the box whose nearest corner is exactly on the vertex: the other corners do not hold the normal there.
+TEST_CASE("a box's corner exactly on a vertex: the normal between them is a minimum") {
+  const Superellipsoid body(Vector3(0.520313, 0.775239, 1.29591), 1.0616, 1.0239);
+  const Box box(Vector3(0.8265, 1.3193, 0.51));
+  const Pose pose2{Vector3(0.8265, 1.3193, 0.51 + 1.29591 - 2.4e-4), Matrix3::Identity()};
+  const Vector3 first = Vector3::UnitZ();
+  const Proximity answer = find_proximity(box, {}, body, pose2, {}, &first);
+  CHECK(answer.status == Status::Converged);
+  for (int k = 0; k < 45; ++k) {
+    const Vector3 n = (answer.normal + std::pow(0.7, k) * Vector3(0.55, 0.83, 0)).normalized();
+    REQUIRE(gap_at(box, {}, body, pose2, n) <= answer.gap + answer.error + answer.global_error + 1e-15);
+  }
+}
+
+// The radii of curvature vanish towards the normals of a tip, however fast the last step seemed to converge.
+TEST_CASE("needles tip to tip, roughly: two evaluations do not tell how far s rises") {
+  const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
+  Pose pose2{Vector3(1.183667999427793, 0.081650939054187716, -0.97954861724386533), Matrix3::Identity()};
+  pose2.rotation << 9, -32, -36, 4, -36, 33, -48, -9, -4;
+  pose2.rotation /= 49;
+  const Proximity exact = find_proximity(needle, {}, needle, pose2, {});
+  Settings settings;
+  for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    settings.tolerance = tolerance;
+    const Proximity loose = find_proximity(needle, {}, needle, pose2, settings);
+    CHECK(exact.gap <= loose.gap + loose.error + exact.error);
+  }
 }
