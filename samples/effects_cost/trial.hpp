@@ -8,7 +8,7 @@
 
 namespace effects_cost {
 
-/// What a step of a scene cost, on average.
+/// What a step of a scene cost, on average; seconds of the processor.
 struct Outcome {
   double seconds = 0;  ///< whole
   double set_up = 0;   ///< s, contacts and forces made ready: the effects' passes and the joints
