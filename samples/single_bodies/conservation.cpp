@@ -40,7 +40,9 @@ std::vector<dBodyID> add_cloud(Lab& lab, double pitch) {
     bodies.push_back(lab.add(snCreateEllipsoid(lab.space(), dReal(0.05), dReal(0.035), dReal(0.025)), 1000));
     const Vector3 axis{random(), random(), random()};
     turn(bodies.back(), axis, 3 * random());
-    const Vector3 cell(i % kSide, i / kSide % kSide, i / kSide / kSide);
+    const int row = i / kSide % kSide;
+    const int layer = i / (kSide * kSide);
+    const Vector3 cell(i % kSide, row, layer);
     set_position(bodies.back(), pitch * (cell - Vector3::Constant(0.5 * (kSide - 1))));
     const Vector3 v{random(), random(), random()};
     set_velocity(bodies.back(), v);

@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <span>
 #include <vector>
 
 #include "ode/mesh_fixture.hpp"
 #include "ode/partner_fixture.hpp"
 #include "ode/terrain.hpp"
+#include "supernormal/effects.hpp"
 
 using namespace supernormal::test;
 
@@ -128,4 +130,31 @@ TEST_CASE("no allocation in a batch after the first") {
   CHECK(contacts_seen > 500);
   snBatchDestroy(batch);
   dSpaceDestroy(space);
+}
+
+TEST_CASE("effects set up contacts and add forces without allocation") {
+  namespace fx = supernormal::effects;
+  OdeSession session;
+  const dWorldID world = dWorldCreate();
+  fx::Effects effects(
+      {fx::Gravity{{0, 0, -9.81}}, fx::Friction{0.5, {}}, fx::RollingResistance{1e-3, 1e-3, {}}, fx::Hertz{1e7, 0.3, 0.8, {}},
+       fx::Adhesion{1, {}}, fx::QuadraticDrag{1.2, 0.5}, fx::StokesDrag{1e-3}, fx::Buoyancy{1000, 0}},
+      1e-3);
+  effects.set_up(world);
+  const dBodyID body = dBodyCreate(world);
+  const Geom puck(snCreateSuperellipsoid(nullptr, 1, 1, dReal(0.2), 20, 20));
+  dGeomSetBody(puck, body);
+  effects.add_body(body);
+  dBodySetLinearVel(body, 1, 0, 0);
+  const Geom floor(dCreatePlane(nullptr, 0, 0, 1, dReal(-0.199)));
+  std::array<dContact, 8> contacts{};
+  const int count = dCollide(puck, floor, 8, &contacts[0].geom, sizeof(dContact));
+  REQUIRE(count > 1);
+  const long before = allocations;
+  for (int i = 0; i < 3; ++i) {
+    CHECK(effects.set_up_contacts(std::span(contacts).first(static_cast<std::size_t>(count))) == count);
+    effects.apply_forces();
+  }
+  CHECK(allocations == before);
+  dWorldDestroy(world);
 }
