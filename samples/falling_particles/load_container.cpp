@@ -24,9 +24,20 @@ Box read_box(const TomlTable& table) {
   return {read_width(table)};
 }
 
+std::optional<Dish> read_dish(const TomlTable& container, const Hopper& hopper) {
+  const auto table = container.find_table("dish", {"diameter", "height", "rim"});
+  if (!table) return std::nullopt;
+  Dish dish{};
+  dish.height = table->number("height", {0, hopper.clearance, false, false, "m (below the outlet)"});
+  dish.rim = table->number("rim", {0, hopper.clearance - dish.height, false, false, "m (below the outlet)"});
+  const double widest = hopper.tray_width * std::cos(std::numbers::pi / hopper.segments) - 2 * dish.rim_width();
+  dish.diameter = table->number("diameter", {0, widest, false, false, "m (with its rim within the tray)"});
+  return dish;
+}
+
 Hopper read_hopper(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys(
-      {"kind", "outlet", "wall_angle", "diameter", "cylinder_height", "segments", "clearance", "tray_width", "opens_at"});
+      {"kind", "outlet", "wall_angle", "diameter", "cylinder_height", "segments", "clearance", "tray_width", "opens_at", "dish"});
   Hopper hopper{};
   hopper.outlet = table.number("outlet", Interval::positive(kLargest, "m"));
   hopper.diameter = table.number("diameter", {hopper.outlet, kLargest, false, true, "m (above container.outlet)"});
@@ -37,6 +48,7 @@ Hopper read_hopper(const TomlTable& table, const Time& time) {
   const double outer = hopper.diameter / std::cos(std::numbers::pi / hopper.segments);
   hopper.tray_width = table.number("tray_width", Interval::closed(outer, 2 * kLargest, "m (the hopper hangs between its walls)"));
   hopper.opens_at = table.number("opens_at", {0, time.duration, false, false, "s (before time.duration)"});
+  hopper.dish = read_dish(table, hopper);
   return hopper;
 }
 
@@ -52,6 +64,11 @@ Terrain read_terrain(const TomlTable& table) {
   return Terrain(parameters);
 }
 
+Periodic read_periodic(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "side"});
+  return {table.number("side", Interval::positive(kLargest, "m"))};
+}
+
 /// The lattice needs room for one cell at least, whatever the attitude of the largest grain.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
@@ -60,6 +77,13 @@ void check_width(const TomlTable& table, const Scene& scene) {
   if (narrowest >= cell) return;
   table.fail("width", "container.width is " + shortest(narrowest) + " at its narrowest; allowed: at least " + shortest(cell) +
                           " m, so that the largest grain fits in any attitude");
+}
+
+void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& periodic) {
+  const double least = 4 * scene.largest_bounding_radius();
+  if (periodic.side >= least) return;
+  table.fail("side", "container.side is " + shortest(periodic.side) + "; allowed: at least " + shortest(least) +
+                         " m, so that no grain meets itself");
 }
 
 /// A lattice of three by three cells has one that lies within the circle around them, one of two by two has none.
@@ -81,9 +105,10 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
 
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");
-  const std::string kind = table.choice("kind", {"box", "hopper", "terrain"});
+  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic"});
   if (kind == "hopper") return read_hopper(table, time);
   if (kind == "terrain") return read_terrain(table);
+  if (kind == "periodic") return read_periodic(table);
   return read_box(table);
 }
 
@@ -91,6 +116,8 @@ void check_fit(const TomlTable& root, const Scene& scene) {
   const TomlTable table = root.table("container");
   if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) {
     check_hopper(table, scene, *hopper);
+  } else if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) {
+    check_periodic(table, scene, *periodic);
   } else {
     check_width(table, scene);
   }

@@ -120,9 +120,34 @@ Solver read_solver(const TomlTable& table) {
           table.number("cfm", Interval::closed(0, 1, "s/kg"))};
 }
 
+/// Grains in a periodic container do not drop: they start anywhere.
+TomlTable read_drop(const TomlTable& root, Scene& scene) {
+  if (std::holds_alternative<Periodic>(scene.container)) {
+    if (root.has("drop")) return root.table("drop", {"total"});
+    return root;
+  }
+  const TomlTable drop = root.table("drop", {"height", "gap", "total"});
+  scene.drop = {drop.number("height", Interval::closed(0, 1000, "m")), drop.number("gap", Interval::closed(0, 10, ""))};
+  return drop;
+}
+
+std::optional<Compression> read_compression(const TomlTable& root, const Scene& scene) {
+  const auto table = root.find_table("compression", {"overlap", "final_overlap", "damping"});
+  if (!table) return std::nullopt;
+  if (!std::holds_alternative<Periodic>(scene.container)) {
+    root.fail("compression", std::string("compression in a ") + kind_of(scene.container) + "; allowed: in a periodic container");
+  }
+  Compression compression{};
+  compression.overlap = table->number("overlap", Interval::positive(0.1, "(relative to the distance of two grains)"));
+  compression.final_overlap =
+      table->number("final_overlap", Interval::positive(compression.overlap, "(up to compression.overlap)"));
+  compression.damping = table->number("damping", Interval::closed(0, 1, "(of the velocities, a step)"));
+  return compression;
+}
+
 /// The keys of the top of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed", "catalogue", "container", "drop", "grain", "time", "solver"};
+  std::vector<std::string> names = {"seed", "catalogue", "container", "drop", "grain", "time", "solver", "compression"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -136,11 +161,11 @@ Scene load_scene(const std::string& path) {
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
   scene.container = read_container(root, scene.time);
-  const TomlTable drop = root.table("drop", {"height", "gap", "total"});
-  scene.drop = {drop.number("height", Interval::closed(0, 1000, "m")), drop.number("gap", Interval::closed(0, 10, ""))};
+  const TomlTable drop = read_drop(root, scene);
   scene.grains = read_grains(root, drop, path);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
+  scene.compression = read_compression(root, scene);
   check_fit(root, scene);
   return scene;
 }

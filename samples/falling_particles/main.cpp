@@ -1,5 +1,5 @@
-// Drops real grains into a container (a box, a hopper, a terrain) and watches them: a scene file in, trajectories and a summary
-// out.
+// Drops real grains into a container (a box, a hopper, a terrain), or packs them in a periodic cell, and watches them: a scene file
+// in, trajectories and a summary out.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

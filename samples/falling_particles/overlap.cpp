@@ -3,6 +3,7 @@
 #include <supernormal/supernormal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -21,16 +22,24 @@ double smallest_half_axis(dGeomID geom) {
   return body == nullptr ? INFINITY : body->grain->smallest_half_axis();
 }
 
+std::array<dReal, 4> middle_of(const snProximity& proximity) {
+  std::array<dReal, 4> middle{};
+  for (std::size_t i = 0; i < 3; ++i) middle[i] = (proximity.point1[i] + proximity.point2[i]) / 2;
+  return middle;
+}
+
 }  // namespace
 
 Overlap measure_overlap(const World& world) {
   Pairs pairs;
   dSpaceCollide(world.space(), &pairs, append);
+  const PeriodicCell* cell = world.cell();
   Overlap overlap;
   for (const auto& [g1, g2] : pairs) {
     snProximity proximity;
     if (snGeomProximity(g1, g2, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     if (!(proximity.gap < 0)) continue;
+    if (cell != nullptr && !cell->contains(middle_of(proximity).data())) continue;  // another of its images is
     const double depth = -proximity.gap;
     ++overlap.pairs;
     overlap.depth = std::max(overlap.depth, depth);

@@ -17,9 +17,22 @@ std::vector<std::size_t> shuffled_kinds(const Scene& scene, Random& random) {
   return kinds;
 }
 
+/// Points of an ideal gas: grains overlap, and are pushed apart in the first steps.
+std::vector<Placement> scatter(const Scene& scene, double side, Random& random) {
+  std::vector<Placement> placements;
+  for (const std::size_t kind : shuffled_kinds(scene, random)) {
+    Placement placement{kind, {}, {}};
+    for (double& x : placement.position) x = side * random.uniform();
+    placement.quaternion = random.rotation();
+    placements.push_back(placement);
+  }
+  return placements;
+}
+
 }  // namespace
 
 std::vector<Placement> place(const Scene& scene, Random& random) {
+  if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) return scatter(scene, periodic->side, random);
   Lattice lattice(scene);
   std::vector<Placement> placements;
   for (const std::size_t kind : shuffled_kinds(scene, random)) {

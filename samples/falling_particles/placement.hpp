@@ -16,7 +16,7 @@ struct Placement {
 };
 
 /// Where every grain starts: kinds shuffled, layer upon layer on a jittered lattice, random attitudes. No two touch, nor any a
-/// wall: each stays within its own cell.
+/// wall: each stays within its own cell. In a periodic container anywhere, overlaps and all.
 std::vector<Placement> place(const Scene& scene, Random& random);
 
 }  // namespace falling_particles

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "compression.hpp"
 #include "discharge.hpp"
 #include "energy.hpp"
 #include "interrupt.hpp"
@@ -28,16 +29,19 @@ namespace {
 struct Watches {
   Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene.container), energy(world, scene) {
     if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
+    if (scene.compression) compressor.emplace(world, *world.cell(), *scene.compression, scene.time.duration);
   }
-  void after_step(double time) {
+  void after_step(double time, const Stepper& stepper) {
     leaks.after_step(time);
     energy.after_step();
     if (discharge) discharge->after_step(time);
+    if (compressor) compressor->after_step(time, stepper.contact_geoms());
   }
 
   LeakWatch leaks;
   EnergyWatch energy;
-  std::optional<Discharge> discharge;  // of a hopper
+  std::optional<Discharge> discharge;    // of a hopper
+  std::optional<Compressor> compressor;  // of a periodic cell
 };
 
 /// The frames of a run, written as it goes.
@@ -89,7 +93,7 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& 
     stepper.step();
     ++step;
     const double now = time_after(step, time);
-    watches.after_step(now);
+    watches.after_step(now, stepper);
     const bool last = step == steps || interrupted();
     if (last || step % time.steps_per_frame() == 0) recorder.record(now, stepper.contacts());
     if (progress) progress->update(step, now, stepper.contacts());
@@ -98,6 +102,13 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& 
   recorder.close();
   if (progress) progress->finish();
   return step;
+}
+
+/// On the dish below a hopper.
+std::optional<Heap> find_heap(const World& world, const Container& container) {
+  const Hopper* hopper = std::get_if<Hopper>(&container);
+  if (hopper == nullptr || !hopper->dish) return std::nullopt;
+  return measure_heap(world, {0, 0, hopper->dish->height}, hopper->dish->diameter / 2);
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
@@ -123,6 +134,7 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
   snStatistics statistics;  // before the measurements at the end add to them
   snGetStatistics(&statistics);
 
+  if (world.cell() != nullptr) world.cell()->place_images();  // where the grains have gone to
   const bool early = steps < scene.time.steps();
   const Box* box = std::get_if<Box>(&scene.container);
   const Summary summary{scene,
@@ -142,6 +154,9 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         watches.leaks.count(),
                         box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, random)),
                         watches.discharge ? &*watches.discharge : nullptr,
+                        watches.compressor ? std::optional(watches.compressor->packing()) : std::nullopt,
+                        find_heap(world, scene.container),
+
                         world.effects().costs()};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);

@@ -35,6 +35,13 @@ struct Solver {
   double cfm;      ///< s/kg: softness of all constraints
 };
 
+/// Of the grains in a periodic container, until they jam (compression.hpp).
+struct Compression {
+  double overlap;        ///< mean, relative to the distance of two grains that touch, that ends the compression; at the start
+  double final_overlap;  ///< and at the end
+  double damping;        ///< share of all velocities that a step takes away
+};
+
 struct Scene {
   std::string name;  ///< of the file, without folder and extension
   std::uint64_t seed;
@@ -44,6 +51,7 @@ struct Scene {
   Time time;
   Solver solver;
   std::vector<supernormal::effects::Effect> effects;  ///< those that the scene names; nothing else exists for it
+  std::optional<Compression> compression = {};        ///< of the grains in a periodic container
 
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;

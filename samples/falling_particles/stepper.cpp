@@ -43,6 +43,7 @@ Stepper::~Stepper() {
 
 void Stepper::step() {
   contacts_.clear();
+  if (PeriodicCell* cell = world_.cell()) cell->place_images();
   {
     const Stopwatch::Lap lap(costs_.collision);
     costs_.broad_phase.start();
@@ -62,6 +63,7 @@ void Stepper::step() {
   costs_.contacts += contacts_.size();
   const Stopwatch::Lap lap(costs_.solver);
   dWorldQuickStep(world_.id(), step_);
+  if (PeriodicCell* cell = world_.cell()) cell->gather();
 }
 
 void Stepper::attach(std::span<const dContactGeom> pair) {
@@ -91,8 +93,11 @@ int Stepper::name_pair(void* self, dGeomID /*g1*/, dGeomID /*g2*/) {
 }
 
 void Stepper::add_contacts(void* self, dGeomID /*g1*/, dGeomID /*g2*/, const dContactGeom* contacts, int count) {
-  std::vector<dContactGeom>& all = static_cast<Stepper*>(self)->contacts_;
-  all.insert(all.end(), contacts, contacts + count);
+  Stepper& stepper = *static_cast<Stepper*>(self);
+  const PeriodicCell* cell = stepper.world_.cell();
+  for (const dContactGeom& contact : std::span(contacts, static_cast<std::size_t>(count))) {
+    if (cell == nullptr || cell->contains(contact.pos)) stepper.contacts_.push_back(contact);
+  }
 }
 
 }  // namespace falling_particles

@@ -34,8 +34,9 @@ class Stepper {
 
   void step();
 
-  std::size_t contacts() const { return contacts_.size(); }    ///< of the last step
-  double deepest_contact() const { return deepest_contact_; }  ///< m, of all steps
+  std::size_t contacts() const { return contacts_.size(); }                     ///< of the last step
+  const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< of the last step
+  double deepest_contact() const { return deepest_contact_; }                   ///< m, of all steps
   const StepCosts& costs() const { return costs_; }
 
  private:

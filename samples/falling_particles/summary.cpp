@@ -129,6 +129,24 @@ void add_discharge(Lines& lines, const Scene& scene, const Discharge& discharge)
   add_mass_flow(lines, scene, hopper, discharge);
 }
 
+void add_packing(Lines& lines, const Packing& packing) {
+  lines.section("packing");
+  lines.add("cell_side", packing.side, "m");
+  lines.add("volume_fraction", packing.volume_fraction, "volume of the grains / of the cell");
+  lines.add("volume_fraction_at_contact", packing.at_contact, "of grains shrunk by mean_overlap");
+  lines.add("mean_overlap", packing.overlap.relative,
+            "of all contacts, relative to the distance of their tangent planes from centre to centre");
+  lines.add("contacts_per_grain", packing.contacts_per_grain, "that overlap in the last step, mean; rattlers included");
+}
+
+void add_heap(Lines& lines, const Heap& heap) {
+  lines.section("heap");
+  lines.add("angle_of_repose", heap.angle, "degrees, of the flank from a quarter to 85 % of the dish's radius");
+  lines.add("angle_standard_error", heap.standard_error, "degrees, of the mean of twelve sectors");
+  lines.add("heap_height", heap.height, "m, of the flank continued to the axis, above the dish");
+  lines.add("heap_grains", static_cast<unsigned long long>(heap.grains), "on the dish");
+}
+
 void add_costs(Lines& lines, const Summary& s) {
   const StepCosts& c = s.costs;
   const double total = s.real_seconds;
@@ -170,6 +188,8 @@ std::string to_toml(const Summary& summary) {
   add_queries(lines, summary);
   add_end_state(lines, summary);
   if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);
+  if (summary.packing) add_packing(lines, *summary.packing);
+  if (summary.heap) add_heap(lines, *summary.heap);
   add_costs(lines, summary);
   add_effect_costs(lines, summary);
   return lines.text();

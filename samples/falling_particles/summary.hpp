@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "bed.hpp"
+#include "compression.hpp"
 #include "discharge.hpp"
 #include "energy.hpp"
+#include "heap.hpp"
 #include "overlap.hpp"
 #include "scene.hpp"
 #include "stepper.hpp"
@@ -33,10 +35,12 @@ struct Summary {
   double largest_kinetic_energy;  ///< J, of a grain
   const EnergyWatch& energy;
   Overlap overlap;
-  std::size_t outside;         ///< at the end
-  std::size_t leaked;          ///< at any time
-  std::optional<Bed> bed;      ///< of a box
-  const Discharge* discharge;  ///< of a hopper, or null
+  std::size_t outside;             ///< at the end
+  std::size_t leaked;              ///< at any time
+  std::optional<Bed> bed;          ///< of a box
+  const Discharge* discharge;      ///< of a hopper, or null
+  std::optional<Packing> packing;  ///< of a compression
+  std::optional<Heap> heap;        ///< of a hopper's dish
   std::vector<supernormal::effects::Cost> effects;
 };
 

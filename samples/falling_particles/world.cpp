@@ -48,9 +48,12 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
   walls_.emplace(space_, scene.container, kWallBit, kGrainBit);  // walls overlap one another, which is nobody's business
   bodies_.reserve(placements.size());
   for (const Placement& placement : placements) add_body(scene.grains[placement.kind].grain, placement);
+  if (const Periodic* periodic = std::get_if<Periodic>(&scene.container))
+    cell_ = std::make_unique<PeriodicCell>(*this, periodic->side);
 }
 
 World::~World() {
+  cell_.reset();
   walls_.reset();
   dSpaceDestroy(space_);
   dWorldDestroy(world_);

@@ -9,6 +9,7 @@
 
 #include "container/walls.hpp"
 #include "material.hpp"
+#include "periodic_cell.hpp"
 #include "placement.hpp"
 #include "scene.hpp"
 
@@ -26,6 +27,9 @@ struct Body {
     return {p[0], p[1], p[2]};
   }
 };
+
+/// The geom of a grain. Throws std::runtime_error when the library refuses it.
+dGeomID create_geom(dSpaceID space, const Grain& grain);
 
 /// The body of a geom in a World; null for a wall.
 inline const Body* body_of(dGeomID geom) { return static_cast<const Body*>(dGeomGetData(geom)); }
@@ -53,6 +57,7 @@ class World {
   /// Compiled from what the scene names.
   supernormal::effects::Effects& effects() const { return *effects_; }
   const Walls& walls() const { return *walls_; }
+  PeriodicCell* cell() const { return cell_.get(); }  ///< of a periodic container, or null
 
   /// Takes the lid off a hopper's outlet; once.
   void open_outlet() { walls_->open_outlet(); }
@@ -66,6 +71,7 @@ class World {
   std::unique_ptr<supernormal::effects::Effects> effects_;
   std::vector<Body> bodies_;
   std::optional<Walls> walls_;
+  std::unique_ptr<PeriodicCell> cell_;
 };
 
 }  // namespace falling_particles

@@ -67,6 +67,14 @@ other_containers() {
   expect 0 "$program" -q --check-leaks --scene "$work/scenes/terrain.toml" --out "$work/containers"
   [ "$(value terrain bodies_leaked)" = 0 ] || fail "grains leaked through the terrain"
   [ ! -e "$work/containers/terrain/discharge.csv" ] || fail "discharge.csv without a hopper"
+
+  shortened heap -e 's/^count = .*/count = 60/' -e 's/^opens_at = .*/opens_at = 0.1/' -e 's/^duration = .*/duration = 0.6/'
+  expect 0 "$program" -q --check-leaks --scene "$work/scenes/heap.toml" --out "$work/containers"
+  [ "$(value heap heap_grains)" -gt 30 ] || fail "the dish holds only $(value heap heap_grains) of 60 grains"
+
+  shortened packing_spheres -e 's/^count = .*/count = 30/' -e 's/^side = [^ ]*/side = 0.04/' -e 's/^duration = [^ ]*/duration = 1/'
+  expect 0 "$program" -q --check-leaks --scene "$work/scenes/packing_spheres.toml" --out "$work/containers"
+  awk "BEGIN { exit !($(value packing_spheres volume_fraction_at_contact) > 0.5) }" || fail "not compressed"
 }
 
 leaks_are_told() {

@@ -174,14 +174,17 @@ TEST_CASE("files that cannot be read") {
   CHECK_THROWS_AS(load_scene(folder.path().string()), InputError);
 }
 
-TEST_CASE("the catalogue of real grains is valid and names its sources") {
-  const std::vector<Grain> grains = load_catalogue(SUPERNORMAL_SAMPLES "/data/grains.toml");
-  CHECK(grains.size() >= 8);
-  for (const Grain& grain : grains) {
-    CAPTURE(grain.name);
-    CHECK_FALSE(grain.source.empty());
-    CHECK(grain.bounding_radius() < 0.05);
+TEST_CASE("the catalogues are valid and name their sources, and the scenes load") {
+  for (const char* catalogue : {"grains", "shapes"}) {
+    const std::vector<Grain> grains = load_catalogue(std::string(SUPERNORMAL_SAMPLES "/data/") + catalogue + ".toml");
+    CHECK(grains.size() >= 3);
+    for (const Grain& grain : grains) {
+      CAPTURE(grain.name);
+      CHECK_FALSE(grain.source.empty());
+      CHECK(grain.bounding_radius() < 0.05);
+    }
   }
-  for (const char* scene : {"mixture", "short", "hopper", "terrain"})
+  for (const char* scene : {"mixture", "short", "hopper", "terrain", "heap", "packing_spheres", "packing_ellipsoids", "packing_mm",
+                            "packing_superballs"})
     load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
 }

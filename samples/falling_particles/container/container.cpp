@@ -8,7 +8,7 @@
 namespace falling_particles {
 
 const char* kind_of(const Container& container) {
-  constexpr std::array kKinds = {"box", "hopper", "terrain"};
+  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic"};
   return kKinds[container.index()];
 }
 

@@ -5,13 +5,14 @@
 #include "container/box.hpp"
 #include "container/geometry.hpp"
 #include "container/hopper.hpp"
+#include "container/periodic.hpp"
 #include "container/terrain.hpp"
 
 namespace falling_particles {
 
-using Container = std::variant<Box, Hopper, Terrain>;
+using Container = std::variant<Box, Hopper, Terrain, Periodic>;
 
-/// "box", "hopper" or "terrain": as the scene file calls it.
+/// "box", "hopper", "terrain" or "periodic": as the scene file calls it.
 const char* kind_of(const Container& container);
 
 /// The rectangle above which grains may start.

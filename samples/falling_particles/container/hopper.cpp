@@ -63,7 +63,8 @@ bool Hopper::is_within(double x, double y, double radius) const {
 
 bool Hopper::is_in_tray(const Point& p) const {
   const Rectangle tray{{-tray_width / 2, -tray_width / 2}, {tray_width, tray_width}};
-  return tray.contains(p[0], p[1]) && p[2] > 0 && p[2] < clearance;
+  if (!tray.contains(p[0], p[1]) || !(p[2] > 0 && p[2] < clearance)) return false;
+  return !dish || p[2] > dish->height || !is_within(p[0], p[1], dish->outer_radius());
 }
 
 double Hopper::mean_height(double level) const {
@@ -87,6 +88,21 @@ Mesh make_mesh(const Hopper& hopper) {
   append_ring(mesh, hopper.segments, hopper.diameter / 2, hopper.top());
   append_band(mesh, static_cast<unsigned int>(hopper.segments), 0);
   append_band(mesh, static_cast<unsigned int>(hopper.segments), 1);
+  return mesh;
+}
+
+Mesh make_mesh(const Dish& dish, int segments) {
+  Mesh mesh;
+  const double inner = dish.diameter / 2;
+  append_ring(mesh, segments, inner, dish.height);
+  append_ring(mesh, segments, inner, dish.height + dish.rim);
+  append_ring(mesh, segments, dish.outer_radius(), dish.height + dish.rim);
+  append_ring(mesh, segments, dish.outer_radius(), 0);
+  const auto sides = static_cast<unsigned int>(segments);
+  for (unsigned int ring = 0; ring < 3; ++ring) append_band(mesh, sides, ring);
+  const auto middle = static_cast<unsigned int>(mesh.vertices.size());
+  mesh.vertices.push_back({0, 0, static_cast<float>(dish.height)});
+  for (unsigned int i = 0; i < sides; ++i) mesh.triangles.push_back({middle, i, (i + 1) % sides});
   return mesh;
 }
 

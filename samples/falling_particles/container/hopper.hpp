@@ -1,8 +1,21 @@
 #pragma once
 
+#include <optional>
+
 #include "container/geometry.hpp"
 
 namespace falling_particles {
+
+/// A round, flat dish with a low rim, solid down to the floor: what is poured on it forms a heap, and what finds no room there
+/// falls off.
+struct Dish {
+  double diameter;  ///< m, within the rim
+  double height;    ///< m, of its bottom above the floor of the tray
+  double rim;       ///< m, height of the rim above the bottom
+
+  double rim_width() const { return 2 * rim; }                        ///< m
+  double outer_radius() const { return diameter / 2 + rim_width(); }  ///< m
+};
 
 /// A cone with an outlet, a cylinder on top of it, both with `segments` flat sides around the z-axis, and a tray below: a floor at
 /// z = 0 and four walls. Radii are those of the inscribed circles (to the flat sides). A lid, the plane z = clearance, closes the
@@ -13,9 +26,10 @@ struct Hopper {
   double diameter;         ///< m, of the cylinder
   double cylinder_height;  ///< m
   int segments;
-  double clearance;   ///< m, of the outlet above the floor of the tray
-  double tray_width;  ///< m, the tray is square
-  double opens_at;    ///< s
+  double clearance;               ///< m, of the outlet above the floor of the tray
+  double tray_width;              ///< m, the tray is square
+  double opens_at;                ///< s
+  std::optional<Dish> dish = {};  ///< below the outlet, around the z-axis
 
   double cone_height() const;                               ///< m
   double top() const;                                       ///< m, z of the upper rim
@@ -32,5 +46,8 @@ struct Hopper {
 
 /// The cone and the cylinder, closed but for outlet and top; bodies are inside.
 Mesh make_mesh(const Hopper& hopper);
+
+/// Its surface, with as many sides; bodies are above and around.
+Mesh make_mesh(const Dish& dish, int segments);
 
 }  // namespace falling_particles

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -34,7 +35,7 @@ Walls::Walls(dSpaceID space, const Container& container, unsigned long category_
 
 Walls::~Walls() {
   for (dGeomID geom : geoms_) dGeomDestroy(geom);
-  if (mesh_data_ != nullptr) dGeomTriMeshDataDestroy(mesh_data_);
+  for (dTriMeshDataID data : mesh_data_) dGeomTriMeshDataDestroy(data);
   if (ground_data_ != nullptr) dGeomHeightfieldDataDestroy(ground_data_);
 }
 
@@ -52,6 +53,14 @@ void Walls::add_sides(const Rectangle& plan) {
   add_plane(0, -1, 0, -(plan.corner[1] + plan.width[1]));
 }
 
+void Walls::add_mesh(Mesh mesh) {
+  const Mesh& kept = meshes_.emplace_back(std::move(mesh));
+  dTriMeshDataID data = mesh_data_.emplace_back(dGeomTriMeshDataCreate());
+  dGeomTriMeshDataBuildSingle(data, kept.vertices.data(), sizeof(kept.vertices[0]), static_cast<int>(kept.vertices.size()),
+                              kept.triangles.data(), static_cast<int>(3 * kept.triangles.size()), sizeof(kept.triangles[0]));
+  geoms_.push_back(dCreateTriMesh(space_, data, nullptr, nullptr, nullptr));
+}
+
 void Walls::add(const Box& box) {
   add_plane(0, 0, 1, 0);
   add_sides(box.plan());
@@ -62,11 +71,8 @@ void Walls::add(const Hopper& hopper) {
   add_sides({{-hopper.tray_width / 2, -hopper.tray_width / 2}, {hopper.tray_width, hopper.tray_width}});
   add_plane(0, 0, 1, hopper.clearance);
   lid_ = geoms_.back();
-  mesh_ = make_mesh(hopper);
-  mesh_data_ = dGeomTriMeshDataCreate();
-  dGeomTriMeshDataBuildSingle(mesh_data_, mesh_.vertices.data(), sizeof(mesh_.vertices[0]), static_cast<int>(mesh_.vertices.size()),
-                              mesh_.triangles.data(), static_cast<int>(3 * mesh_.triangles.size()), sizeof(mesh_.triangles[0]));
-  geoms_.push_back(dCreateTriMesh(space_, mesh_data_, nullptr, nullptr, nullptr));
+  add_mesh(make_mesh(hopper));
+  if (hopper.dish) add_mesh(make_mesh(*hopper.dish, hopper.segments));
 }
 
 void Walls::add(const Terrain& terrain) {

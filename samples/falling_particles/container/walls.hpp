@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <deque>
 #include <vector>
 
 #include "container/container.hpp"
@@ -25,15 +26,17 @@ class Walls {
  private:
   void add_plane(double a, double b, double c, double d) { geoms_.push_back(dCreatePlane(space_, a, b, c, d)); }
   void add_sides(const Rectangle& plan);
+  void add_mesh(Mesh mesh);
   void add(const Box& box);
   void add(const Hopper& hopper);
   void add(const Terrain& terrain);
+  static void add(const Periodic&) {}  // has none
 
   dSpaceID space_;
   std::vector<dGeomID> geoms_;
   dGeomID lid_ = nullptr;                     // of geoms_
-  Mesh mesh_;                                 // ODE refers to it
-  dTriMeshDataID mesh_data_ = nullptr;        // of a hopper
+  std::deque<Mesh> meshes_;                   // ODE refers to them
+  std::vector<dTriMeshDataID> mesh_data_;     // of a hopper and its dish
   dHeightfieldDataID ground_data_ = nullptr;  // of a terrain
 };
 

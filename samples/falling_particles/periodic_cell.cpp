@@ -1,0 +1,183 @@
+#include "periodic_cell.hpp"
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "world.hpp"
+
+namespace falling_particles {
+namespace {
+
+bool is_part_of(unsigned mask, unsigned whole) { return (mask & ~whole) == 0; }
+
+double shift_along(unsigned mask, unsigned axis, double side) { return ((mask >> axis) & 1U) != 0 ? side : 0; }
+
+/// Three rows: the velocities of the centres are equal. A ball joint whose anchors are the two centres, wherever these are: with
+/// ERP 0 it does not ask them to meet. (ODE's linear motor gives the bodies lever arms to the middle between them.)
+dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
+  dJointID ball = dJointCreateBall(world, nullptr);
+  dJointAttach(ball, body, image);
+  const dReal* centre = dBodyGetPosition(body);
+  dJointSetBallAnchor(ball, centre[0], centre[1], centre[2]);
+  dJointSetBallAnchor2(ball, 0, 0, 0);  // in the image's own frame
+  dJointSetBallParam(ball, dParamERP, 0);
+  dJointSetBallParam(ball, dParamCFM, 0);
+  return ball;
+}
+
+/// Three rows: the angular velocities are equal.
+dJointID tie_spins(dWorldID world, dBodyID body, dBodyID image) {
+  constexpr int kGlobal = 0;
+  dJointID motor = dJointCreateAMotor(world, nullptr);
+  dJointAttach(motor, body, image);
+  dJointSetAMotorMode(motor, dAMotorUser);
+  dJointSetAMotorNumAxes(motor, 3);
+  dJointSetAMotorAxis(motor, 0, kGlobal, 1, 0, 0);
+  dJointSetAMotorAxis(motor, 1, kGlobal, 0, 1, 0);
+  dJointSetAMotorAxis(motor, 2, kGlobal, 0, 0, 1);
+  for (const int force : {dParamFMax1, dParamFMax2, dParamFMax3}) dJointSetAMotorParam(motor, force, dInfinity);
+  return motor;
+}
+
+void set_motion(dBodyID to, dBodyID from) {
+  const dReal* v = dBodyGetLinearVel(from);
+  const dReal* w = dBodyGetAngularVel(from);
+  dBodySetLinearVel(to, v[0], v[1], v[2]);
+  dBodySetAngularVel(to, w[0], w[1], w[2]);
+}
+
+}  // namespace
+
+PeriodicCell::PeriodicCell(const World& world, double side) : world_(world), side_(side), families_(world.bodies().size()) {}
+
+PeriodicCell::~PeriodicCell() {
+  for (const Family& family : families_) {
+    for (const std::optional<Image>& image : family.images) {
+      if (!image) continue;
+      dJointDestroy(image->same_velocity);
+      dJointDestroy(image->same_spin);
+      dGeomDestroy(image->geom);
+      dBodyDestroy(image->body);
+    }
+  }
+}
+
+bool PeriodicCell::contains(const dVector3 point) const {
+  const auto within = [this](dReal x) { return x >= 0 && x < side_; };
+  return within(point[0]) && within(point[1]) && within(point[2]);
+}
+
+PeriodicCell::Image PeriodicCell::make_image(const Body& body) const {
+  Image image{dBodyCreate(world_.id()), create_geom(world_.space(), *body.grain), nullptr, nullptr};
+  dGeomSetBody(image.geom, image.body);
+  dGeomSetData(image.geom, dGeomGetData(body.geom));
+  dGeomSetCategoryBits(image.geom, dGeomGetCategoryBits(body.geom));
+  dGeomSetCollideBits(image.geom, dGeomGetCollideBits(body.geom));
+  image.same_velocity = tie_velocities(world_.id(), body.body, image.body);
+  image.same_spin = tie_spins(world_.id(), body.body, image.body);
+  return image;
+}
+
+void PeriodicCell::show(const Body& body, Family& family, unsigned mask) {
+  std::optional<Image>& image = family.images[mask];
+  if (!image) image = make_image(body);
+  if (dBodyIsEnabled(image->body) == 0) {
+    dBodyEnable(image->body);
+    dGeomEnable(image->geom);
+    dJointEnable(image->same_velocity);
+    dJointEnable(image->same_spin);
+  }
+  const dReal* p = dBodyGetPosition(body.body);
+  dBodySetPosition(image->body, p[0] - shift_along(mask, 0, side_), p[1] - shift_along(mask, 1, side_),
+                   p[2] - shift_along(mask, 2, side_));
+  dBodySetQuaternion(image->body, dBodyGetQuaternion(body.body));
+  set_motion(image->body, body.body);
+}
+
+void PeriodicCell::hide(const Image& image) {
+  dBodyDisable(image.body);
+  dGeomDisable(image.geom);
+  dJointDisable(image.same_velocity);
+  dJointDisable(image.same_spin);
+}
+
+void PeriodicCell::share_mass(const Body& body, Family& family, unsigned size) {
+  dMass share = body.mass;
+  dMassAdjust(&share, body.mass.mass / size);
+  dBodySetMass(body.body, &share);
+  for (const std::optional<Image>& image : family.images) {
+    if (image) dBodySetMass(image->body, &share);
+  }
+  family.size = size;
+}
+
+void PeriodicCell::place_images() {
+  for (std::size_t i = 0; i < families_.size(); ++i) {
+    const Body& body = world_.bodies()[i];
+    dReal aabb[6];
+    dGeomGetAABB(body.geom, aabb);
+    const dReal* p = dBodyGetPosition(body.body);
+    unsigned sticks_out = 0;
+    dReal inside[3];  // the grain's bounding box starts in the cell
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const double shift = side_ * std::floor(aabb[2 * axis] / side_);
+      inside[axis] = p[axis] - shift;
+      const double width = aabb[2 * axis + 1] - aabb[2 * axis];
+      if (2 * width > side_) {
+        throw std::runtime_error("the periodic cell has shrunk to " + std::to_string(side_) +
+                                 " m; needed: twice the width of grain \"" + body.grain->name + "\"");
+      }
+      if (aabb[2 * axis + 1] - shift > side_) sticks_out |= 1U << axis;
+    }
+    dBodySetPosition(body.body, inside[0], inside[1], inside[2]);
+    Family& family = families_[i];
+    const bool changed = sticks_out != family.shown;
+    family.shown = sticks_out;
+    for (unsigned mask = 1; mask < kMasks; ++mask) {
+      if (is_part_of(mask, sticks_out)) {
+        show(body, family, mask);
+      } else if (changed && family.images[mask]) {
+        hide(*family.images[mask]);
+      }
+    }
+    if (changed) share_mass(body, family, 1U << static_cast<unsigned>(std::popcount(sticks_out)));
+  }
+}
+
+void PeriodicCell::gather() {
+  for (std::size_t i = 0; i < families_.size(); ++i) {
+    const Family& family = families_[i];
+    if (family.size == 1) continue;
+    dBodyID grain = world_.bodies()[i].body;
+    std::array<double, 3> position{};
+    std::array<double, 3> velocity{};
+    std::array<double, 3> spin{};
+    dQuaternion attitude{};
+    for (unsigned mask = 0; mask < kMasks; ++mask) {
+      if (!is_part_of(mask, family.shown)) continue;
+      dBodyID body = mask == 0 ? grain : family.images[mask]->body;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        position[axis] += (dBodyGetPosition(body)[axis] + shift_along(mask, axis, side_)) / family.size;
+        velocity[axis] += dBodyGetLinearVel(body)[axis] / family.size;
+        spin[axis] += dBodyGetAngularVel(body)[axis] / family.size;
+      }
+      for (unsigned k = 0; k < 4; ++k) attitude[k] += dBodyGetQuaternion(body)[k];
+    }
+    dBodySetPosition(grain, position[0], position[1], position[2]);
+    dBodySetLinearVel(grain, velocity[0], velocity[1], velocity[2]);
+    dBodySetAngularVel(grain, spin[0], spin[1], spin[2]);
+    dBodySetQuaternion(grain, attitude);  // which ODE normalizes
+  }
+}
+
+void PeriodicCell::scale(double factor) {
+  side_ *= factor;
+  for (const Body& body : world_.bodies()) {
+    const dReal* p = dBodyGetPosition(body.body);
+    dBodySetPosition(body.body, factor * p[0], factor * p[1], factor * p[2]);
+  }
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace falling_particles {
+
+class World;
+struct Body;
+
+/// Periodic boundaries for ODE, which has none. A grain that sticks out of the cell gets an image, a body and a geom of its own, at
+/// every place where it comes in again, up to seven of them. Grain and images share mass and inertia evenly and are tied to one
+/// velocity and one spin by six constraint rows without lever arms; so forces on an image act on the grain, in the same step.
+///
+/// A point of contact lies in the cell exactly once, whatever grains and images meet there: only contacts in the cell count.
+class PeriodicCell {
+ public:
+  /// Throws std::runtime_error when the side is below twice the width of a grain: a grain might meet itself.
+  PeriodicCell(const World& world, double side);
+  ~PeriodicCell();
+  PeriodicCell(const PeriodicCell&) = delete;
+  PeriodicCell& operator=(const PeriodicCell&) = delete;
+
+  double side() const { return side_; }  ///< m
+
+  bool contains(const dVector3 point) const;
+
+  /// Before collision: moves grains that have left into the cell, and sets up the images.
+  void place_images();
+  /// After a step: grains take the mean motion of themselves and their images, of which the solver leaves a small difference.
+  void gather();
+  /// Scales the cell and the centres of the grains in it; their sizes stay.
+  void scale(double factor);
+
+ private:
+  struct Image {
+    dBodyID body;
+    dGeomID geom;
+    dJointID same_velocity;
+    dJointID same_spin;
+  };
+  static constexpr unsigned kMasks = 8;  // which axes an image is shifted along: bit 0 for x, 1 for y, 2 for z
+  struct Family {
+    std::array<std::optional<Image>, kMasks> images;  // [0], the grain itself, stays empty; made when first needed
+    unsigned shown = 0;                               // axes along which the grain sticks out
+    unsigned size = 1;                                // the grain and its images that are in use
+  };
+
+  Image make_image(const Body& body) const;
+  void show(const Body& body, Family& family, unsigned mask);
+  static void hide(const Image& image);
+  static void share_mass(const Body& body, Family& family, unsigned size);
+
+  const World& world_;
+  double side_;
+  std::vector<Family> families_;  // as world's bodies
+};
+
+}  // namespace falling_particles
