@@ -52,8 +52,8 @@ inline constexpr const char* kNewton = "Newton";
 inline constexpr const char* kFixedPoint = "fixed point";
 inline constexpr const char* kCcdEpa = "libccd GJK+EPA 1e-6";
 inline constexpr const char* kCcdMpr = "libccd MPR 1e-4";
-inline constexpr const char* kPointCost = "h, r";
-inline constexpr const char* kCurvatureCost = "h, r, H";
+inline constexpr const char* kPointCost = "h and r";
+inline constexpr const char* kCurvatureCost = "h and r and H";  // no commas: they are cells of CSV
 inline constexpr const char* kFloorCost = "logarithms and exponentials";
 
 /// Measures the unit of cost and answers no question.
