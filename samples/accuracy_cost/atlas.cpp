@@ -24,16 +24,16 @@ class Table {
     if (fs::exists(path_)) {
       read();
     } else {
-      for (const auto& [name, value] : environment()) text_ += "# " + name + ": " + value + "\n";
-      text_ += part.header + "\n";
+      for (const auto& [name, value] : environment()) text_.append("# ").append(name).append(": ").append(value).append("\n");
+      text_.append(part.header).append("\n");
     }
   }
 
   bool has(const std::string& task) const { return done_.contains(task); }
 
   void add(const std::string& task, const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) text_ += line + "\n";
-    text_ += kDone + task + "\n";
+    for (const std::string& line : lines) text_.append(line).append("\n");
+    text_.append(kDone).append(task).append("\n");
     done_.insert(task);
     const fs::path unfinished = path_.string() + ".part";
     std::ofstream file(unfinished);
@@ -47,7 +47,7 @@ class Table {
   void read() {
     std::ifstream file(path_);
     for (std::string line; std::getline(file, line);) {
-      text_ += line + "\n";
+      text_.append(line).append("\n");
       if (line.rfind(kDone, 0) == 0) done_.insert(line.substr(std::string(kDone).size()));
     }
   }
@@ -78,7 +78,7 @@ class Bar {
 
 std::string joined(const std::vector<std::string>& cells) {
   std::string line;
-  for (const std::string& cell : cells) line += (&cell == cells.data() ? "" : ",") + cell;
+  for (const std::string& cell : cells) line.append(&cell == cells.data() ? "" : ",").append(cell);
   return line;
 }
 

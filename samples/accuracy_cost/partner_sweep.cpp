@@ -65,6 +65,7 @@ void measure_pose(const Approach& approach, const OdePair& exact, const Effort& 
   const auto poses = approach.poses_at(*touching - kDepth);
   const double true_depth = depth_of({exact, false, poses});
   std::vector<OdeQuery> queries;
+  queries.reserve(all.size());
   for (const Contender& contender : all) queries.push_back({{contender.geom.id(), exact.partner}, contender.is_warm, poses});
   for (std::size_t k = 0; k < all.size(); ++k) {
     const double error = std::abs(depth_of(queries[k]) - true_depth) / kSmallestHalfAxis;
@@ -94,6 +95,7 @@ std::vector<std::string> measure_partner(PartnerClass partner, std::size_t poses
   }
   snSetWarmStart(1);
   std::vector<std::string> lines;
+  lines.reserve(all.size());
   for (const Contender& c : all) {
     lines.push_back(
         joined({name_of(partner), c.form.name() + (c.is_warm ? " (warm)" : ""), c.form.accuracy(), std::to_string(c.times.size()),

@@ -82,6 +82,7 @@ Part part_of(const std::string& name, std::size_t pair_count, std::uint64_t seed
                               const auto samples = measure(methods, pairs, effort);
                               improve_references(samples, pairs);
                               std::vector<std::string> lines;
+                              lines.reserve(methods.size());
                               for (std::size_t m = 0; m < methods.size(); ++m) {
                                 const auto all = [](const Pair&) { return true; };
                                 lines.push_back(line(*methods[m], body_class, situation, statistics(samples[m], pairs, all)));

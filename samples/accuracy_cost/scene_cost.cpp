@@ -48,6 +48,7 @@ Snapshot settle(const Scene& scene, const Form& form) {
 
 std::vector<Form> polyhedra() {
   std::vector<Form> forms;
+  forms.reserve(2 * kMeshSizes.size());
   for (const FormKind kind : {FormKind::Convex, FormKind::Trimesh}) {
     for (const MeshSize size : kMeshSizes) forms.push_back({kind, 0, size});
   }
@@ -59,8 +60,10 @@ std::vector<std::string> time_forms(const Scene& scene) {
   const Snapshot smooth_bed = settle(scene, {});
   const Snapshot box_bed = settle(scene, {FormKind::Box});
   std::vector<Form> forms = {{}, {FormKind::Box}, {.threads = 1}, {.threads = 2}};
-  for (const Form& form : polyhedra()) forms.push_back(form);
+  const std::vector<Form> others = polyhedra();
+  forms.insert(forms.end(), others.begin(), others.end());
   std::vector<std::unique_ptr<GrainWorld>> worlds;
+  worlds.reserve(forms.size());
   for (const Form& form : forms) {
     worlds.push_back(std::make_unique<GrainWorld>(scene, form.kind == FormKind::Box ? box_bed : smooth_bed, form));
     for (int step = 0; step < kWarmUpSteps; ++step) worlds.back()->step();
@@ -72,6 +75,7 @@ std::vector<std::string> time_forms(const Scene& scene) {
     }
   }
   std::vector<std::string> lines;
+  lines.reserve(forms.size());
   for (std::size_t f = 0; f < forms.size(); ++f) {
     lines.push_back(joined({forms[f].name(), forms[f].accuracy(), std::to_string(scene.bodies()), cost_cells(worlds[f]->costs())}));
   }
@@ -163,12 +167,15 @@ Part scene_outcomes(const std::string& scene_path) {
             std::string("form,accuracy,grains,") + kCostColumns +
                 ",overlap,volume_fraction,volume_fraction_error,energy_gained,kinetic_height_m,rocking_error",
             {}};
+  constexpr int kMostDigits = 12;
   std::vector<Form> forms;
-  for (int digits = 1; digits <= 12; ++digits) forms.push_back({FormKind::Smooth, std::pow(10.0, -digits), {}});
+  forms.reserve(kMostDigits + 1 + 2 * kMeshSizes.size());
+  for (int digits = 1; digits <= kMostDigits; ++digits) forms.push_back({FormKind::Smooth, std::pow(10.0, -digits), {}});
   forms.push_back({FormKind::Box});
   for (const Form& form : polyhedra()) {
     if (form.mesh.vertices() < 1000) forms.push_back(form);  // more take hours
   }
+  part.tasks.reserve(forms.size());
   for (const Form& form : forms) {
     part.tasks.push_back(
         {form.name() + " " + form.accuracy(), [=] { return measure_outcome(falling_particles::load_scene(scene_path), form); }});
