@@ -89,7 +89,9 @@ class FclDistance final : public Method {
 
 Methods fcl_methods() {
   Methods methods;
-  for (int digits = 1; digits <= 8; ++digits) methods.push_back(std::make_unique<FclDistance>(std::pow(10.0, -digits)));
+  constexpr int kMostDigits = 8;
+  methods.reserve(kMostDigits);
+  for (int digits = 1; digits <= kMostDigits; ++digits) methods.push_back(std::make_unique<FclDistance>(std::pow(10.0, -digits)));
   return methods;
 }
 

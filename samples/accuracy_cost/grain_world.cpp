@@ -56,6 +56,7 @@ GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& st
       space_(create_space(space, scene)),
       joints_(dJointGroupCreate(0)),
       batch_(form.threads == 0 ? nullptr : snBatchCreate(form.threads)) {
+  kinds_.reserve(start.placements.size());
   for (const auto& placement : start.placements) kinds_.push_back(placement.kind);
   add_geoms(form);
   set_velocities(start);
@@ -73,6 +74,7 @@ GrainWorld::~GrainWorld() {
 
 void GrainWorld::add_geoms(const Form& form) {
   std::vector<GeomMaker> makers;
+  makers.reserve(scene_.grains.size());
   for (const auto& [grain, count] : scene_.grains) makers.push_back(grain_maker(form, grain));
   geoms_.reserve(kinds_.size());
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
@@ -186,6 +188,8 @@ void GrainWorld::attach(std::span<const dContactGeom> pair) {
 
 Snapshot GrainWorld::snapshot() const {
   Snapshot snapshot;
+  snapshot.placements.reserve(kinds_.size());
+  snapshot.velocities.reserve(kinds_.size());
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const falling_particles::Body& body = world_.bodies()[i];
     const dReal* const q = dBodyGetQuaternion(body.body);

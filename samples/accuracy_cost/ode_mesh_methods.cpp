@@ -61,6 +61,7 @@ class OdeMeshes final : public Method {
 
 Methods ode_mesh_methods() {
   Methods methods;
+  methods.reserve(2 * kSizes.size());
   for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dConvex", convex_maker, size));
   for (const MeshSize size : kSizes) methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", trimesh_maker, size));
   return methods;

@@ -135,6 +135,7 @@ std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed) {
 std::vector<Pair> draw_pairs_of(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Pair> pairs;
+  pairs.reserve(count);
   for (std::size_t i = 0; i < count; ++i) pairs.push_back(draw_pair(random, body_class, situation));
   return pairs;
 }
