@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "relative.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
@@ -115,7 +116,7 @@ TEST_CASE("a flat body has four corners on the floor, with little between them a
     Pose pose;
     const ContactPatch patch =
         patch_on_floor(body, tilt(uniform(random, 0, 0.2) * depth / half_axes.maxCoeff(), uniform(random, 0, 7)), depth, &pose);
-    CHECK(patch.deepest.gap == doctest::Approx(-depth).epsilon(1e-9));
+    CHECK(patch.deepest.gap == test::relative(-depth).epsilon(1e-9));
     REQUIRE(patch.corner_count == 4);
     for (const Vector3& corner : patch.corners) {
       CHECK(std::abs(corner.z()) <= 1e-15);
@@ -177,7 +178,7 @@ TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of
   Pose pose{Vector3(0, 0, 0.07 - 1e-5), Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitY()).toRotationMatrix()};
   const ContactPatch along = find_contact_patch(brick, {}, capsule, pose, find_proximity(brick, {}, capsule, pose));
   REQUIRE(along.corner_count == 2);
-  CHECK((along.corners[1] - along.corners[0]).norm() == doctest::Approx(0.12).epsilon(0.05));
+  CHECK((along.corners[1] - along.corners[0]).norm() == test::relative(0.12).epsilon(0.05));
 }
 
 TEST_CASE("the corners do not depend on the order of the bodies, nor on where they are") {

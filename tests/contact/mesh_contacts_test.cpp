@@ -8,6 +8,7 @@
 
 #include "contact/mesh_samples.hpp"
 #include "contact/triangle_proximity.hpp"
+#include "relative.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/solvers/plane.hpp"
@@ -294,7 +295,7 @@ TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
   CHECK(contacts_of(rod, {{2 + offset + 0.02, 0, 0}, leaning(-eighth)}, sheet).empty());
   const std::vector<MeshContact> contacts = contacts_of(rod, {{2 + offset - 0.02, 0, 0}, leaning(-eighth)}, sheet);
   REQUIRE(contacts.size() == 1);
-  CHECK(contacts[0].proximity.gap == doctest::Approx(-0.02 * std::sqrt(0.5)).epsilon(0.01));
+  CHECK(contacts[0].proximity.gap == relative(-0.02 * std::sqrt(0.5)).epsilon(0.01));
   CHECK((contacts[0].proximity.normal - Vector3(-1, 0, -1).normalized()).norm() < 0.01);
 }
 
@@ -304,7 +305,7 @@ TEST_CASE("a plate: the shorter way out") {
   for (const double height : {0.3, -0.2}) {
     const std::vector<MeshContact> contacts = contacts_of(body, {{0.3, 0.2, height}, Matrix3::Identity()}, plate);
     REQUIRE(contacts.size() == 1);
-    CHECK(contacts[0].proximity.gap == doctest::Approx(-1.1 + std::abs(height)));
+    CHECK(contacts[0].proximity.gap == relative(-1.1 + std::abs(height)));
     CHECK(contacts[0].proximity.normal.z() * height < 0);
   }
 }

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "contact/mesh_samples.hpp"
+#include "relative.hpp"
 #include "supernormal/solvers/plane.hpp"
 
 using namespace supernormal;
@@ -19,17 +20,17 @@ TEST_CASE("valleys and room corners: one contact for each side") {
   std::vector<MeshContact> contacts = contacts_of(ball, {{0, 0.2, height}, Matrix3::Identity()}, valley.placed());
   REQUIRE(contacts.size() == 2);
   for (const MeshContact& contact : contacts) {
-    CHECK(contact.proximity.gap == doctest::Approx(-0.01).epsilon(1e-12));
-    CHECK(contact.proximity.normal.z() == doctest::Approx(-std::sqrt(0.5)).epsilon(1e-12));
+    CHECK(contact.proximity.gap == relative(-0.01).epsilon(1e-12));
+    CHECK(contact.proximity.normal.z() == relative(-std::sqrt(0.5)).epsilon(1e-12));
   }
-  CHECK(contacts[0].proximity.normal.x() == doctest::Approx(-contacts[1].proximity.normal.x()));
+  CHECK(contacts[0].proximity.normal.x() == relative(-contacts[1].proximity.normal.x()));
 
   const std::vector<MeshTriangle> room = box_mesh({3, 4, 5}, true).placed();
   contacts = contacts_of(ball, {{2.01, 3.02, -4.03}, Matrix3::Identity()}, room);
   REQUIRE(contacts.size() == 3);
-  CHECK(contacts[0].proximity.gap == doctest::Approx(-0.03).epsilon(1e-12));
-  CHECK(contacts[1].proximity.gap == doctest::Approx(-0.02).epsilon(1e-12));
-  CHECK(contacts[2].proximity.gap == doctest::Approx(-0.01).epsilon(1e-12));
+  CHECK(contacts[0].proximity.gap == relative(-0.03).epsilon(1e-12));
+  CHECK(contacts[1].proximity.gap == relative(-0.02).epsilon(1e-12));
+  CHECK(contacts[2].proximity.gap == relative(-0.01).epsilon(1e-12));
   CHECK((contacts[0].proximity.normal + Vector3::UnitZ()).norm() == 0);
   CHECK((contacts[1].proximity.normal - Vector3::UnitY()).norm() == 0);
   CHECK((contacts[2].proximity.normal - Vector3::UnitX()).norm() == 0);
@@ -57,7 +58,7 @@ void check_is_held_by_all_walls(const std::vector<MeshContact>& contacts, const 
   for (const MeshContact& contact : contacts) {
     int axis = 0;
     CHECK(contact.proximity.normal.maxCoeff(&axis) == 1);
-    CHECK(contact.proximity.gap == doctest::Approx(-depths[axis]).epsilon(1e-12));
+    CHECK(contact.proximity.gap == relative(-depths[axis]).epsilon(1e-12));
     sum += contact.proximity.normal;
   }
   CHECK(sum == Vector3::Ones());

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "ode/ode_world.hpp"
+#include "relative.hpp"
 
 using namespace supernormal::test;
 
@@ -79,7 +80,7 @@ TEST_CASE("a rattleback turned the wrong way reverses when it should") {
   // a second: what this costs is proportional to the step (0.94, 1.86, 4.6 thousandths of the energy at 2, 4, 10 us).
   OdeSession session;
   Rattleback rattleback(-5);
-  CHECK(rattleback.energy() == doctest::Approx(kEnergy).epsilon(1e-7));
+  CHECK(rattleback.energy() == relative(kEnergy).epsilon(1e-7));
   const double dt = 4e-6;
   double reversal = 0;
   double vertical_reversal = 0;
@@ -92,9 +93,9 @@ TEST_CASE("a rattleback turned the wrong way reverses when it should") {
     smallest_yaw = std::min(smallest_yaw, rattleback.yaw());
     most = std::max(most, rattleback.energy());
   }
-  CHECK(reversal == doctest::Approx(2.3527).epsilon(5e-3));
-  CHECK(vertical_reversal == doctest::Approx(2.6847).epsilon(1e-3));
-  CHECK(smallest_yaw == doctest::Approx(-6.81015).epsilon(0.01));
+  CHECK(reversal == relative(2.3527).epsilon(5e-3));
+  CHECK(vertical_reversal == relative(2.6847).epsilon(1e-3));
+  CHECK(smallest_yaw == relative(-6.81015).epsilon(0.01));
   CHECK(rattleback.energy() > kEnergy * (1 - 2.5e-3));
   CHECK(most < kEnergy * (1 + 1e-6));
 }
@@ -110,6 +111,6 @@ TEST_CASE("a rattleback turned the right way goes on turning") {
     slowest = std::min(slowest, rattleback.vertical_spin());
   }
   CHECK(slowest > 3);
-  CHECK(rattleback.yaw() == doctest::Approx(24.767).epsilon(1e-3));
-  CHECK(rattleback.energy() == doctest::Approx(kEnergy).epsilon(2e-3));
+  CHECK(rattleback.yaw() == relative(24.767).epsilon(1e-3));
+  CHECK(rattleback.energy() == relative(kEnergy).epsilon(2e-3));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ode/ode_fixture.hpp"
+#include "relative.hpp"
 
 using namespace supernormal::test;
 
@@ -120,9 +121,9 @@ TEST_CASE("follows the parameters, the rounding and the pose") {
   const Geom geom(snCreateEllipsoid(nullptr, 1, 2, 3));
   const auto check_half = [&](double x, double y, double z) {
     const Box box(geom);
-    CHECK(box.side[1] == doctest::Approx(x).epsilon(1e-14));
-    CHECK(box.side[3] == doctest::Approx(y).epsilon(1e-14));
-    CHECK(box.side[5] == doctest::Approx(z).epsilon(1e-14));
+    CHECK(box.side[1] == relative(x).epsilon(1e-14));
+    CHECK(box.side[3] == relative(y).epsilon(1e-14));
+    CHECK(box.side[5] == relative(z).epsilon(1e-14));
   };
   check_half(1, 2, 3);
   REQUIRE(snGeomSuperellipsoidSetParams(geom, 4, 5, 6, 8, 8) == 1);

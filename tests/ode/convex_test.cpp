@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ode/partner_fixture.hpp"
+#include "relative.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/solvers/solve.hpp"
@@ -161,9 +162,9 @@ TEST_CASE("dGeomSetConvex: the next query sees the new vertices, and a bounding 
   for (const dGeomID convex : {small.create(nullptr), small.create(space)}) {
     dReal aabb[6];
     dGeomGetAABB(convex, aabb);
-    CHECK(proximity(body, convex).gap == doctest::Approx(0.4));
+    CHECK(proximity(body, convex).gap == relative(0.4));
     large.give_to(convex);
-    CHECK(proximity(body, convex).gap == doctest::Approx(-0.5));  // the old box is within the new one
+    CHECK(proximity(body, convex).gap == relative(-0.5));  // the old box is within the new one
     far.give_to(convex);
     snProximity answer;
     if (dGeomGetSpace(convex) != nullptr) {
@@ -172,7 +173,7 @@ TEST_CASE("dGeomSetConvex: the next query sees the new vertices, and a bounding 
       dSpaceCollide(space, nullptr, [](void*, dGeomID g1, dGeomID g2) { CHECK(collide(g1, g2).empty()); });
       dGeomMoved(convex);
     }
-    CHECK(proximity(body, convex).gap == doctest::Approx(1.5));
+    CHECK(proximity(body, convex).gap == relative(1.5));
     dGeomDestroy(convex);
   }
   dSpaceDestroy(space);

@@ -9,6 +9,7 @@
 
 #include "ode/heightfield_patch.hpp"
 #include "ode/terrain.hpp"
+#include "relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::ode;
@@ -50,7 +51,7 @@ void check_axis(const SampleAxis& axis, double spacing, double half, int count, 
     CHECK(axis.count == count);
     return;
   }
-  CHECK(axis.spacing == doctest::Approx(spacing).epsilon(1e-13));
+  CHECK(axis.spacing == relative(spacing).epsilon(1e-13));
   CHECK(axis.count == 0);
   const double shift = (axis.half - half) / spacing;
   CHECK(std::abs(shift - std::round(shift)) < 1e-12 * (1 + std::abs(shift)));

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "relative.hpp"
+
 namespace {
 
 class World {
@@ -85,13 +87,13 @@ TEST_CASE("compound: two balls of unlike density, in closed form") {
   const double ball = 4 * std::numbers::pi / 3 * kRadius * kRadius * kRadius;
   const double along = 0.4 * 4000 * ball * kRadius * kRadius;
   const double across = along + ball * 3000.0 * 1000 / 4000 * kDistance * kDistance;  // with the reduced mass
-  CHECK(mass.mass == doctest::Approx(4000 * ball).epsilon(1e-13));
-  CHECK(mass.I[0] == doctest::Approx(across).epsilon(1e-13));
-  CHECK(mass.I[5] == doctest::Approx(across).epsilon(1e-13));
-  CHECK(mass.I[10] == doctest::Approx(along).epsilon(1e-13));
-  CHECK(dGeomGetPosition(parts[0].geom)[2] == doctest::Approx(0.25 * kDistance).epsilon(1e-13));
-  CHECK(dGeomGetPosition(parts[1].geom)[2] == doctest::Approx(-0.75 * kDistance).epsilon(1e-13));
-  CHECK(least_gap(parts) == doctest::Approx(kDistance - 2 * kRadius).epsilon(1e-9));
+  CHECK(mass.mass == supernormal::test::relative(4000 * ball).epsilon(1e-13));
+  CHECK(mass.I[0] == supernormal::test::relative(across).epsilon(1e-13));
+  CHECK(mass.I[5] == supernormal::test::relative(across).epsilon(1e-13));
+  CHECK(mass.I[10] == supernormal::test::relative(along).epsilon(1e-13));
+  CHECK(dGeomGetPosition(parts[0].geom)[2] == supernormal::test::relative(0.25 * kDistance).epsilon(1e-13));
+  CHECK(dGeomGetPosition(parts[1].geom)[2] == supernormal::test::relative(-0.75 * kDistance).epsilon(1e-13));
+  CHECK(least_gap(parts) == supernormal::test::relative(kDistance - 2 * kRadius).epsilon(1e-9));
   destroy(parts);
   dBodyDestroy(body);
 }
@@ -115,7 +117,7 @@ TEST_CASE("compound: tapered, turned and moved parts against sums over a lattice
   const auto& [xx, yy, zz, xy, xz, yz] = sums.second;
   constexpr double kTolerance = 5e-4;  // twice what the lattice leaves
   const double size = kTolerance * (xx + yy + zz);
-  CHECK(mass.mass == doctest::Approx(sums.mass).epsilon(kTolerance));
+  CHECK(mass.mass == supernormal::test::relative(sums.mass).epsilon(kTolerance));
   for (const double moment : sums.first) CHECK(std::abs(moment) < kTolerance * sums.mass);  // the centre of mass is the origin
   CHECK(std::abs(mass.I[0] - (yy + zz)) < size);
   CHECK(std::abs(mass.I[5] - (zz + xx)) < size);

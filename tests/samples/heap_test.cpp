@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "complaint.hpp"
+#include "relative.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
 #include "world.hpp"
@@ -53,7 +54,7 @@ TEST_CASE("the angle of a constructed cone of grains") {
     CHECK(heap.grains == placements.size());
     const double tangent = std::tan(degrees * std::numbers::pi / 180);
     const double top = 1e-3 + tangent * kRadius + 2e-3 * std::hypot(1, tangent);  // of the parallel cone
-    CHECK(heap.height == doctest::Approx(top).epsilon(0.02));
+    CHECK(heap.height == supernormal::test::relative(top).epsilon(0.02));
   }
 }
 
@@ -103,9 +104,9 @@ TEST_CASE("a dish is closed but for its foot, and holds a grain within its rim")
     REQUIRE(hopper.contains(world.bodies()[0].position()));
   }
   const Point rolled = world.bodies()[0].position();
-  CHECK(rolled[2] == doctest::Approx(0.022).epsilon(1e-2));
+  CHECK(rolled[2] == supernormal::test::relative(0.022).epsilon(1e-2));
   CHECK(std::hypot(rolled[0], rolled[1]) < 0.03);
-  CHECK(world.bodies()[1].position()[2] == doctest::Approx(0.002).epsilon(1e-2));
+  CHECK(world.bodies()[1].position()[2] == supernormal::test::relative(0.002).epsilon(1e-2));
   CHECK_FALSE(hopper.contains({0.01, 0, 0.01}));  // within the dish
 }
 

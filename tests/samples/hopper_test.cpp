@@ -13,6 +13,7 @@
 #include "leaks.hpp"
 #include "placement.hpp"
 #include "random.hpp"
+#include "relative.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
 #include "world.hpp"
@@ -85,7 +86,7 @@ TEST_CASE("the hopper's triangles face the axis, at the angle and the distances 
     // The distance of the plane from the axis at height z, towards the side's middle: the inscribed circle's radius.
     const double horizontal = std::hypot(twice_area[0], twice_area[1]);
     const double to_axis = -(twice_area[0] * a[0] + twice_area[1] * a[1]) / horizontal;
-    CHECK(to_axis == doctest::Approx(kHopper.radius_at(a[2])).epsilon(1e-6));
+    CHECK(to_axis == supernormal::test::relative(kHopper.radius_at(a[2])).epsilon(1e-6));
     const bool in_cone = corner(mesh, i, 0)[2] < kHopper.clearance + kHopper.cone_height() / 2;
     const double slope = std::asin(twice_area[2] / length) * 180 / std::numbers::pi;
     CHECK(std::abs(slope - (in_cone ? kHopper.wall_angle : 0)) < 1e-3);
@@ -93,7 +94,7 @@ TEST_CASE("the hopper's triangles face the axis, at the angle and the distances 
   // Sides of a pyramid's frustum and of a prism with the inscribed circles' radii: half the perimeter times the height of a side.
   const double per_radius = 2 * 48 * std::tan(std::numbers::pi / 48);
   const double cone = per_radius * (0.018 + 0.036) / 2 * std::hypot(0.018, kHopper.cone_height());
-  CHECK(area == doctest::Approx(cone + per_radius * 0.036 * 0.1).epsilon(1e-6));
+  CHECK(area == supernormal::test::relative(cone + per_radius * 0.036 * 0.1).epsilon(1e-6));
 }
 
 TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {
@@ -147,19 +148,19 @@ TEST_CASE("the mean height of a level filling") {
   const double r = 0.018;
   const double rr = 0.036;
   const double h = kHopper.cone_height();
-  CHECK(h == doctest::Approx(0.018 * std::sqrt(3)).epsilon(1e-14));
+  CHECK(h == supernormal::test::relative(0.018 * std::sqrt(3)).epsilon(1e-14));
   const double cone_volume = h / 3 * (r * r + r * rr + rr * rr);
   const double cone_mean = h * (r * r + 2 * r * rr + 3 * rr * rr) / (4 * (r * r + r * rr + rr * rr));
-  CHECK(kHopper.mean_height(kHopper.clearance + h) == doctest::Approx(cone_mean).epsilon(1e-13));
+  CHECK(kHopper.mean_height(kHopper.clearance + h) == supernormal::test::relative(cone_mean).epsilon(1e-13));
   const double cylinder_volume = rr * rr * 0.04;
   const double both = (cone_volume * cone_mean + cylinder_volume * (h + 0.02)) / (cone_volume + cylinder_volume);
-  CHECK(kHopper.mean_height(kHopper.clearance + h + 0.04) == doctest::Approx(both).epsilon(1e-13));
-  CHECK(kHopper.mean_height(kHopper.clearance + 1e-6) == doctest::Approx(0.5e-6).epsilon(1e-3));
+  CHECK(kHopper.mean_height(kHopper.clearance + h + 0.04) == supernormal::test::relative(both).epsilon(1e-13));
+  CHECK(kHopper.mean_height(kHopper.clearance + 1e-6) == supernormal::test::relative(0.5e-6).epsilon(1e-3));
 }
 
 TEST_CASE("Beverloo's law") {
   // By hand: 0.58 * 750 * sqrt(9.81) * (0.036 - 1.4 * 0.005)^2.5 = 0.58 * 750 * 3.13209 * 0.029^2.5.
-  CHECK(beverloo_mass_flow(0.036, 0.005, 750, 9.81) == doctest::Approx(0.195124).epsilon(1e-3));
+  CHECK(beverloo_mass_flow(0.036, 0.005, 750, 9.81) == supernormal::test::relative(0.195124).epsilon(1e-3));
   CHECK(beverloo_mass_flow(0.007, 0.005, 750, 9.81) == doctest::Approx(0).epsilon(1e-12));
   CHECK(beverloo_mass_flow(0.003, 0.005, 750, 9.81) == 0);
 }
@@ -185,8 +186,9 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
   discharge.after_step(0.3);
   REQUIRE(discharge.charge());
   CHECK(discharge.charge()->time == 0.3);
-  CHECK(discharge.charge()->mass == doctest::Approx(5 * grain_mass));
-  CHECK(discharge.charge()->grain_diameter == doctest::Approx(2 * std::cbrt(3.36e-3 * 3.36e-3 * 1.29e-3)).epsilon(1e-9));
+  CHECK(discharge.charge()->mass == supernormal::test::relative(5 * grain_mass));
+  CHECK(discharge.charge()->grain_diameter ==
+        supernormal::test::relative(2 * std::cbrt(3.36e-3 * 3.36e-3 * 1.29e-3)).epsilon(1e-9));
   CHECK(world.walls().geoms().size() == walls - 1);
   drop(0, 0);
   drop(1, 0.03);  // beside
@@ -199,11 +201,11 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
   drop(3, 0.002);
   discharge.after_step(0.8);
   CHECK(discharge.count() == 3);
-  CHECK(discharge.mass() == doctest::Approx(3 * grain_mass));
+  CHECK(discharge.mass() == supernormal::test::relative(3 * grain_mass));
   CHECK(discharge.last_passage() == 0.8);
   // 20 % of the charge with the first grain at 0.4 s, 60 % with the third at 0.8 s.
   REQUIRE(discharge.mass_flow());
-  CHECK(*discharge.mass_flow() == doctest::Approx(2 * grain_mass / 0.4));
+  CHECK(*discharge.mass_flow() == supernormal::test::relative(2 * grain_mass / 0.4));
 }
 
 TEST_CASE("the bed in a hopper: one lying column of known volume") {
@@ -220,11 +222,11 @@ TEST_CASE("the bed in a hopper: one lying column of known volume") {
                             {0, {-0.011, -0.011, z}, {1, 0, 0, 0}}});
   Random random(1);
   const Bed bed = measure_bed(world, hopper, random);
-  CHECK(bed.height == doctest::Approx(0.04).epsilon(1e-4));
+  CHECK(bed.height == supernormal::test::relative(0.04).epsilon(1e-4));
   const double section = 48 * std::tan(std::numbers::pi / 48) * 0.036 * 0.036;
   const double expected = 4 * 0.02 * 0.02 / section;
   CHECK(std::abs(bed.volume_fraction - expected) < 4 * bed.standard_error + 0.02 * expected);  // edges: exponent 200
-  CHECK(bed.bulk_density == doctest::Approx(1000 * bed.volume_fraction).epsilon(1e-12));
+  CHECK(bed.bulk_density == supernormal::test::relative(1000 * bed.volume_fraction).epsilon(1e-12));
 }
 
 TEST_CASE("grains rest on the closed hopper, then run out of it, and none leaks") {

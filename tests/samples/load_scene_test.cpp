@@ -7,6 +7,7 @@
 #include "catalogue.hpp"
 #include "complaint.hpp"
 #include "input_error.hpp"
+#include "relative.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
@@ -44,7 +45,7 @@ TEST_CASE("a scene file is read as it is written") {
   REQUIRE(scene.gravity() != nullptr);
   CHECK(scene.gravity()->acceleration == supernormal::Vector3(0, 0, -9.81));
   CHECK(effect<fx::Friction>(scene).coefficient == 0.4);
-  CHECK(effect<fx::SurfaceLayer>(scene).depth == doctest::Approx(0.002 * 3e-3).epsilon(1e-12));
+  CHECK(effect<fx::SurfaceLayer>(scene).depth == supernormal::test::relative(0.002 * 3e-3).epsilon(1e-12));
 }
 
 TEST_CASE("every effect of the library has a section") {

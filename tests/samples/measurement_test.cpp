@@ -7,6 +7,7 @@
 #include "bed.hpp"
 #include "energy.hpp"
 #include "overlap.hpp"
+#include "relative.hpp"
 #include "stepper.hpp"
 #include "world.hpp"
 
@@ -41,9 +42,9 @@ TEST_CASE("energy of a moving ellipsoid") {
   dBodySetAngularVel(body.body, 0, 0, 7);
   const double inertia = mass / 5 * (0.02 * 0.02 + 0.03 * 0.03);
   const Energy energy = measure_energy(world, scene);
-  CHECK(energy.kinetic == doctest::Approx(0.5 * mass * 9 + 0.5 * inertia * 49).epsilon(1e-12));
-  CHECK(energy.potential == doctest::Approx(mass * 10 * 0.05).epsilon(1e-12));
-  CHECK(kinetic_height(world, scene) == doctest::Approx(energy.kinetic / (mass * 10)).epsilon(1e-12));
+  CHECK(energy.kinetic == supernormal::test::relative(0.5 * mass * 9 + 0.5 * inertia * 49).epsilon(1e-12));
+  CHECK(energy.potential == supernormal::test::relative(mass * 10 * 0.05).epsilon(1e-12));
+  CHECK(kinetic_height(world, scene) == supernormal::test::relative(energy.kinetic / (mass * 10)).epsilon(1e-12));
 }
 
 TEST_CASE("the energy that grains gain and lose is watched over all steps") {
@@ -57,10 +58,10 @@ TEST_CASE("the energy that grains gain and lose is watched over all steps") {
     watch.after_step();
   }
   const double weight = body.mass.mass * 10;
-  CHECK(watch.lost() == doctest::Approx(weight * 0.025).epsilon(1e-12));
-  CHECK(watch.gained() == doctest::Approx(weight * 0.008).epsilon(1e-12));
+  CHECK(watch.lost() == supernormal::test::relative(weight * 0.025).epsilon(1e-12));
+  CHECK(watch.gained() == supernormal::test::relative(weight * 0.008).epsilon(1e-12));
   dBodySetLinearVel(body.body, 0, 0, 3);
-  CHECK(largest_kinetic_energy(world) == doctest::Approx(0.5 * body.mass.mass * 9).epsilon(1e-12));
+  CHECK(largest_kinetic_energy(world) == supernormal::test::relative(0.5 * body.mass.mass * 9).epsilon(1e-12));
 }
 
 TEST_CASE("the deepest overlap is found, between grains and with walls") {
@@ -69,8 +70,8 @@ TEST_CASE("the deepest overlap is found, between grains and with walls") {
   const World world(scene, {upright(0.05, 0.1, 0.1), upright(0.089, 0.1, 0.1), upright(0.183, 0.1, 0.1)});
   const Overlap overlap = measure_overlap(world);
   CHECK(overlap.pairs == 2);
-  CHECK(overlap.depth == doctest::Approx(3e-3).epsilon(1e-9));
-  CHECK(overlap.relative_to_pair == doctest::Approx(0.3).epsilon(1e-9));
+  CHECK(overlap.depth == supernormal::test::relative(3e-3).epsilon(1e-9));
+  CHECK(overlap.relative_to_pair == supernormal::test::relative(0.3).epsilon(1e-9));
   CHECK(count_outside(world, scene.container) == 0);
   dBodySetPosition(world.bodies()[0].body, 0.05, 0.1, -0.001);
   CHECK(count_outside(world, scene.container) == 1);
@@ -92,7 +93,7 @@ TEST_CASE("the volume fraction is that of a known bed") {
                     {upright(0.05, 0.05, 0.05), upright(0.15, 0.05, 0.05), upright(0.05, 0.15, 0.05), upright(0.15, 0.15, 0.05)});
   Random random(1);
   const Bed bed = measure_bed(world, std::get<Box>(scene.container), random);
-  CHECK(bed.height == doctest::Approx(0.1).epsilon(1e-12));  // twice the height of the centres
+  CHECK(bed.height == supernormal::test::relative(0.1).epsilon(1e-12));  // twice the height of the centres
   // The slab reaches from 0.005 to 0.08, the boxes from 0.01 to 0.09: 14/15 of it.
   const double expected = 0.64 * 14 / 15;
   CHECK(std::abs(bed.volume_fraction - expected) < 4 * bed.standard_error + 0.02 * expected);  // edges: exponent 200
@@ -118,7 +119,7 @@ TEST_CASE("a dropped grain falls freely, comes to rest on the floor and touches 
   for (int i = 0; i < kFree; ++i) stepper.step();
   CHECK(stepper.contacts() == 0);
   // Semi-implicit Euler: z = -g dt^2 n (n + 1) / 2.
-  CHECK(position[2] == doctest::Approx(0.06 - 10 * 1e-6 * kFree * (kFree + 1) / 2).epsilon(1e-9));
+  CHECK(position[2] == supernormal::test::relative(0.06 - 10 * 1e-6 * kFree * (kFree + 1) / 2).epsilon(1e-9));
   for (int i = 0; i < 1000; ++i) stepper.step();
   CHECK(stepper.contacts() == 1);
   CHECK(std::abs(position[2] - 0.01) < 1e-3 * 0.01 + 1e-5);
@@ -139,7 +140,7 @@ TEST_CASE("friction stops a sliding grain and without friction it slides on") {
     if (rough) {
       CHECK(x - 0.06 < 0.2 * 0.2);  // stopped; v^2 / (2 mu g) is 4 mm without rocking
     } else {
-      CHECK(x - 0.06 == doctest::Approx(0.2 * 0.2).epsilon(1e-6));
+      CHECK(x - 0.06 == supernormal::test::relative(0.2 * 0.2).epsilon(1e-6));
     }
   }
 }

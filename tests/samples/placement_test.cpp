@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "random.hpp"
+#include "relative.hpp"
 #include "scenes.hpp"
 
 using namespace falling_particles;
@@ -26,7 +27,7 @@ TEST_CASE("grains start apart from one another and from the walls") {
     }
     CHECK(p.position[2] >= scene.drop.height + radius);
     const auto [w, x, y, z] = p.quaternion;
-    CHECK(w * w + x * x + y * y + z * z == doctest::Approx(1).epsilon(1e-14));
+    CHECK(w * w + x * x + y * y + z * z == supernormal::test::relative(1).epsilon(1e-14));
     for (const Placement& q : placements) {
       if (&q == &p) break;
       const double distance =
@@ -64,8 +65,8 @@ TEST_CASE("random numbers are uniform") {
     const double w = random.rotation()[0];
     rotation_moment += w * w / kDraws;
   }
-  for (const int count : counts) CHECK(std::abs(count - kDraws / 3) < 500);  // six standard deviations
-  CHECK(rotation_moment == doctest::Approx(0.25).epsilon(0.03));             // each of four components has the same share
+  for (const int count : counts) CHECK(std::abs(count - kDraws / 3) < 500);   // six standard deviations
+  CHECK(rotation_moment == supernormal::test::relative(0.25).epsilon(0.03));  // each of four components has the same share
 }
 
 TEST_CASE("the bounding radius holds the grain and no more") {
@@ -74,9 +75,10 @@ TEST_CASE("the bounding radius holds the grain and no more") {
   };
   CHECK(radius({3, 4, 12}, 2, 2, 0) == 12);  // an ellipsoid: the longest half-axis
   CHECK(radius({3, 4, 12}, 1.5, 1.1, 0) == 12);
-  CHECK(radius({3, 4, 12}, 1000, 1000, 0) == doctest::Approx(13).epsilon(2e-3));  // nearly a box: the corner, 3 : 4 : 12 : 13
-  CHECK(radius({5, 5, 12}, 2, 1000, 0) == doctest::Approx(13).epsilon(2e-3));     // nearly a cylinder: the rim
-  CHECK(radius({4, 5, 13}, 1000, 1000, 1) == doctest::Approx(14).epsilon(2e-3));
+  CHECK(radius({3, 4, 12}, 1000, 1000, 0) ==
+        supernormal::test::relative(13).epsilon(2e-3));  // nearly a box: the corner, 3 : 4 : 12 : 13
+  CHECK(radius({5, 5, 12}, 2, 1000, 0) == supernormal::test::relative(13).epsilon(2e-3));  // nearly a cylinder: the rim
+  CHECK(radius({4, 5, 13}, 1000, 1000, 1) == supernormal::test::relative(14).epsilon(2e-3));
   for (const double p : {3.0, 8.0, 60.0})
-    CHECK(radius({2, 2, 2}, p, p, 0) == doctest::Approx(2 * std::pow(3, 0.5 - 1 / p)).epsilon(1e-14));
+    CHECK(radius({2, 2, 2}, p, p, 0) == supernormal::test::relative(2 * std::pow(3, 0.5 - 1 / p)).epsilon(1e-14));
 }

@@ -9,6 +9,7 @@
 #include "leaks.hpp"
 #include "placement.hpp"
 #include "random.hpp"
+#include "relative.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
 #include "world.hpp"
@@ -66,7 +67,7 @@ TEST_CASE("ridges are parallel, sharp and as far apart as asked for") {
   }
   CHECK(highest > 0.0099);
   // Half-way up, a ridge is half of the wavelength / 2 wide that it covers.
-  CHECK(static_cast<double>(high) / kPoints == doctest::Approx(0.25).epsilon(0.03));
+  CHECK(static_cast<double>(high) / kPoints == supernormal::test::relative(0.25).epsilon(0.03));
 }
 
 TEST_CASE("the seed decides on the landscape") {
@@ -80,8 +81,8 @@ TEST_CASE("the samples are the landscape's, and one cell reaches beyond each wal
   const Terrain terrain(kParameters);
   const Landscape landscape(kParameters);
   CHECK(terrain.samples_per_side() == 43);
-  CHECK(terrain.spacing()[0] == doctest::Approx(0.003).epsilon(1e-14));
-  CHECK(terrain.spacing()[1] == doctest::Approx(0.002).epsilon(1e-14));
+  CHECK(terrain.spacing()[0] == supernormal::test::relative(0.003).epsilon(1e-14));
+  CHECK(terrain.spacing()[1] == supernormal::test::relative(0.002).epsilon(1e-14));
   double highest = -1;
   for (std::size_t i = 0; i < 43; ++i) {
     for (std::size_t j = 0; j < 43; ++j) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "relative.hpp"
 #include "shape_samples.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
@@ -101,7 +102,7 @@ MassProperties revolved(const Section& section, double top) {
 }
 
 void check_mass(const MassProperties& mass, const MassProperties& expected, double tolerance) {
-  CHECK(mass.volume == doctest::Approx(expected.volume).epsilon(tolerance));
+  CHECK(mass.volume == relative(expected.volume).epsilon(tolerance));
   CHECK((mass.second_moment - expected.second_moment).norm() <= tolerance * expected.second_moment.norm());
   CHECK((mass.centroid - expected.centroid).norm() <= tolerance * (1 + expected.centroid.norm()));
   CHECK(mass.relative_error <= 1e-14);
@@ -137,7 +138,7 @@ TEST_CASE("capsule: support and points against a sweep of a sphere; mass by slic
   CHECK_FALSE(Capsule(2, 0).has_kinks());
   for (const Vector3& n : random_normals(10, 65)) {
     CHECK(Capsule(2, 0).point(n) == Sphere(2).point(n));
-    CHECK(Capsule(0, 2).support(n) == doctest::Approx(2 * std::abs(n.z())));
+    CHECK(Capsule(0, 2).support(n) == relative(2 * std::abs(n.z())));
   }
 }
 
@@ -157,11 +158,11 @@ TEST_CASE("cylinder: the corners of a cap have the point asked about between the
     Vector3 middle = Vector3::Zero();
     for (int k = 0; k < 3; ++k) {
       CHECK(cap[k].z() == sign);
-      CHECK(cap[k].head<2>().norm() == doctest::Approx(2).epsilon(1e-15));
+      CHECK(cap[k].head<2>().norm() == relative(2).epsilon(1e-15));
       middle += cap[k] / 3;
     }
     CHECK((middle - Vector3(0, 0, sign)).norm() <= 1e-15);
-    CHECK(cap[0].head<2>().normalized().dot(Eigen::Vector2d(0.5, 0.7).normalized()) == doctest::Approx(1).epsilon(1e-15));
+    CHECK(cap[0].head<2>().normalized().dot(Eigen::Vector2d(0.5, 0.7).normalized()) == relative(1).epsilon(1e-15));
   }
   Corners side;
   cylinder.add_corners(Vector3(0.6, 0.8, 0), Vector3(5, 5, 0), side);
@@ -210,20 +211,20 @@ TEST_CASE("polytope: mass of a box, turned and moved, with points in its faces, 
 TEST_CASE("polytope: mass of tetrahedron, octahedron, needles and a fine sphere") {
   const std::vector<Vector3> tetrahedron = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
   const MassProperties mass = Polytope(tetrahedron).mass_properties();
-  CHECK(mass.volume == doctest::Approx(1).epsilon(1e-15));
+  CHECK(mass.volume == relative(1).epsilon(1e-15));
   CHECK((mass.centroid - Vector3(0.25, 0.5, 0.75)).norm() <= 1e-15);
   // The integral of x^2 over it is V a^2/10, of x y V a b/20.
-  CHECK(mass.second_moment(0, 0) == doctest::Approx(0.1).epsilon(1e-14));
-  CHECK(mass.second_moment(1, 2) == doctest::Approx(6.0 / 20).epsilon(1e-14));
+  CHECK(mass.second_moment(0, 0) == relative(0.1).epsilon(1e-14));
+  CHECK(mass.second_moment(1, 2) == relative(6.0 / 20).epsilon(1e-14));
   for (const double thinness : {1.0, 1e-3, 1e-9}) {
     const std::vector<Vector3> octahedron = {{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, thinness}, {0, 0, -thinness}};
-    CHECK(Polytope(octahedron).mass_properties().volume == doctest::Approx(8 * thinness / 3).epsilon(1e-14));
+    CHECK(Polytope(octahedron).mass_properties().volume == relative(8 * thinness / 3).epsilon(1e-14));
   }
   const std::vector<Vector3> fine = random_normals(2000, 72);
   const MassProperties ball = Polytope(fine).mass_properties();
   CHECK(ball.relative_error <= 1e-4);  // no more than what the lattice can miss
   CHECK(ball.volume < 4 * kPi / 3);
-  CHECK(ball.volume == doctest::Approx(4 * kPi / 3).epsilon(0.02));
+  CHECK(ball.volume == relative(4 * kPi / 3).epsilon(0.02));
 }
 
 TEST_CASE("polytope: what lies flat has no volume") {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reference_pairs.hpp"
+#include "relative.hpp"
 #include "shapes/shape_samples.hpp"
 #include "solvers/triangle_program.hpp"
 #include "supernormal/shapes/box.hpp"
@@ -92,9 +93,9 @@ TEST_CASE("no radius of curvature is smaller than the rolling radius") {
     }
     CHECK(shape.rolling_radius() > 0);
   }
-  CHECK(Superellipsoid({1, 1, 1}, 2, 2).rolling_radius() == doctest::Approx(1));
+  CHECK(Superellipsoid({1, 1, 1}, 2, 2).rolling_radius() == relative(1));
   CHECK(Superellipsoid({1, 1, 1}, 1.9, 4).rolling_radius() == 0);
-  CHECK(Ellipsoid({3, 2, 1}).rolling_radius() == doctest::Approx(1.0 / 3));
+  CHECK(Ellipsoid({3, 2, 1}).rolling_radius() == relative(1.0 / 3));
 }
 
 TEST_CASE("the linear program on a triangle: cuts on a grid are never above its value, and it is attained") {
@@ -107,7 +108,7 @@ TEST_CASE("the linear program on a triangle: cuts on a grid are never above its 
       for (std::size_t k = 0; k < count; ++k) value = std::min(value, cuts[k].dot(w));
       return value;
     };
-    CHECK(least(program.weights()) == doctest::Approx(program.value()));
+    CHECK(least(program.weights()) == relative(program.value()));
     for (int i = 0; i <= 60; ++i) {
       for (int j = 0; i + j <= 60; ++j) CHECK(least(Vector3(i, j, 60 - i - j) / 60) <= program.value() + 1e-15);
     }

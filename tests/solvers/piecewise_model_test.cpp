@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "relative.hpp"
+
 using namespace supernormal;
 
 namespace {
@@ -58,7 +60,7 @@ TEST_CASE("the maximum of a concave model is one: nothing around it is higher") 
     const std::vector<Piece> pieces = draw.pieces(1 + static_cast<std::size_t>(k) % 12);
     const PiecewiseModel model{pieces, draw.definite()};
     const PiecewiseModel::Peak peak = model.maximize();
-    CHECK(peak.gain == doctest::Approx(gain(model, peak.u)).epsilon(1e-9));
+    CHECK(peak.gain == test::relative(gain(model, peak.u)).epsilon(1e-9));
     CHECK(best_rise(model, peak.u, 22) <= 1e-12 * (1 + peak.u.squaredNorm()));
     ++met[peak.count];
   }
@@ -76,12 +78,12 @@ TEST_CASE("the active pieces meet at the maximum, and their weighted slopes bala
     double sum = 0;
     for (std::size_t i = 0; i < peak.count; ++i) {
       const Piece& piece = pieces[peak.active[i]];
-      CHECK(piece.value + piece.slope.dot(peak.u) == doctest::Approx(height).epsilon(1e-9));
+      CHECK(piece.value + piece.slope.dot(peak.u) == test::relative(height).epsilon(1e-9));
       CHECK(peak.weight[i] >= 0);
       slope += peak.weight[i] * piece.slope;
       sum += peak.weight[i];
     }
-    CHECK(sum == doctest::Approx(1));
+    CHECK(sum == test::relative(1));
     CHECK((slope - model.A * peak.u).norm() <= 1e-9 * (1 + (model.A * peak.u).norm()));
   }
 }
@@ -95,7 +97,7 @@ TEST_CASE("within a radius the gain is positive whatever the curvature, and as l
     const PiecewiseModel model{pieces, A};
     const PiecewiseModel::Peak peak = model.maximize(radius);
     CHECK(peak.u.norm() <= 1.11 * radius);
-    CHECK(peak.gain == doctest::Approx(gain(model, peak.u)).epsilon(1e-7));
+    CHECK(peak.gain == test::relative(gain(model, peak.u)).epsilon(1e-7));
     // At u = 0 the first piece is the lowest: there is always an ascent unless two others hold it there.
     CHECK(gain(model, peak.u) >= -1e-12 * (1 + radius * radius));
   }
@@ -116,10 +118,10 @@ TEST_CASE("coplanar corners: many pieces meet in one point") {
 
 TEST_CASE("pieces that repeat or are parallel, and no curvature at all, divide by nothing") {
   const std::vector<Piece> same(3, {0, {1, 2}});
-  CHECK(PiecewiseModel{same, {1, 0, 1}}.maximize().gain == doctest::Approx(2.5));
+  CHECK(PiecewiseModel{same, {1, 0, 1}}.maximize().gain == test::relative(2.5));
   const std::vector<Piece> parallel = {{0, {1, 0}}, {1, {-1, 0}}, {0.5, {0.5, 0}}};
   const PiecewiseModel::Peak ridge = PiecewiseModel{parallel, {1, 0, 1}}.maximize();
-  CHECK(ridge.u.x() == doctest::Approx(0.5));
+  CHECK(ridge.u.x() == test::relative(0.5));
   CHECK(ridge.u.y() == 0);
   const std::vector<Piece> level = {{0, {0, 0}}};
   const PiecewiseModel::Peak rest = PiecewiseModel{level, {0, 0, 0}}.maximize(1);

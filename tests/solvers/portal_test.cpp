@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "relative.hpp"
+
 using namespace supernormal;
 
 namespace {
@@ -21,15 +23,15 @@ Vector3 beside(double angle, double length) { return length * Vector3(std::cos(a
 
 TEST_CASE("points on one side leave a sector of directions that may separate") {
   Portal portal(kDown, kRounding);
-  CHECK(portal.sector() == doctest::Approx(2 * M_PI));
+  CHECK(portal.sector() == test::relative(2 * M_PI));
   portal.add(beside(0.3, 2));
-  CHECK(portal.sector() == doctest::Approx(M_PI));
+  CHECK(portal.sector() == test::relative(M_PI));
   portal.add(beside(-0.4, 0.5));
   portal.add(beside(0.1, 7));  // between the two: tells nothing
   CHECK_FALSE(portal.is_pierced());
   CHECK(std::isinf(portal.upper_bound()));
-  CHECK(portal.sector() == doctest::Approx(M_PI - 0.7));
-  CHECK(portal.bisector().normalized().dot(beside(-0.05, 1)) == doctest::Approx(1));
+  CHECK(portal.sector() == test::relative(M_PI - 0.7));
+  CHECK(portal.bisector().normalized().dot(beside(-0.05, 1)) == test::relative(1));
   CHECK(std::abs(portal.edge_normal().dot(beside(0.3, 2) - beside(-0.4, 0.5))) < 1e-15);
   CHECK(portal.may_separate(portal.edge_normal()));
   CHECK(portal.may_separate(beside(M_PI / 2 - 0.41, 1)));
@@ -44,14 +46,14 @@ TEST_CASE("three points around the line, or two on either side of it, are a port
     portal.add(beside(angle, 1 + angle) - Vector3::UnitZ());  // r at z = 1
   }
   REQUIRE(portal.is_pierced());
-  CHECK(portal.upper_bound() == doctest::Approx(-1));  // along -z
+  CHECK(portal.upper_bound() == test::relative(-1));  // along -z
   CHECK((portal.normal().normalized() - Vector3::UnitZ()).norm() < 1e-15);
 
   Portal segment(kDown, kRounding);
   segment.add(Vector3(1, 0, -3));
   segment.add(Vector3(-2, 0, 0));
   REQUIRE(segment.is_pierced());
-  CHECK(segment.upper_bound() == doctest::Approx(-2));
+  CHECK(segment.upper_bound() == test::relative(-2));
   CHECK(std::abs(segment.normal().dot(Vector3(3, 0, -3))) < 1e-15);
   CHECK(segment.normal().dot(kDown) < 0);
 }
@@ -61,7 +63,7 @@ TEST_CASE("a point on the line is a portal") {
   CHECK(portal.add(Vector3(0.5 * kRounding, 0, -2)));
   REQUIRE(portal.is_pierced());
   CHECK(portal.upper_bound() >= -2);
-  CHECK(portal.upper_bound() == doctest::Approx(-2));
+  CHECK(portal.upper_bound() == test::relative(-2));
   CHECK((portal.normal().normalized() + kDown).norm() < 1e-15);
 }
 
