@@ -40,7 +40,7 @@ double surface_area(const Shape& shape) {
   // The midpoint rule in z and around it; opposite directions show the same.
   double sum = 0;
   for (int row = 0; row < kRows / 2; ++row) {
-    const double z = (row + 0.5) / (kRows / 2);
+    const double z = 2 * (row + 0.5) / kRows;
     for (int k = 0; k < kRows; ++k) {
       const double angle = 2 * kPi * (k + 0.25) / kRows;
       const double radius = std::sqrt(1 - z * z);
