@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "supernormal/shapes/shape.hpp"
+
 namespace supernormal {
 namespace {
 
@@ -24,51 +26,78 @@ PowerNorm PowerNorm::dual_to_exponent(double exponent) {
   return {exponent / (exponent - 1), 1 / (exponent - 1), (exponent - 1) / exponent};
 }
 
-PowerNorm::Ratio PowerNorm::ratio(double larger, double smaller) const {
-  const double k = larger > 0 ? smaller / larger : 1;
-  if (is_euclidean_) {
-    const double square = k * k;
-    return {k, square, 1 + square, std::sqrt(1 + square)};
+template <std::size_t kCount>
+void PowerNorm::answer(std::array<PowerNormQuestion, kCount>& questions, Order order) {
+  std::array<Ratio, kCount> f;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const auto& [norm, x, y, jet] = questions[i];
+    f[i].x_is_larger = x > y;
+    f[i].larger = x > y ? x : y;
+    f[i].k = f[i].larger > 0 ? (x > y ? y : x) / f[i].larger : 1;
   }
-  const double power = std::pow(k, p_);
-  return {k, power, 1 + power, std::exp(inverse_p_ * std::log(1 + power))};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const PowerNorm& norm = *questions[i].norm;
+    f[i].power = norm.is_euclidean_ ? f[i].k * f[i].k : std::pow(f[i].k, norm.p_);
+    f[i].sum = 1 + f[i].power;
+  }
+  for (std::size_t i = 0; i < kCount; ++i) {
+    f[i].root = questions[i].norm->is_euclidean_ ? std::sqrt(f[i].sum) : std::log(f[i].sum);
+  }
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const PowerNorm& norm = *questions[i].norm;
+    if (!norm.is_euclidean_) f[i].root = std::exp(norm.inverse_p_ * f[i].root);
+  }
+  for (std::size_t i = 0; i < kCount; ++i) {
+    PowerNormQuestion& question = questions[i];
+    question.jet.value = f[i].larger * f[i].root;
+    if (order == Order::Point) question.norm->differentiate(f[i], question.jet);
+    if (order == Order::Curvature) question.norm->differentiate_twice(f[i], question.jet);
+  }
 }
 
-double PowerNorm::value(double x, double y) const {
-  const double larger = x > y ? x : y;
-  return larger * ratio(larger, x > y ? y : x).root;
-}
+template void PowerNorm::answer(std::array<PowerNormQuestion, 1>& questions, Order order);
+template void PowerNorm::answer(std::array<PowerNormQuestion, 2>& questions, Order order);
 
-void PowerNorm::gradient(double x, double y, PowerNormJet& jet) const {
-  const bool x_is_larger = x > y;
-  const double larger = x_is_larger ? x : y;
-  const Ratio f = ratio(larger, x_is_larger ? y : x);
-  jet.value = larger * f.root;
+void PowerNorm::differentiate(const Ratio& f, PowerNormJet& jet) const {
   jet.dx = f.root / f.sum;
   jet.dy = jet.dx * (f.k > kSmallRatio ? f.power / f.k : std::pow(f.k, p_minus_1_));
-  if (!x_is_larger) std::swap(jet.dx, jet.dy);
+  if (!f.x_is_larger) std::swap(jet.dx, jet.dy);
 }
 
-void PowerNorm::curvature(double x, double y, PowerNormJet& jet) const {
-  const bool x_is_larger = x > y;
-  const double larger = x_is_larger ? x : y;
-  const Ratio f = ratio(larger, x_is_larger ? y : x);
-  jet.value = larger * f.root;
+void PowerNorm::differentiate_twice(const Ratio& f, PowerNormJet& jet) const {
   // In the order (larger, smaller) first: k^(p-1) and k^(p-2).
   const double d_larger = f.root / f.sum;
   const double power_1 = f.k > kSmallRatio ? f.power / f.k : std::pow(f.k, p_minus_1_);
   const double power_2 = f.k > kFlatRatio ? power_1 / f.k : std::pow(kFlatRatio, p_minus_1_ - 1);
   jet.dx = d_larger;
   jet.dy = d_larger * power_1;
-  jet.dx_over_x = d_larger * f.root * (x_is_larger ? 1 : power_2);
+  jet.dx_over_x = d_larger * f.root * (f.x_is_larger ? 1 : power_2);
   const double scale = p_minus_1_ * d_larger * d_larger;
   jet.xx = scale * power_1 * f.k;
   jet.xy = -scale * power_1;
   jet.yy = scale * power_2;
-  if (!x_is_larger) {
+  if (!f.x_is_larger) {
     std::swap(jet.dx, jet.dy);
     std::swap(jet.xx, jet.yy);
   }
+}
+
+double PowerNorm::value(double x, double y) const {
+  std::array<PowerNormQuestion, 1> question = {{{this, x, y, {}}}};
+  answer(question, Order::Value);
+  return question[0].jet.value;
+}
+
+void PowerNorm::gradient(double x, double y, PowerNormJet& jet) const {
+  std::array<PowerNormQuestion, 1> question = {{{this, x, y, {}}}};
+  answer(question, Order::Point);
+  jet = question[0].jet;
+}
+
+void PowerNorm::curvature(double x, double y, PowerNormJet& jet) const {
+  std::array<PowerNormQuestion, 1> question = {{{this, x, y, {}}}};
+  answer(question, Order::Curvature);
+  jet = question[0].jet;
 }
 
 }  // namespace supernormal

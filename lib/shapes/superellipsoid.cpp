@@ -58,23 +58,37 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
       outer_gauge_(PowerNorm::of_exponent(epsilon)),
       rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)) {}
 
+// The inner norms of x and y; with them ("x") and z ("y") the outer ones.
+template <std::size_t kCount>
+void Superellipsoid::answer(const std::array<Question, kCount>& questions, Order order) {
+  std::array<PowerNormQuestion, kCount> inner, outer;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Superellipsoid& body = *questions[i].body;
+    const Vector3 scaled = body.half_axes_.cwiseProduct(*questions[i].n).cwiseAbs();
+    inner[i] = {&body.inner_potential_, scaled.x(), scaled.y(), {}};
+    outer[i] = {&body.outer_potential_, 0, scaled.z(), {}};
+  }
+  PowerNorm::answer(inner, order);
+  for (std::size_t i = 0; i < kCount; ++i) outer[i].x = inner[i].jet.value;
+  PowerNorm::answer(outer, order);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    questions[i].body->assemble(*questions[i].n, order, inner[i].jet, outer[i].jet, *questions[i].jet);
+  }
+}
+
 void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
-  const Vector3 scaled = half_axes_.cwiseProduct(n).cwiseAbs();
-  if (order == Order::Value) {
-    jet.h = outer_potential_.value(inner_potential_.value(scaled.x(), scaled.y()), scaled.z());
-    return;
-  }
-  PowerNormJet inner, outer;  // of x and y; of their norm t (as "x") and z (as "y")
-  if (order == Order::Point) {
-    inner_potential_.gradient(scaled.x(), scaled.y(), inner);
-    outer_potential_.gradient(inner.value, scaled.z(), outer);
-  } else {
-    inner_potential_.curvature(scaled.x(), scaled.y(), inner);
-    outer_potential_.curvature(inner.value, scaled.z(), outer);
-  }
+  answer(std::array<Question, 1>{{{this, &n, &jet}}}, order);
+}
+
+void Superellipsoid::evaluate_both(const Question& question1, const Question& question2, Order order) {
+  answer(std::array<Question, 2>{question1, question2}, order);
+}
+
+void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const {
+  jet.h = outer.value;
+  if (order == Order::Value) return;
   const Vector3 signed_axes(std::copysign(half_axes_.x(), n.x()), std::copysign(half_axes_.y(), n.y()),
                             std::copysign(half_axes_.z(), n.z()));
-  jet.h = outer.value;
   jet.r = signed_axes.cwiseProduct(Vector3(outer.dx * inner.dx, outer.dx * inner.dy, outer.dy));
   if (order == Order::Point) return;
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "shapes/finite.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 
 namespace supernormal {
 namespace {
@@ -24,6 +25,8 @@ double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_ex
 GapFunction::GapFunction(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2)
     : shape1_(&shape1),
       shape2_(&shape2),
+      superellipsoid1_(shape1.as_superellipsoid()),
+      superellipsoid2_(shape2.as_superellipsoid()),
       offset_(pose1.rotation.transpose() * (pose2.position - pose1.position)),
       rotation_(pose1.rotation.transpose() * pose2.rotation),
       has_curvature_(shape1.has_curvature() && shape2.has_curvature()) {
@@ -37,8 +40,12 @@ void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
   ++evaluations_;
   jet.n = n;
   jet.m.noalias() = -(rotation_.transpose() * n);
-  shape1_->evaluate(n, order, jet.jet1);
-  shape2_->evaluate(jet.m, order, jet.jet2);
+  if (superellipsoid1_ != nullptr && superellipsoid2_ != nullptr) {
+    Superellipsoid::evaluate_both({superellipsoid1_, &n, &jet.jet1}, {superellipsoid2_, &jet.m, &jet.jet2}, order);
+  } else {
+    shape1_->evaluate(n, order, jet.jet1);
+    shape2_->evaluate(jet.m, order, jet.jet2);
+  }
   jet.s = n.dot(offset_) - jet.jet1.h - jet.jet2.h;
   if (order == Order::Value) return;
   jet.d.noalias() = rotation_ * jet.jet2.r;

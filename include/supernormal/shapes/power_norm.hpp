@@ -1,7 +1,12 @@
 // The norm (x^p + y^p)^(1/p) of two numbers that are not negative: the building block of superellipsoids.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace supernormal {
+
+enum class Order;
 
 /// Value and derivatives of a PowerNorm at (x, y). The second derivatives and dx_over_x carry the factor `value`, which keeps them
 /// finite at the origin: d2/dx2 = xx / value and so on.
@@ -10,6 +15,15 @@ struct PowerNormJet {
   double dx = 0, dy = 0;          ///< first derivatives, (x/value)^(p-1) and (y/value)^(p-1)
   double dx_over_x = 0;           ///< value * dx / x, large but finite where p < 2 and x vanishes
   double xx = 0, xy = 0, yy = 0;  ///< value times the second derivatives
+};
+
+class PowerNorm;
+
+/// A norm, where it is asked for, and the answer.
+struct PowerNormQuestion {
+  const PowerNorm* norm;
+  double x, y;  ///< not negative
+  PowerNormJet jet;
 };
 
 /// (x^p + y^p)^(1/p), from two powers; from a square root for p = 2. The larger number is factored out, so that nothing
@@ -30,14 +44,21 @@ class PowerNorm {
   /// All of PowerNormJet.
   void curvature(double x, double y, PowerNormJet& jet) const;
 
+  /// Answers one or two questions up to `order`. Two side by side take two thirds of the time of one after the other: a power, a
+  /// logarithm and an exponential wait for one another, but not for those of the other norm.
+  template <std::size_t kCount>
+  static void answer(std::array<PowerNormQuestion, kCount>& questions, Order order);
+
  private:
   PowerNorm(double p, double p_minus_1, double inverse_p);
 
   /// value = larger * root; the derivative with respect to the larger number is root / sum.
   struct Ratio {
-    double k, power, sum, root;  // smaller/larger, k^p, 1 + k^p, sum^(1/p)
+    bool x_is_larger;
+    double larger, k, power, sum, root;  // k = smaller/larger, k^p, 1 + k^p, sum^(1/p)
   };
-  Ratio ratio(double larger, double smaller) const;
+  void differentiate(const Ratio& f, PowerNormJet& jet) const;
+  void differentiate_twice(const Ratio& f, PowerNormJet& jet) const;
 
   double p_, p_minus_1_, inverse_p_;
   bool is_euclidean_;

@@ -54,6 +54,8 @@ class Corners {
   bool is_partial_ = false;
 };
 
+class Superellipsoid;
+
 /// A convex body known by its normal parameterization (Roemer; DESIGN section 1). The functions of a shape are pure:
 /// any number of threads may call them at once.
 class SUPERNORMAL_API Shape {
@@ -68,6 +70,9 @@ class SUPERNORMAL_API Shape {
   /// Evaluates the potential for the unit normal n, up to `order`; members of a higher order are left as they are.
   /// On a flat face the radius of curvature is infinite; H then holds a large finite number.
   virtual void evaluate(const Vector3& n, Order order, Jet& jet) const = 0;
+
+  /// Itself, if it is one: two superellipsoids are evaluated together.
+  virtual const Superellipsoid* as_superellipsoid() const { return nullptr; }
 
   /// Whether evaluate() can deliver Order::Curvature. Solvers estimate the curvature from boundary points otherwise.
   virtual bool has_curvature() const { return true; }

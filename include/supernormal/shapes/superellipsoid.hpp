@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "supernormal/shapes/power_norm.hpp"
 #include "supernormal/shapes/shape.hpp"
@@ -24,6 +26,17 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
 
+  /// A body, a unit normal, and where its jet goes.
+  struct Question {
+    const Superellipsoid* body;
+    const Vector3* n;
+    Jet* jet;
+  };
+
+  /// evaluate() of two bodies in two thirds of the time that they take one after the other, with the same digits.
+  static void evaluate_both(const Question& question1, const Question& question2, Order order);
+  const Superellipsoid* as_superellipsoid() const override { return this; }
+
   /// Moves the boundary point and takes the normal there (the gradient of the implicit function): on a flat face, r is
   /// a steep power of n but n is a gentle power of r.
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
@@ -42,6 +55,10 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
  private:
   // At most 0.21 of the body's width wider than an ellipsoid's are the caps of a superellipsoid with such exponents.
   static constexpr double kMostRound = 3;
+
+  template <std::size_t kCount>
+  static void answer(const std::array<Question, kCount>& questions, Order order);
+  void assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const;
 
   Vector3 half_axes_;
   double delta_, epsilon_;

@@ -56,6 +56,8 @@ class SUPERNORMAL_API GapFunction {
  private:
   const Shape* shape1_;
   const Shape* shape2_;
+  const Superellipsoid* superellipsoid1_;  // null where it is none
+  const Superellipsoid* superellipsoid2_;
   Vector3 offset_;
   Matrix3 rotation_;
   double length_unit_;
