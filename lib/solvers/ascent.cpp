@@ -18,6 +18,9 @@ constexpr double kMaxRadius = 4;
 // A trust radius below the spacing of double-precision directions: no normal is left to try.
 constexpr double kNoRadius = 1e-15;
 
+// A step of this share of the trust radius is held back by it: the model beyond has just been found wrong.
+constexpr double kAtRim = 0.98;
+
 // Share of the promised gain that must come true for the trust region to grow, and below which it shrinks.
 constexpr double kGoodShare = 0.5;
 constexpr double kPoorShare = 0.1;
@@ -56,6 +59,9 @@ constexpr int kManySlowSteps = 4;
 // Steps longer than this (radians) reach to where the curvature may be another (two vertices of exponent 1.02 change theirs within
 // 1/50): the contraction is not believed.
 constexpr double kAsymptoticStep = 1e-3;
+
+// A step that came this far (radians) to the normals of a sharp tip says nothing of the contraction there.
+constexpr double kFarStep = 0.3;
 
 // Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-15;
@@ -175,14 +181,18 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
 // down around their maximum as well: steeper than s = level cos(turn). Where they do not yet, the next step is as far that way as
 // matters for the tolerance; it finds higher normals, or its cut comes down.
 void Ascent::probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step) {
-  const CuttingPlanes::Reach reach = cuts_.reach(local.plane1, top.u, current().s);
+  const double matters = distance_that_matters();
+  const CuttingPlanes::Reach reach = cuts_.reach(local.plane1, top.u, current().s, matters);
   const double distance = top.u.norm() + reach.distance;
   const double rise = 0.5 * -current().s * distance * distance;
   error_ = std::min(error_, error + kGainSafety * rise);
   if (error > tolerance_ || error_ <= tolerance_) return;
-  const double matters = kProbe * std::sqrt(tolerance_ / -current().s);
   const Vector2 u = top.u + std::min(reach.distance, matters) * reach.way;
   step = {current().n + local.plane1.lift(u), u.norm(), rise};
+}
+
+double Ascent::distance_that_matters() const {
+  return current().s < 0 ? kProbe * std::sqrt(tolerance_ / -current().s) : std::numeric_limits<double>::infinity();
 }
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
@@ -245,8 +255,10 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
   }
   auto rest = PiecewiseModel{{tied.data(), count}, {1, 0, 1}}.maximize();
   // Where the point of body 1 is beside a corner, or on an edge of the face, the others do not hold the normal.
+  // Nor where they hold it for less than the distance that matters: the turn itself gains more beyond.
+  const double least_slope = current().s < 0 ? -0.5 * current().s * distance_that_matters() : 0;
   for (std::size_t i = rest.count; i-- > 0;) {
-    if (rest.weight[i] > kNoWeight) continue;
+    if (rest.weight[i] > kNoWeight && rest.weight[i] * tied[rest.active[i]].slope.norm() >= least_slope) continue;
     rest.active[i] = rest.active[--rest.count];
   }
   const double size = std::max(std::abs(A.xx) + std::abs(A.yy), gap_.length_unit());
@@ -269,8 +281,11 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
   const bool is_slow = promised_gain_ > 0 && whole_gain > kSlowShare * promised_gain_ && !is_rounding;
   slow_steps_ = is_slow ? slow_steps_ + 1 : 0;
   if (promised_gain_ > 0 || is_rounding) grows_ = step_length >= promised_step_ && !is_rounding;
-  if (promised_gain_ > 0 && step_length < kAsymptoticStep) {
-    const double contraction = std::min(whole_gain / promised_gain_, kSlowestContraction);
+  const bool is_far = step_length >= std::min(kAsymptoticStep, kAtRim * radius_) || (promised_step_ > kFarStep && has_tips());
+  if (promised_gain_ > 0 && !is_far) {
+    // Asked before dividing, which might overflow.
+    const bool contracts = whole_gain < kSlowestContraction * promised_gain_;
+    const double contraction = contracts ? whole_gain / promised_gain_ : kSlowestContraction;
     const auto [low, high] = std::minmax(curvature, promised_curvature_);
     const double change = is_rounding ? 1 : high < kMost * low ? high / low : kMost;
     gains = std::min(change / (1 - contraction), kMost);

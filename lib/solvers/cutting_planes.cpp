@@ -124,7 +124,7 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
 
 // At u the unit normal is shorter than n + u, and so is its s: s > level there is a cut above level sqrt(1 + u^2), which is at
 // least level (1 + u^2/2).
-CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vector2& u, double level) const {
+CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vector2& u, double level, double least) const {
   constexpr int kWays = 8;
   Reach farthest;
   for (int way = 0; way < kWays; ++way) {
@@ -133,11 +133,13 @@ CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vecto
     double stop = std::numeric_limits<double>::infinity();
     for (int k = 0; k < size(); ++k) {
       const Vector3& d = d_[static_cast<std::size_t>(k)];
-      // height + slope t - level t^2/2 falls below zero at its smaller root.
+      // height + slope t - level t^2/2 is below zero between its roots; the larger is (root - slope) / -level.
       const double height = std::max(plane.n.dot(d) + plane.project(d).dot(u) - level * (1 + 0.5 * u.squaredNorm()), 0.0);
       const double slope = plane.project(d).dot(p) - level * u.dot(p);
       const double discriminant = slope * slope + 2 * level * height;
-      if (slope < 0 && discriminant > 0) stop = std::min(stop, 2 * height / (std::sqrt(discriminant) - slope));
+      if (!(slope < 0 && discriminant > 0)) continue;
+      const double sum = std::sqrt(discriminant) - slope;
+      if (sum > -level * least) stop = std::min(stop, 2 * height / sum);
     }
     if (stop > farthest.distance) farthest = {p, stop};
   }

@@ -38,12 +38,13 @@ class CuttingPlanes {
   Maximum maximize(const TangentPlane& plane, double radius) const;
 
   /// How far from u, going eight ways, the cuts allow unit normals with s > level, for a level < 0: the way on which it is farthest
-  /// (unit), and the distance; infinite where no cut stops it.
+  /// (unit), and the distance; infinite where no cut stops it. A cut that allows them again before the distance `least` does not:
+  /// as one at the level, but for the rounding of its slope.
   struct Reach {
     Vector2 way = Vector2::UnitX();
     double distance = 0;
   };
-  Reach reach(const TangentPlane& plane, const Vector2& u, double level) const;
+  Reach reach(const TangentPlane& plane, const Vector2& u, double level, double least) const;
 
  private:
   std::array<Vector3, kCapacity> d_;

@@ -33,13 +33,17 @@ constexpr int kDeepEvaluations = 200;
 constexpr double kBranchWidth = 1.0 / 3;
 constexpr double kBranchWorth = 1.0 / 6;
 
+// A climb of more evaluations has met sharp edges, whatever the radii of curvature where it ended: other maxima are looked for.
+constexpr int kEasyClimb = 12;
+
 /// How thoroughly other maxima are looked for; not at all where no evaluation is allowed.
 GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, Branch branch, double tolerance, double depth) {
   const int limit = settings.max_evaluations;
   if (settings.certify_depth) return {tolerance, limit, 0.5 * tolerance, 0};
   if (branch == Branch::OfStart && depth <= kUnquestionedDepth * gap.length_unit()) return {};
   const double radius1 = gap.shape1().sharpest_radius(), radius2 = gap.shape2().sharpest_radius();
-  if (!may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), gap.shape2().has_kinks())) return {};
+  const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), gap.shape2().has_kinks());
+  if (!may_have_others && gap.evaluations() <= kEasyClimb) return {};
   const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
   const bool is_shallow = depth < kShallowDepth * gap.length_unit();
   const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <cfenv>
 #include <cmath>
 #include <memory>
 
@@ -23,6 +24,25 @@ double gap_at(const Shape& shape1, const Pose& pose1, const Shape& shape2, const
   GapJet jet;
   gap.evaluate(pose1.rotation.transpose() * n, Order::Value, jet);
   return jet.s;
+}
+
+/// How much higher than the reported bound the gap function gets around the answer, m; 0 if nowhere.
+double excess_around(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Proximity& answer) {
+  const Vector3 across = answer.normal.unitOrthogonal();
+  double excess = 0;
+  for (int k = 0; k < 60; ++k) {
+    for (int way = 0; way < 36; ++way) {
+      const Vector3 aside = Eigen::AngleAxisd(way * 0.1745, answer.normal) * across;
+      const Vector3 n = (answer.normal + std::pow(0.7, k) * aside).normalized();
+      const double bound = answer.gap + answer.error + (k < 10 ? answer.global_error : 0);
+      excess = std::max(excess, gap_at(shape1, pose1, shape2, pose2, n) - bound);
+    }
+  }
+  return excess;
+}
+
+Pose pose_of(const Vector3& position, double w, double x, double y, double z) {
+  return {position, Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix()};
 }
 
 }  // namespace
@@ -167,4 +187,82 @@ TEST_CASE("needles tip to tip, roughly: two evaluations do not tell how far s ri
     const Proximity loose = find_proximity(needle, {}, needle, pose2, settings);
     CHECK(exact.gap <= loose.gap + loose.error + exact.error);
   }
+}
+
+// The slope of the cut there is rounding: it must not be taken for a sign that s falls in all directions.
+TEST_CASE("a flat body's corner exactly on a vertex of a box's face: s rises on the diagonals, where no side holds it") {
+  const Box box(Vector3(0.72989501794897538, 0.79928615824471605, 0.84201670054762578));
+  const Superellipsoid body(Vector3(0.7953834282105523, 0.56502996152231855, 1.0054773742418535), 57.562407695671922,
+                            144.93771480429729);
+  const Pose pose1 = pose_of({0.00082552098681764436, 0.00021585302048299476, -0.00095495234618931367}, -0.07450031130389677,
+                             0.16298126569026355, -0.25921826045645474, 0.9490483149426859);
+  const Pose pose2 = pose_of({-0.77981086383396725, -0.22770545166419867, 1.0262306366291594}, 0.5837279432390982,
+                             0.33459936874724605, 0.542624431613146, -0.5028555229211538);
+  const Proximity answer = find_proximity(box, pose1, body, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  CHECK(excess_around(box, pose1, body, pose2, answer) <= 1e-15);
+}
+
+// Each corner would hold the normal for less than 1e-7: within the tolerance that is as if it did not.
+TEST_CASE("box in box, turned by a ten millionth: the normal of a face that hardly holds") {
+  const Box box(Vector3::Constant(0.5));
+  const Pose pose2 = pose_of({1.3748568243853568e-08, -3.1177642634196993e-10, -6.9627227468344387e-09}, 0.9999999999999679,
+                             1.3317806604611997e-07, 1.6158147001579212e-07, 1.4281887258799618e-07);
+  const Proximity answer = find_proximity(box, {}, box, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  CHECK(excess_around(box, {}, box, pose2, answer) <= 1e-15);
+}
+
+// The first step is 0.6 long: that it comes near says nothing of how fast the next ones will.
+TEST_CASE("needles tip to tip, after a long step: it tells no contraction") {
+  const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
+  const Pose pose2 = pose_of({1.1836648306002431, 0.081643334851451546, -0.9796003455933715}, -0.3030032323743363,
+                             0.7070555157317914, -0.20201529605587054, -0.606177662903718);
+  const Proximity exact = find_proximity(needle, {}, needle, pose2, {});
+  Settings settings;
+  for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    settings.tolerance = tolerance;
+    const Proximity loose = find_proximity(needle, {}, needle, pose2, settings);
+    CHECK(exact.gap <= loose.gap + loose.error + exact.error);
+  }
+}
+
+// The climb ends in an overlap, after many steps along the edges, although another normal shows that the bodies are apart.
+TEST_CASE("a flat needle beside a double cone: apart, although there is a local maximum with an overlap") {
+  const Superellipsoid needle(Vector3(1.6790171512040069, 2.0476593148463227, 0.16420325352277118), 6.4159154608386988,
+                              1.4480098049660433);
+  const Superellipsoid cone(Vector3(0.082902375784658811, 0.44837378304008602, 0.74551334662045432), 1.626519172290662,
+                            1.0212950666636207);
+  const Pose pose2 = pose_of({-1.6886113101810354, -2.4409871389638296, -0.36826986861923156}, 0.7565702401024116,
+                             -0.11918715197486376, 0.4906198430251132, 0.4155575341941394);
+  const Proximity answer = find_proximity(needle, {}, cone, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(answer.gap == test::relative(1.1460826404430247e-4).epsilon(1e-6));
+}
+
+// Where the model has just been wrong, its small promise within a small trust region is no convergence.
+TEST_CASE("boxes of exponent 200 in one another: a step that the trust region holds back is no convergence") {
+  const Superellipsoid body1(Vector3(1.0000428164011124, 0.80005228989775901, 0.50001453720695488), 200.00356326936449,
+                             199.99596973295817);
+  const Superellipsoid body2(Vector3(1, 0.8, 0.5), 200, 200);
+  const Pose pose2 = pose_of({-0.0021088538195574106, -0.011320296924982558, -0.0049370286283952165}, 0.9999999999999778,
+                             1.729331805779211e-07, 1.142049584492155e-07, 3.64012557878181e-08);
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  CHECK(excess_around(body1, {}, body2, pose2, answer) <= 1e-15);
+}
+
+// The gain of a step to a normal 1e-160 away: dividing the next one by that would overflow.
+TEST_CASE("next to nothing beside a plane of symmetry: no overflow") {
+  const Superellipsoid body1(Vector3(0.50084521668798021, 0.8799530275640064, 1.3617083385272106), 1.0256029248035792,
+                             1.0772194785899689);
+  const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(0.94171784691969096, 0.5574478084197092, 1.2885276416047349), 1.175895557386629, 1.1777243209332211));
+  Settings settings;
+  settings.tolerance = 1e-15;
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const Proximity answer =
+      find_proximity(body1, {}, body2, {Vector3(-1.0730493914807038, 2.0703247356784026e-162, 0), Matrix3::Identity()}, settings);
+  CHECK(std::fetestexcept(FE_OVERFLOW | FE_INVALID | FE_DIVBYZERO) == 0);
+  CHECK(answer.gap < 0);
 }
