@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace supernormal {
 namespace {
 
-// Where the ends of a segment have changed places by no more than this, it is a point: weights are at most 1.
-constexpr double kRounding = 1e-14;
+// Of the largest value of a cut at a corner: the error of its values and of their differences.
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
 std::size_t TriangleProgram::add(const Vector3& cut) {
-  const Linear added{cut[0], cut[1] - cut[0], cut[2] - cut[0]};
+  const Linear added{cut[0], cut[1] - cut[0], cut[2] - cut[0], kRounding * cut.cwiseAbs().maxCoeff()};
   if (count_ == 0 || added.at(place_) < value_) {
     // Rounding may leave nothing: the maximum so far is a bound still.
     Place top;
@@ -43,7 +44,7 @@ bool TriangleProgram::maximize(const Linear& lowest, Place& top) const {
   if (lowest.y_slope > most) top = {0, 1};
   for (std::size_t k = 0; k < count_; ++k) {
     const Linear difference = cuts_[k] - lowest;
-    if (difference.at(top) < 0 && !maximize_on_line(difference, lowest, k, top)) return false;
+    if (difference.at(top) < -difference.rounding && !maximize_on_line(difference, lowest, k, top)) return false;
   }
   return true;
 }
@@ -58,19 +59,21 @@ bool TriangleProgram::maximize_on_line(const Linear& line, const Linear& lowest,
     return function.y_slope * line.x_slope - function.x_slope * line.y_slope;
   };
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
-  // With no branch on the sign of the slope, which is anybody's guess.
-  const auto keep_positive = [&](double value, double slope) {
-    if (slope == 0) return;
+  // With no branch on the sign of the slope, which is anybody's guess. Where there is no slope but rounding the whole line is kept,
+  // which leaves the maximum a bound.
+  const auto keep_positive = [&](double value, double slope, double rounding) {
+    if (std::abs(slope) <= rounding) return;
     const double end = -value / slope;
     from = slope > 0 ? std::max(from, end) : from;
     to = slope > 0 ? to : std::min(to, end);
   };
-  keep_positive(start.x, -line.y_slope);
-  keep_positive(start.y, line.x_slope);
-  keep_positive(1 - start.x - start.y, line.y_slope - line.x_slope);
+  const double length = std::sqrt(squared);
+  keep_positive(start.x, -line.y_slope, 0);
+  keep_positive(start.y, line.x_slope, 0);
+  keep_positive(1 - start.x - start.y, line.y_slope - line.x_slope, 0);
   for (std::size_t k = 0; k < earlier; ++k) {
     const Linear difference = cuts_[k] - lowest;
-    keep_positive(difference.at(start), slope_along(difference));
+    keep_positive(difference.at(start), slope_along(difference), difference.rounding * length);
   }
   if (!(from <= to)) return false;
   const double end = slope_along(lowest) > 0 ? to : from;

@@ -11,7 +11,8 @@ namespace supernormal {
 /// max over w >= 0, sum(w) = 1 of min over k of cut_k.w: a linear program in two unknowns, w being barycentric coordinates and
 /// cut_k the values of one function at the three corners. One cut after the other (Seidel 1991): where a new one is below the
 /// maximum so far, the new maximum lies on it, among the points where no other is lower. Of these, likewise one after the other,
-/// the maximum so far is the best of all or lies on the line where the next cut is as low.
+/// the maximum so far is the best of all or lies on the line where the next cut is as low. Cuts that differ by rounding count as
+/// one.
 class TriangleProgram {
  public:
   static constexpr std::size_t kMaxCuts = 6;
@@ -29,12 +30,12 @@ class TriangleProgram {
   struct Place {
     double x = 0, y = 0;
   };
-  /// constant + x_slope x + y_slope y
+  /// constant + x_slope x + y_slope y, each known to `rounding`.
   struct Linear {
-    double constant, x_slope, y_slope;
+    double constant, x_slope, y_slope, rounding;
     double at(const Place& p) const { return constant + x_slope * p.x + y_slope * p.y; }
     Linear operator-(const Linear& other) const {
-      return {constant - other.constant, x_slope - other.x_slope, y_slope - other.y_slope};
+      return {constant - other.constant, x_slope - other.x_slope, y_slope - other.y_slope, rounding + other.rounding};
     }
   };
 

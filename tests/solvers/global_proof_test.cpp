@@ -115,6 +115,26 @@ TEST_CASE("the linear program on a triangle: cuts on a grid are never above its 
   }
 }
 
+// The line on which two of them are as low lies anywhere, and so would the maximum on the fourth cut (of a proof that was wrong).
+TEST_CASE("the linear program on a triangle: cuts that differ by rounding count as one") {
+  const std::vector<Vector3> cuts = {{-0.017604075729274471, -7.1312056203734464, 1.1049011009374972},
+                                     {-0.017604075729274082, -7.1312056203734464, 1.1049011009374969},
+                                     {-0.017604075729273826, 0.026659056396731159, -0.011673538254069415},
+                                     {9.3711740328301332, 0.05015380110608314, -1.3202940035562474}};
+  TriangleProgram program;
+  for (const Vector3& cut : cuts) program.add(cut);
+  double highest = -1;
+  for (int i = 0; i <= 600; ++i) {
+    for (int j = 0; i + j <= 600; ++j) {
+      double least = 10;
+      for (const Vector3& cut : cuts) least = std::min(least, cut.dot(Vector3(i, j, 600 - i - j) / 600));
+      highest = std::max(highest, least);
+    }
+  }
+  CHECK(program.value() >= highest);
+  CHECK(program.value() <= highest + 0.01);
+}
+
 namespace {
 
 struct Passage {
