@@ -42,9 +42,9 @@ constexpr double kGainSafety = 3;
 // A corner or an edge adds no curvature to that of a flat face: the step that rises to it may be so many times too short.
 constexpr double kCornerSafety = 3;
 
-// The gain to come is summed as a geometric series of the model's contraction, times the factor by which the curvature has changed
-// in the last step: where it grows or falls to infinity or nothing, the model knows as little. This is the slowest contraction that
-// is believed, and the one assumed before two steps have shown it.
+// The gain to come is summed as a geometric series of the contraction of gains or steps, times the factor by which the curvature
+// has changed in the last step: where it grows or falls to infinity or nothing, the model knows as little. This is the slowest
+// contraction that is believed, and the one assumed before two steps have shown it.
 constexpr double kSlowestContraction = 0.95;
 
 // Towards the normals of a sharp tip, where the radii of curvature are 0, s may rise this much farther: unless the contraction is
@@ -82,6 +82,9 @@ constexpr double kNoWeight = 1e-12;
 
 // Corners that share a normal; more than this are coplanar, and any three of them know the normal.
 constexpr std::size_t kMaxTied = 24;
+
+/// At most the slowest that is believed; asked before dividing, which might overflow.
+double contraction_of(double before, double now) { return now < kSlowestContraction * before ? now / before : kSlowestContraction; }
 
 /// Of the solutions u1, u2 that the two bodies propose, each counted by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2).
 Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
@@ -283,9 +286,9 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
   if (promised_gain_ > 0 || is_rounding) grows_ = step_length >= promised_step_ && !is_rounding;
   const bool is_far = step_length >= std::min(kAsymptoticStep, kAtRim * radius_) || (promised_step_ > kFarStep && has_tips());
   if (promised_gain_ > 0 && !is_far) {
-    // Asked before dividing, which might overflow.
-    const bool contracts = whole_gain < kSlowestContraction * promised_gain_;
-    const double contraction = contracts ? whole_gain / promised_gain_ : kSlowestContraction;
+    // Where one direction converges fast, the gain hides that another is slow; the step tells it.
+    const double of_steps = is_rounding ? 0 : contraction_of(promised_step_, step_length);
+    const double contraction = std::max(contraction_of(promised_gain_, whole_gain), of_steps);
     const auto [low, high] = std::minmax(curvature, promised_curvature_);
     const double change = is_rounding ? 1 : high < kMost * low ? high / low : kMost;
     gains = std::min(change / (1 - contraction), kMost);

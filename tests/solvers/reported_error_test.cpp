@@ -10,6 +10,7 @@
 #include "shapes/without_hessian.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/solve.hpp"
@@ -265,4 +266,18 @@ TEST_CASE("next to nothing beside a plane of symmetry: no overflow") {
       find_proximity(body1, {}, body2, {Vector3(-1.0730493914807038, 2.0703247356784026e-162, 0), Matrix3::Identity()}, settings);
   CHECK(std::fetestexcept(FE_OVERFLOW | FE_INVALID | FE_DIVBYZERO) == 0);
   CHECK(answer.gap < 0);
+}
+
+// Across its tip body 1 is flat one way and sharp the other: the gain of the one falls fast, while the other's steps stay long.
+TEST_CASE("apex on a rounded edge: one direction converges fast, and does not tell of the other") {
+  const Superellipsoid apex(Vector3(0.78537879085655571, 1.1282138075496573, 0.55363311558776052), 2.5402751031119326,
+                            1.3617909698610691);
+  const auto edged = std::make_shared<Superellipsoid>(Vector3(1.0662647456452168, 0.67443400665535003, 0.97664828872076181),
+                                                      1.1406372857137788, 15.538109841992609);
+  const Rounded body2(edged, 0.0011092896722160654);
+  const Pose pose2 = pose_of({-0.49601856291949104, -4.9282185875166977e-05, 1.5313969584815448}, 0.9999999998786778,
+                             -3.04007631221937e-06, 6.748831069300234e-06, 1.3706040401892649e-05);
+  const Proximity answer = find_proximity(apex, {}, body2, pose2, {});
+  CHECK(answer.status == Status::Converged);
+  CHECK(answer.gap + answer.error >= -4.4543813082498218e-11 - 1e-15);  // the bodies were placed with that
 }
