@@ -73,6 +73,10 @@ void Lab::near_callback(void* self, dGeomID g1, dGeomID g2) {
 Vector3 position(dBodyID body) { return vector(dBodyGetPosition(body)); }
 Vector3 velocity(dBodyID body) { return vector(dBodyGetLinearVel(body)); }
 Vector3 spin(dBodyID body) { return vector(dBodyGetAngularVel(body)); }
+Vector3 third_axis(dBodyID body) {
+  const dReal* const R = dBodyGetRotation(body);
+  return Vector3(R[2], R[6], R[10]);
+}
 void set_position(dBodyID body, const Vector3& x) { dBodySetPosition(body, real(x.x()), real(x.y()), real(x.z())); }
 void set_velocity(dBodyID body, const Vector3& v) { dBodySetLinearVel(body, real(v.x()), real(v.y()), real(v.z())); }
 void set_spin(dBodyID body, const Vector3& w) { dBodySetAngularVel(body, real(w.x()), real(w.y()), real(w.z())); }

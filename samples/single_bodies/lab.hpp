@@ -3,6 +3,7 @@
 
 #include <supernormal/supernormal.h>
 
+#include <numbers>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
@@ -13,6 +14,7 @@ using supernormal::Vector3;
 namespace fx = supernormal::effects;
 
 constexpr double kGravity = 9.81;  // m/s^2
+constexpr double kDegree = std::numbers::pi / 180;
 
 class Lab {
  public:
@@ -47,6 +49,7 @@ class Lab {
 Vector3 position(dBodyID body);
 Vector3 velocity(dBodyID body);
 Vector3 spin(dBodyID body);
+Vector3 third_axis(dBodyID body);
 void set_position(dBodyID body, const Vector3& x);
 void set_velocity(dBodyID body, const Vector3& v);
 void set_spin(dBodyID body, const Vector3& w);

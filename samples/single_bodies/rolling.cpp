@@ -8,8 +8,6 @@
 namespace single_bodies {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 fx::Gravity earth() { return {{0, 0, -kGravity}}; }
 
 /// Gravity on an incline that falls along x, seen from the incline.

@@ -1,57 +1,23 @@
 // Bodies that turn against expectation.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "lab.hpp"
+#include "rattleback.hpp"
 
 namespace single_bodies {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-Vector3 third_axis(dBodyID body) {
-  const dReal* const R = dBodyGetRotation(body);
-  return Vector3(R[2], R[6], R[10]);
-}
-
-}  // namespace
 
 Results rattleback() {
   Lab lab({fx::Gravity{{0, 0, -kGravity}}, fx::Friction{100, {}}}, 4e-6);
   lab.add_floor();
-  const dGeomID geom = snCreateEllipsoid(lab.space(), dReal(0.2), dReal(0.03), dReal(0.02));
-  dMass mass;
-  dMassSetParameters(&mass, 1, 0, 0, 0, dReal(2e-4), dReal(1.6e-3), dReal(1.7e-3), dReal(-2e-5), 0, 0);
-  const dBodyID body = lab.add(geom, mass);
-  dGeomSetOffsetPosition(geom, 0, 0, dReal(0.01));
-  dMatrix3 about_x;
-  dMatrix3 about_y;
-  dMatrix3 attitude;
-  dRFromAxisAndAngle(about_x, 1, 0, 0, dReal(0.5 * kDegree));
-  dRFromAxisAndAngle(about_y, 0, 1, 0, dReal(0.5 * kDegree));
-  dMultiply0_333(attitude, about_x, about_y);
-  dBodySetRotation(body, attitude);
-  const dVector3 down = {0, 0, -1, 0};
-  dVector3 lowest;
-  snGeomSupport(geom, down, lowest);
-  const Vector3 contact(lowest[0], lowest[1], lowest[2]);
-  set_position(body, {0, 0, -contact.z()});
-  set_spin(body, -5 * third_axis(body));
-  set_velocity(body, -spin(body).cross(contact));
-  const auto angle = [&] {
-    const dReal* const R = dBodyGetRotation(body);
-    return std::atan2(-R[1], R[0]);
-  };
+  Rattleback rattleback(lab.world(), lab.space(), -5);
   double reversal = 0;
-  double yaw = 0;
   double smallest = 0;
   for (int step = 1; step * lab.step_length() < 2.9; ++step) {
     lab.step();
-    yaw += std::remainder(angle() - yaw, 2 * std::numbers::pi);
-    smallest = std::min(smallest, yaw);
-    if (reversal == 0 && spin(body).dot(third_axis(body)) > 0) reversal = step * lab.step_length();
+    rattleback.follow();
+    smallest = std::min(smallest, rattleback.yaw());
+    if (reversal == 0 && rattleback.spin() > 0) reversal = step * lab.step_length();
   }
   const char* const source = "Kane and Levinson 1982";
   return {{"rattleback, spun the wrong way with 5 rad/s", "first reversal, s", reversal, 2.3527, source},
