@@ -70,15 +70,26 @@ Restitution combined(const Restitution& a, const Restitution& b) {
 }
 Adhesion combined(const Adhesion& a, const Adhesion& b) { return {geometric(a.pull_off, b.pull_off), {}}; }
 
+/// The entries that count for the two materials of a pair; null where there is none. One for the pair counts for both.
+template <typename E>
+struct Sides {
+  const E* first;
+  const E* second;
+};
+
+template <typename E>
+Sides<E> find_sides(const std::vector<Effect>& list, Material a, Material b) {
+  const Entries<E> entries(list);
+  if (const E* const pair = entries.between(a, b)) return {pair, pair};
+  return {entries.of(a), entries.of(b)};
+}
+
 /// What a pair of materials has of an effect that both must have.
 template <typename E>
 std::optional<E> find_common(const std::vector<Effect>& list, Material a, Material b) {
-  const Entries<E> entries(list);
-  if (const E* const pair = entries.between(a, b)) return *pair;
-  const E* const first = entries.of(a);
-  const E* const second = entries.of(b);
+  const auto [first, second] = find_sides<E>(list, a, b);
   if (first == nullptr || second == nullptr) return std::nullopt;
-  return combined(*first, *second);
+  return first->on.is_pair() ? *first : combined(*first, *second);
 }
 
 /// Writes the law of one ordered pair.
@@ -123,19 +134,14 @@ class LawWriter {
   }
 
   bool write_anisotropic_friction() {
-    const Entries<AnisotropicFriction> entries(list_);
-    const AnisotropicFriction* found = entries.between(a_, b_);
-    bool on_second = found != nullptr && found->on.first() != a_;
-    if (found == nullptr) {
-      const AnisotropicFriction* const first = entries.of(a_);
-      const AnisotropicFriction* const second = entries.of(b_);
-      on_second = first == nullptr || (second != nullptr && b_ < a_);
-      found = on_second ? second : first;
-    }
-    if (found == nullptr) return false;
-    law_.grain = {found->along, found->across, found->direction, on_second};
+    const auto [first, second] = find_sides<AnisotropicFriction>(list_, a_, b_);
+    if (first == nullptr && second == nullptr) return false;
+    const bool is_pair = first != nullptr && first->on.is_pair();
+    const bool on_second = is_pair ? first->on.first() != a_ : first == nullptr || (second != nullptr && b_ < a_);
+    const AnisotropicFriction& found = on_second ? *second : *first;
+    law_.grain = {found.along, found.across, found.direction, on_second};
     law_.surface.mode |= dContactApprox1 | dContactFDir1 | dContactMu2;
-    add<AnisotropicFriction>((found->along > 0 ? 1 : 0) + (found->across > 0 ? 1 : 0), align_anisotropic_friction);
+    add<AnisotropicFriction>((found.along > 0 ? 1 : 0) + (found.across > 0 ? 1 : 0), align_anisotropic_friction);
     return true;
   }
 
@@ -161,10 +167,7 @@ class LawWriter {
   }
 
   void write_compliance() {
-    const Entries<Compliance> entries(list_);
-    const Compliance* const pair = entries.between(a_, b_);
-    const Compliance* const first = pair != nullptr ? pair : entries.of(a_);
-    const Compliance* const second = pair != nullptr ? pair : entries.of(b_);
+    const auto [first, second] = find_sides<Compliance>(list_, a_, b_);
     if (first == nullptr && second == nullptr) return;
     require_alone("compliance", "restitution", dContactBounce, "its damping decides how it rebounds");
     const bool two_springs = first != nullptr && second != nullptr && first != second;
@@ -176,10 +179,7 @@ class LawWriter {
   }
 
   void write_hertz() {
-    const Entries<Hertz> entries(list_);
-    const Hertz* const pair = entries.between(a_, b_);
-    const Hertz* const first = pair != nullptr ? pair : entries.of(a_);
-    const Hertz* const second = pair != nullptr ? pair : entries.of(b_);
+    const auto [first, second] = find_sides<Hertz>(list_, a_, b_);
     if (first == nullptr && second == nullptr) return;
     require_alone("hertz", "restitution", dContactBounce, "it has one of its own");
     require_alone("hertz", "compliance", dContactSoftCFM, "both are the spring of the contact");
