@@ -3,10 +3,31 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 namespace supernormal::test {
 
-/// Equal to `expected` within .epsilon(e) times the larger of the two. doctest's own Approx adds 1 to that: of a millimetre, in
-/// metres, it would check nothing. Nothing but 0 itself is near 0.
-inline doctest::Approx relative(double expected) { return doctest::Approx(expected).scale(0); }
+/// See relative().
+class Relative {
+ public:
+  explicit constexpr Relative(double expected, double epsilon = 1e-5) : expected_(expected), epsilon_(epsilon) {}
+  constexpr Relative epsilon(double epsilon) const { return Relative(expected_, epsilon); }
+
+  friend bool operator==(double value, const Relative& other) {
+    return std::abs(value - other.expected_) < other.epsilon_ * std::abs(other.expected_);
+  }
+  // NOLINTNEXTLINE(readability-identifier-naming): doctest's name
+  friend doctest::String toString(const Relative& relative) {
+    return doctest::toString(relative.expected_) + " (1 +- " + doctest::toString(relative.epsilon_) + ")";
+  }
+
+ private:
+  double expected_;
+  double epsilon_;
+};
+
+/// Equal to `expected` within less than .epsilon(e) times its size. doctest's own Approx adds 1 to that: of a millimetre, in
+/// metres, it would check nothing. Nothing is near 0.
+constexpr Relative relative(double expected) { return Relative(expected); }
 
 }  // namespace supernormal::test

@@ -125,9 +125,6 @@ class EffectsWorld {
   std::deque<Attached> feedback_;  // ODE keeps pointers to its elements
 };
 
-/// doctest's Approx adds 1 to the size of what it compares, which is no measure for lengths of micrometres.
-inline double relative_error(double value, double expected) { return std::abs(value - expected) / std::abs(expected); }
-
 inline fx::Cost cost_of(const fx::Effects& effects, const std::string& name) {
   for (const fx::Cost& cost : effects.costs()) {
     if (cost.name == name) return cost;

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
+#include "relative.hpp"
 
 using namespace supernormal::test;
 
@@ -32,9 +33,9 @@ TEST_CASE("terminal velocity under quadratic drag shows the area of the body its
       scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c), 400, 400), 1000, {2, 0, 0});
   const auto terminal = [&](double m, double area) { return std::sqrt(2 * m * kGravity / (density * coefficient * area)); };
   scene.run_until(40);
-  CHECK(relative_error(-dBodyGetLinearVel(flat)[2], terminal(mass, std::numbers::pi * a * b)) < 1e-3);
-  CHECK(relative_error(-dBodyGetLinearVel(tall)[2], terminal(mass, std::numbers::pi * b * c)) < 1e-3);
-  CHECK(relative_error(-dBodyGetLinearVel(box)[2], terminal(8000 * a * b * c, 4 * a * b)) < 0.01);
+  CHECK(-dBodyGetLinearVel(flat)[2] == relative(terminal(mass, std::numbers::pi * a * b)).epsilon(1e-3));
+  CHECK(-dBodyGetLinearVel(tall)[2] == relative(terminal(mass, std::numbers::pi * b * c)).epsilon(1e-3));
+  CHECK(-dBodyGetLinearVel(box)[2] == relative(terminal(8000 * a * b * c, 4 * a * b)).epsilon(0.01));
 }
 
 TEST_CASE("terminal velocity under Stokes drag, and that a thick fluid does not throw bodies about") {
@@ -45,7 +46,7 @@ TEST_CASE("terminal velocity under Stokes drag, and that a thick fluid does not 
     const dBodyID ball = scene.add_ball(radius, 2500, {0, 0, 0});
     dBodySetLinearVel(ball, 1, 0, 0);
     const double expected = 2.0 / 9 * 2500 * kGravity * radius * radius / viscosity;
-    CHECK(relative_error(falling_speed(scene, ball, 0.2), expected) < 1e-6);
+    CHECK(falling_speed(scene, ball, 0.2) == relative(expected).epsilon(1e-6));
     CHECK(std::abs(dBodyGetLinearVel(ball)[0]) < 1e-6);
   }
 }
@@ -82,7 +83,7 @@ TEST_CASE("Stokes drag of spheroids is near to Oberbeck's: 4 % at aspect ratio 2
     const dBodyID body = scene.add(geom, 2500, {0, 0, 0});
     if (!s.along) turn(body, {1, 0, 0}, 90 * kDegree);
     const double drag = mass_of(body) * kGravity / falling_speed(scene, body, 0.1);
-    CHECK(relative_error(drag / (6 * std::numbers::pi * 10 * radius), s.ratio) < (s.aspect == 2 || s.aspect == 0.5 ? 0.04 : 0.1));
+    CHECK(drag / (6 * std::numbers::pi * 10 * radius) == relative(s.ratio).epsilon(s.aspect == 2 || s.aspect == 0.5 ? 0.04 : 0.1));
   }
 }
 
@@ -105,7 +106,7 @@ TEST_CASE("an ellipsoid floats at the depth of its density") {
     turn(body, {1, 1, 0}, 20 * kDegree);  // rights itself
     scene.run_until(6);
     const double draught = level - (dBodyGetPosition(body)[2] - c);
-    CHECK(relative_error(draught, 2 * c * low) < 0.01);
+    CHECK(draught == relative(2 * c * low).epsilon(0.01));
     CHECK(dBodyGetRotation(body)[10] > 0.9999);
   }
 }
@@ -117,8 +118,8 @@ TEST_CASE("what sinks weighs less by the fluid, and what is out of it all of its
       scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(0.1), 6, 6), 4000, {0, 0, -1});
   const dBodyID above = scene.add_ball(0.1, 4000, {1, 0, 5});
   scene.step();
-  CHECK(relative_error(dBodyGetLinearVel(under)[2], -0.75 * kGravity * kStep) < 1e-6);
-  CHECK(relative_error(dBodyGetLinearVel(above)[2], -kGravity * kStep) < 1e-6);
+  CHECK(dBodyGetLinearVel(under)[2] == relative(-0.75 * kGravity * kStep).epsilon(1e-6));
+  CHECK(dBodyGetLinearVel(above)[2] == relative(-kGravity * kStep).epsilon(1e-6));
 }
 
 TEST_CASE("damping decays exponentially, whatever the step") {
@@ -129,8 +130,8 @@ TEST_CASE("damping decays exponentially, whatever the step") {
     dBodySetLinearVel(ball, 1, 0, 0);
     dBodySetAngularVel(ball, 0, 1, 0);
     scene.run_until(1 - 0.5 * step);
-    CHECK(relative_error(dBodyGetLinearVel(ball)[0], std::exp(-2)) < 1e-6);
-    CHECK(relative_error(dBodyGetAngularVel(ball)[1], std::exp(-3)) < 1e-6);
+    CHECK(dBodyGetLinearVel(ball)[0] == relative(std::exp(-2)).epsilon(1e-6));
+    CHECK(dBodyGetAngularVel(ball)[1] == relative(std::exp(-3)).epsilon(1e-6));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
+#include "relative.hpp"
 
 using namespace supernormal::test;
 
@@ -49,7 +50,7 @@ TEST_CASE("a puck slides v^2 / (2 mu g) in every direction, straight") {
       EffectsWorld scene({earth(), fx::Friction{coefficient, {}}}, kStep);
       scene.world.add_plane();
       const Vec way = slide(scene, add_puck(scene), angle);
-      CHECK(relative_error(std::hypot(way[0], way[1]), kSpeed * kSpeed / (2 * coefficient * kGravity)) < 0.01);
+      CHECK(std::hypot(way[0], way[1]) == relative(kSpeed * kSpeed / (2 * coefficient * kGravity)).epsilon(0.01));
       CHECK(std::abs(std::remainder(heading_of(way) - angle, 2 * std::numbers::pi)) < 0.02);
     }
   }
@@ -75,7 +76,7 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
         CHECK(speed < 1e-3);
       } else {
         const double acceleration = across - coefficient * kGravity * std::cos(angle);
-        CHECK(relative_error(speed, acceleration) < 0.05);
+        CHECK(speed == relative(acceleration).epsilon(0.05));
       }
     }
   }
@@ -130,7 +131,7 @@ TEST_CASE("materials combine by the geometric mean, unless the pair is listed") 
     dBodySetLinearVel(puck, dReal(kSpeed), 0, 0);
     const double time = 0.1;
     scene.run_until(time);
-    CHECK(relative_error(dBodyGetLinearVel(puck)[0], kSpeed - c.expected * kGravity * time) < 5e-3);
+    CHECK(dBodyGetLinearVel(puck)[0] == relative(kSpeed - c.expected * kGravity * time).epsilon(5e-3));
   }
 }
 
@@ -157,13 +158,13 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
       return (-1 / (40 * kStep * kGravity)) * (to_vec(dBodyGetLinearVel(puck)) - before);
     };
     // 0.5 % less than the ellipse on its axes: the rectangle keeps a tenth of the other.
-    CHECK(relative_error(norm(decelerate(grain_angle)), along) < 0.01);
-    CHECK(relative_error(norm(decelerate(grain_angle + 90 * kDegree)), across) < 0.01);
+    CHECK(norm(decelerate(grain_angle)) == relative(along).epsilon(0.01));
+    CHECK(norm(decelerate(grain_angle + 90 * kDegree)) == relative(across).epsilon(0.01));
     const Vec force = decelerate(grain_angle + 45 * kDegree);
     const double root = std::hypot(along, across);
     const Vec axis = {std::cos(grain_angle), std::sin(grain_angle), 0};
     const Vec normal = {-std::sin(grain_angle), std::cos(grain_angle), 0};
-    CHECK(relative_error(dot(force, axis), along * along / root) < 0.05);
-    CHECK(relative_error(dot(force, normal), across * across / root) < 0.01);
+    CHECK(dot(force, axis) == relative(along * along / root).epsilon(0.05));
+    CHECK(dot(force, normal) == relative(across * across / root).epsilon(0.01));
   }
 }

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
+#include "relative.hpp"
 
 using namespace supernormal::test;
 
@@ -56,7 +57,7 @@ TEST_CASE("a ball bounces to e^2 h") {
       scene.run_until(1, [&] { return velocity() > 0; });
       scene.run_until(1, [&] { return velocity() <= 0; });
       const double reached = dBodyGetPosition(ball)[2] - kRadius;
-      CHECK(relative_error(reached, e * e * top) < 0.01);
+      CHECK(reached == relative(e * e * top).epsilon(0.01));
       top = reached;
     }
   }
@@ -73,7 +74,7 @@ TEST_CASE("below the threshold nothing bounces") {
   dBodySetPosition(ball, 0, 0, dReal(kRadius));
   dBodySetLinearVel(ball, 0, 0, dReal(-0.21));
   scene.run_until(0.01);
-  CHECK(relative_error(dBodyGetLinearVel(ball)[2], 0.8 * 0.21) < 1e-6);
+  CHECK(dBodyGetLinearVel(ball)[2] == relative(0.8 * 0.21).epsilon(1e-6));
 }
 
 TEST_CASE("energy never grows at restitution up to 1") {
@@ -114,13 +115,13 @@ TEST_CASE("spring and damper: contact time, overlap and rebound") {
     const double beta = ratio * w;
     const double damped = std::sqrt(w * w - beta * beta);
     const double end = (std::numbers::pi - std::atan2(2 * beta * damped, damped * damped - beta * beta)) / damped;
-    CHECK(relative_error(found.out, v * std::exp(-beta * end)) < 0.01);
+    CHECK(found.out == relative(v * std::exp(-beta * end)).epsilon(0.01));
     if (ratio == 0) {
-      CHECK(relative_error(found.time, std::numbers::pi / w) < 0.02);
-      CHECK(relative_error(found.overlap, v / w) < 0.005);
+      CHECK(found.time == relative(std::numbers::pi / w).epsilon(0.02));
+      CHECK(found.overlap == relative(v / w).epsilon(0.005));
     } else {
       const double peak = std::atan2(damped, beta) / damped;
-      CHECK(relative_error(found.overlap, v / w * std::exp(-beta * peak)) < 0.02);
+      CHECK(found.overlap == relative(v / w * std::exp(-beta * peak)).epsilon(0.02));
     }
   }
 }
@@ -137,9 +138,9 @@ TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
     scene.material_of = [](dGeomID geom) { return dGeomGetBody(geom) != nullptr ? 1 : 0; };
     scene.world.add_plane();
     const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.3 * v * step}), v, step);
-    CHECK(relative_error(found.overlap, hertz_overlap(mass, k, v)) < 0.01);
+    CHECK(found.overlap == relative(hertz_overlap(mass, k, v)).epsilon(0.01));
     CHECK(std::abs(found.time - hertz_time(mass, k, v)) < 0.01 * hertz_time(mass, k, v) + step);
-    CHECK(relative_error(found.out, v) < 0.01);
+    CHECK(found.out == relative(v).epsilon(0.01));
     CHECK(cost_of(scene.effects, "hertz").coarse == 0);
   }
 }
@@ -161,9 +162,9 @@ TEST_CASE("Hertz: an ellipsoid on a plane, and two balls") {
     scene.world.add_plane();
     const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(a), dReal(b), dReal(c));
     const Impact found = impact(scene, scene.add(geom, kDensity, {0, 0, c + 1e-6}), v, step);
-    CHECK(relative_error(found.overlap, hertz_overlap(mass, k, v)) < 0.005);
-    CHECK(relative_error(found.time, hertz_time(mass, k, v)) < 0.02);
-    CHECK(relative_error(found.out, v) < 0.01);
+    CHECK(found.overlap == relative(hertz_overlap(mass, k, v)).epsilon(0.005));
+    CHECK(found.time == relative(hertz_time(mass, k, v)).epsilon(0.02));
+    CHECK(found.out == relative(v).epsilon(0.01));
   }
   {
     OdeSession session;
@@ -174,8 +175,8 @@ TEST_CASE("Hertz: an ellipsoid on a plane, and two balls") {
     const dBodyID high = scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-6});
     dBodySetLinearVel(low, 0, 0, dReal(v));
     const Impact found = impact(scene, high, v, step);
-    CHECK(relative_error(found.overlap, hertz_overlap(ball_mass / 2, pair_k, 2 * v)) < 0.005);
-    CHECK(relative_error(found.out, v) < 0.01);
+    CHECK(found.overlap == relative(hertz_overlap(ball_mass / 2, pair_k, 2 * v)).epsilon(0.005));
+    CHECK(found.out == relative(v).epsilon(0.01));
   }
 }
 
@@ -190,7 +191,7 @@ TEST_CASE("Hertz with restitution rebounds with it at every velocity") {
       EffectsWorld scene({fx::Hertz{2 * kModulus, kPoisson, e, {}}}, step);
       scene.world.add_plane();
       const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.1 * v * step}), v, step);
-      CHECK(relative_error(found.out, e * v) < 0.02);
+      CHECK(found.out == relative(e * v).epsilon(0.02));
     }
   }
 }
@@ -219,7 +220,7 @@ TEST_CASE("a flat body rests on springs at the depth that its weight asks for") 
   const dBodyID body = scene.add(geom, 1000, {0, 0, 0.055});
   turn(body, {1, 0.5, 0}, 2 * kDegree);
   scene.run_until(3);
-  CHECK(relative_error(scene.depth, mass_of(body) * kGravity / k) < 0.02);
+  CHECK(scene.depth == relative(mass_of(body) * kGravity / k).epsilon(0.02));
   // No more unrest than rigid contacts leave, half of g times the step (README, "Settings of the world").
   CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.5 * kGravity * 5e-4);
   CHECK(norm(to_vec(dBodyGetAngularVel(body))) < 0.5 * kGravity * 5e-4 / 0.05);

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
+#include "relative.hpp"
 
 using namespace supernormal::test;
 
@@ -29,7 +30,7 @@ TEST_CASE("a ball rolls (7/10) v^2 R / (g rho) far in every direction") {
     dBodySetAngularVel(ball, dReal(-v[1] / kRadius), dReal(v[0] / kRadius), 0);
     scene.run_until(3, [&] { return norm(to_vec(dBodyGetLinearVel(ball))) < 1e-4; });
     const Vec way = to_vec(dBodyGetPosition(ball)) - start;
-    CHECK(relative_error(std::hypot(way[0], way[1]), 0.7 * speed * speed * kRadius / (kGravity * rho)) < 0.01);
+    CHECK(std::hypot(way[0], way[1]) == relative(0.7 * speed * speed * kRadius / (kGravity * rho)).epsilon(0.01));
     CHECK(std::abs(std::atan2(way[1], way[0]) - angle) < 0.02);
   }
 }
@@ -68,6 +69,6 @@ TEST_CASE("a spinning ball stops after (2/5) R^2 w / (g rho)") {
     scene.run_until(0.05);
     dBodySetAngularVel(ball, 0, 0, dReal(spin));
     const double time = scene.run_until(5, [&] { return std::abs(dBodyGetAngularVel(ball)[2]) < 1e-3; });
-    CHECK(relative_error(time, 0.4 * kRadius * kRadius * spin / (kGravity * rho)) < 0.01);
+    CHECK(time == relative(0.4 * kRadius * kRadius * spin / (kGravity * rho)).epsilon(0.01));
   }
 }
