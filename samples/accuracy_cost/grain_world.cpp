@@ -8,9 +8,9 @@
 namespace accuracy_cost {
 namespace {
 
+using falling_particles::kContactsPerPair;
 using falling_particles::Stopwatch;
 
-constexpr int kContactsPerPair = 5;  // as in falling_particles
 constexpr unsigned long kWallBit = 1;
 constexpr unsigned long kGrainBit = 2;
 
@@ -54,7 +54,7 @@ GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& st
     : scene_(scene),
       world_(scene, start.placements),
       space_(create_space(space, scene)),
-      joints_(dJointGroupCreate(0)),
+      joints_(world_),
       batch_(form.threads == 0 ? nullptr : snBatchCreate(form.threads)) {
   kinds_.reserve(start.placements.size());
   for (const auto& placement : start.placements) kinds_.push_back(placement.kind);
@@ -66,7 +66,6 @@ GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& st
 
 GrainWorld::~GrainWorld() {
   snBatchDestroy(batch_);
-  dJointGroupDestroy(joints_);
   walls_.reset();
   geoms_.clear();
   dSpaceDestroy(space_);
@@ -166,24 +165,7 @@ int GrainWorld::name_pair(void* self, dGeomID g1, dGeomID g2) {
 
 void GrainWorld::make_joints() {
   costs_.refused += std::erase_if(contacts_, [](const dContactGeom& contact) { return !is_unit(contact.normal); });
-  dJointGroupEmpty(joints_);
-  const auto is_same_pair = [](const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; };
-  for (std::size_t first = 0, end = 0; first < contacts_.size(); first = end) {
-    while (end < contacts_.size() && is_same_pair(contacts_[first], contacts_[end])) ++end;
-    attach(std::span(contacts_).subspan(first, end - first));
-  }
-}
-
-void GrainWorld::attach(std::span<const dContactGeom> pair) {
-  std::array<dContact, kContactsPerPair> contacts;
-  for (std::size_t i = 0; i < pair.size(); ++i) contacts[i].geom = pair[i];
-  const int count =
-      world_.effects().set_up_contacts(std::span(contacts).first(pair.size()), falling_particles::material_of(pair[0].g1),
-                                       falling_particles::material_of(pair[0].g2));
-  for (int i = 0; i < count; ++i) {
-    const dContact& contact = contacts[static_cast<std::size_t>(i)];
-    dJointAttach(dJointCreateContact(world_.id(), joints_, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
-  }
+  joints_.replace(contacts_);
 }
 
 Snapshot GrainWorld::snapshot() const {

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "contact_joints.hpp"
 #include "grain_form.hpp"
 #include "placement.hpp"
 #include "stopwatch.hpp"
@@ -60,7 +60,6 @@ class GrainWorld {
   void collide_batch();
   static int name_pair(void* self, dGeomID g1, dGeomID g2);
   void make_joints();
-  void attach(std::span<const dContactGeom> pair);
 
   const falling_particles::Scene& scene_;
   std::vector<std::size_t> kinds_;
@@ -68,7 +67,7 @@ class GrainWorld {
   dSpaceID space_;
   std::vector<OdeGeom> geoms_;
   std::unique_ptr<falling_particles::Walls> walls_;
-  dJointGroupID joints_;
+  falling_particles::ContactJoints joints_;
   snBatchID batch_;  // null: one by one
   std::vector<std::pair<dGeomID, dGeomID>> pairs_;
   std::vector<dContactGeom> contacts_;

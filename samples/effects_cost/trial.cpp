@@ -2,14 +2,15 @@
 
 #include <array>
 #include <ctime>
-#include <span>
 
+#include "contact_joints.hpp"
 #include "random.hpp"
 #include "stepper.hpp"
 #include "world.hpp"
 
 namespace effects_cost {
 
+using falling_particles::kContactsPerPair;
 using falling_particles::Placement;
 using falling_particles::Scene;
 
@@ -29,8 +30,6 @@ std::vector<Placement> settle(const Scene& scene) {
 
 namespace {
 
-constexpr int kContactsPerPair = 5;
-
 /// s, of this thread: what else the machine does is not in it.
 double processor_time() {
   timespec now{};
@@ -41,20 +40,14 @@ double processor_time() {
 /// A step as falling_particles makes it, in three parts, each timed as a whole.
 class Bench {
  public:
-  explicit Bench(const falling_particles::World& world, double step) : world_(world), step_(step), joints_(dJointGroupCreate(0)) {}
-  ~Bench() { dJointGroupDestroy(joints_); }
-  Bench(const Bench&) = delete;
-  Bench(Bench&&) = delete;
-  Bench& operator=(const Bench&) = delete;
-  Bench& operator=(Bench&&) = delete;
+  explicit Bench(const falling_particles::World& world, double step) : world_(world), step_(step), joints_(world) {}
 
   void step(Outcome& sum) {
-    found_.clear();
+    contacts_.clear();
     const double start = processor_time();
     dSpaceCollide(world_.space(), this, near_callback);
     const double collided = processor_time();
-    dJointGroupEmpty(joints_);
-    for (Pair& pair : found_) attach(pair);
+    joints_.replace(contacts_);
     world_.effects().apply_forces();
     const double ready = processor_time();
     dWorldQuickStep(world_.id(), static_cast<dReal>(step_));
@@ -62,38 +55,21 @@ class Bench {
     sum.seconds += end - start;
     sum.set_up += ready - collided;
     sum.solver += end - ready;
-    for (const Pair& pair : found_) sum.contacts += pair.count;
+    sum.contacts += static_cast<double>(contacts_.size());
   }
 
  private:
-  struct Pair {
-    std::array<dContact, kContactsPerPair> contacts;
-    int count;
-  };
-
   static void near_callback(void* self, dGeomID g1, dGeomID g2) {
-    Bench& bench = *static_cast<Bench*>(self);
-    Pair& pair = bench.found_.emplace_back();
-    pair.count = dCollide(g1, g2, kContactsPerPair, &pair.contacts[0].geom, sizeof(dContact));
-    if (pair.count == 0) bench.found_.pop_back();
-  }
-
-  void attach(Pair& pair) {
-    const dContactGeom geom = pair.contacts[0].geom;
-    const auto contacts = std::span(pair.contacts).first(static_cast<std::size_t>(pair.count));
-    const int count = world_.effects().set_up_contacts(contacts, falling_particles::material_of(geom.g1),
-                                                       falling_particles::material_of(geom.g2));
-    for (int i = 0; i < count; ++i) {
-      const dContact& contact = contacts[static_cast<std::size_t>(i)];
-      const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
-      dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
-    }
+    auto& contacts = static_cast<Bench*>(self)->contacts_;
+    std::array<dContactGeom, kContactsPerPair> found;
+    const int count = dCollide(g1, g2, kContactsPerPair, found.data(), sizeof(dContactGeom));
+    contacts.insert(contacts.end(), found.begin(), found.begin() + count);
   }
 
   const falling_particles::World& world_;
   double step_;
-  dJointGroupID joints_;
-  std::vector<Pair> found_;
+  falling_particles::ContactJoints joints_;
+  std::vector<dContactGeom> contacts_;
 };
 
 double rows(const falling_particles::World& world) {

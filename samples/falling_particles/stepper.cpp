@@ -1,18 +1,12 @@
 #include "stepper.hpp"
 
 #include <algorithm>
-#include <array>
+#include <span>
 #include <stdexcept>
 #include <variant>
 
 namespace falling_particles {
 namespace {
-
-/// The most contacts that a pair may ask for: a face on a face is held by four points and the deepest one.
-constexpr int kContactsPerPair = 5;
-
-/// The contacts of a pair follow one another.
-bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; }
 
 bool is_awake(dGeomID geom) {
   const dBodyID body = dGeomGetBody(geom);
@@ -30,16 +24,13 @@ Stepper::Stepper(const World& world, const Scene& scene, int threads)
     : world_(world),
       step_(scene.time.step),
       name_pair_(may_sleep(scene) ? &Stepper::name_pair_of_sleepers : &Stepper::name_pair),
-      joints_(dJointGroupCreate(0)),
+      joints_(world),
       batch_(snBatchCreate(threads)) {
   if (batch_ == nullptr) throw std::runtime_error(snLastError());
   world_.effects().measure();
 }
 
-Stepper::~Stepper() {
-  snBatchDestroy(batch_);
-  dJointGroupDestroy(joints_);
-}
+Stepper::~Stepper() { snBatchDestroy(batch_); }
 
 void Stepper::step() {
   contacts_.clear();
@@ -53,32 +44,14 @@ void Stepper::step() {
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
-    dJointGroupEmpty(joints_);
-    for (std::size_t first = 0, end = 0; first < contacts_.size(); first = end) {
-      while (end < contacts_.size() && is_same_pair(contacts_[first], contacts_[end])) ++end;
-      attach(std::span(contacts_).subspan(first, end - first));
-    }
+    joints_.replace(contacts_);
     world_.effects().apply_forces();
   }
   costs_.contacts += contacts_.size();
+  for (const dContactGeom& contact : contacts_) deepest_contact_ = std::max<double>(deepest_contact_, contact.depth);
   const Stopwatch::Lap lap(costs_.solver);
   dWorldQuickStep(world_.id(), step_);
   if (PeriodicCell* cell = world_.cell()) cell->gather();
-}
-
-void Stepper::attach(std::span<const dContactGeom> pair) {
-  std::array<dContact, kContactsPerPair> contacts;
-  for (std::size_t i = 0; i < pair.size(); ++i) {
-    contacts[i].geom = pair[i];
-    deepest_contact_ = std::max<double>(deepest_contact_, pair[i].depth);
-  }
-  const int count =
-      world_.effects().set_up_contacts(std::span(contacts).first(pair.size()), material_of(pair[0].g1), material_of(pair[0].g2));
-  for (int i = 0; i < count; ++i) {
-    const dContact& contact = contacts[static_cast<std::size_t>(i)];
-    const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
-    dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
-  }
 }
 
 int Stepper::name_pair_of_sleepers(void* self, dGeomID g1, dGeomID g2) {

@@ -3,9 +3,9 @@
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
 
-#include <span>
 #include <vector>
 
+#include "contact_joints.hpp"
 #include "scene.hpp"
 #include "stopwatch.hpp"
 #include "world.hpp"
@@ -44,12 +44,11 @@ class Stepper {
   /// Of scenes whose bodies may sleep: leaves pairs alone of which neither is awake.
   static int name_pair_of_sleepers(void* self, dGeomID g1, dGeomID g2);
   static void add_contacts(void* self, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
-  void attach(std::span<const dContactGeom> pair);
 
   const World& world_;
   double step_;
   snPairFilter* name_pair_;
-  dJointGroupID joints_;
+  ContactJoints joints_;
   snBatchID batch_;
   std::vector<dContactGeom> contacts_;
   double deepest_contact_ = 0;
