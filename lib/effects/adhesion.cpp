@@ -7,12 +7,6 @@
 namespace supernormal::effects {
 namespace {
 
-void add_force(dBodyID body, const Vector3& force, const dReal* point) {
-  if (body == nullptr) return;
-  const auto real = [](double value) { return static_cast<dReal>(value); };
-  dBodyAddForceAtPos(body, real(force.x()), real(force.y()), real(force.z()), point[0], point[1], point[2]);
-}
-
 constexpr double kLayer = 1e-4;  // depth at which rigid contacts stick, relative to the mean half-extent
 
 // ODE pushes overlaps out to nothing, and rounding would then part the bodies. So a rigid contact that sticks is pushed only to a
@@ -24,7 +18,7 @@ void keep_in_touch(Patch& patch) {
   const double rate = dWorldGetERP(dBodyGetWorld(body)) / patch.step;
   const double missing = std::max(0.0, layer - geom.depth);
   for (dContact& contact : patch.contacts) {
-    contact.surface.motionN = static_cast<dReal>(-rate * (contact.geom.depth > 0 ? layer : missing));
+    contact.surface.motionN = ode::to_real(-rate * (contact.geom.depth > 0 ? layer : missing));
   }
 }
 
@@ -42,8 +36,9 @@ void add_adhesion(const Law& law, Patch& patch) {
   for (const dContact& contact : patch.contacts) {
     if (!patch.bears(contact)) continue;
     const Vector3 pull = -share * ode::to_vector(contact.geom.normal);
-    add_force(body1, pull, contact.geom.pos);
-    add_force(body2, -pull, contact.geom.pos);
+    const Vector3 point = ode::to_vector(contact.geom.pos);
+    add_force(body1, pull, point);
+    add_force(body2, -pull, point);
   }
 }
 

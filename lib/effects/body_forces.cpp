@@ -20,7 +20,7 @@ void add_drag(dBodyID body, double coefficient, double step) {
   dBodyGetMass(body, &mass);
   const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body)) + step * acceleration_of(body);
   const Vector3 force = -coefficient / (1 + step * coefficient / mass.mass) * velocity;
-  dBodyAddForce(body, static_cast<dReal>(force.x()), static_cast<dReal>(force.y()), static_cast<dReal>(force.z()));
+  dBodyAddForce(body, ode::to_real(force.x()), ode::to_real(force.y()), ode::to_real(force.z()));
 }
 
 /// The direction of motion in the frame of a geom; x where the body does not move.
@@ -85,7 +85,6 @@ unsigned long long BodyForces::apply_buoyancy() {
   const double g = gravity_.norm();
   if (!(g > 0)) return 0;
   const Vector3 up = -gravity_ / g;
-  const auto real = [](double value) { return static_cast<dReal>(value); };
   return visit([&](const Entry& entry) {
     for (const Part& part : entry.parts) {
       const Pose pose = ode::pose_of(part.geom);
@@ -93,7 +92,7 @@ unsigned long long BodyForces::apply_buoyancy() {
       if (submerged.volume == 0) continue;
       const Vector3 force = -buoyancy_->density * submerged.volume * gravity_;
       const Vector3 at = pose.rotation * submerged.centre + pose.position;
-      dBodyAddForceAtPos(entry.body, real(force.x()), real(force.y()), real(force.z()), real(at.x()), real(at.y()), real(at.z()));
+      add_force(entry.body, force, at);
     }
   });
 }

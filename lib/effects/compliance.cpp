@@ -68,8 +68,8 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
     const double damper = patch.bears(contact) ? damping : 0;
     const double A = share * spring.force - (1 - new_half) * damper * velocity;
     const double B = std::max(share * implicit * h * spring.tangent + new_half * damper, kLeastShare * mass / h);
-    contact.surface.soft_cfm = static_cast<dReal>(B > 0 ? 1 / B : 0);
-    contact.surface.motionN = static_cast<dReal>(B > 0 ? A / B : 0);
+    contact.surface.soft_cfm = ode::to_real(B > 0 ? 1 / B : 0);
+    contact.surface.motionN = ode::to_real(B > 0 ? A / B : 0);
   }
   if (spring.damping == 0) leave_out_idle(patch);
 }

@@ -10,6 +10,7 @@
 #include "effects/body_forces.hpp"
 #include "effects/law.hpp"
 #include "effects/validate.hpp"
+#include "ode/convert.hpp"
 #include "ode/require.hpp"
 
 namespace supernormal::effects {
@@ -23,30 +24,29 @@ class WorldWriter {
   WorldWriter(dWorldID world, double step) : world_(world), step_(step) {}
 
   void operator()(const Gravity& e) const {
-    dWorldSetGravity(world_, real(e.acceleration.x()), real(e.acceleration.y()), real(e.acceleration.z()));
+    dWorldSetGravity(world_, ode::to_real(e.acceleration.x()), ode::to_real(e.acceleration.y()), ode::to_real(e.acceleration.z()));
   }
   void operator()(const Damping& e) const {
     // ODE multiplies by 1 - scale in every step in which a velocity is above the threshold.
     dWorldSetLinearDampingThreshold(world_, 0);
     dWorldSetAngularDampingThreshold(world_, 0);
-    dWorldSetLinearDamping(world_, real(-std::expm1(-e.linear * step_)));
-    dWorldSetAngularDamping(world_, real(-std::expm1(-e.angular * step_)));
+    dWorldSetLinearDamping(world_, ode::to_real(-std::expm1(-e.linear * step_)));
+    dWorldSetAngularDamping(world_, ode::to_real(-std::expm1(-e.angular * step_)));
   }
   void operator()(const AutoDisable& e) const {
     dWorldSetAutoDisableFlag(world_, 1);
-    dWorldSetAutoDisableLinearThreshold(world_, real(e.linear));
-    dWorldSetAutoDisableAngularThreshold(world_, real(e.angular));
-    dWorldSetAutoDisableTime(world_, real(e.time));
+    dWorldSetAutoDisableLinearThreshold(world_, ode::to_real(e.linear));
+    dWorldSetAutoDisableAngularThreshold(world_, ode::to_real(e.angular));
+    dWorldSetAutoDisableTime(world_, ode::to_real(e.time));
     dWorldSetAutoDisableSteps(world_, e.samples);
     dWorldSetAutoDisableAverageSamplesCount(world_, static_cast<unsigned>(e.samples));
   }
-  void operator()(const MaxCorrectingVelocity& e) const { dWorldSetContactMaxCorrectingVel(world_, real(e.velocity)); }
-  void operator()(const SurfaceLayer& e) const { dWorldSetContactSurfaceLayer(world_, real(e.depth)); }
+  void operator()(const MaxCorrectingVelocity& e) const { dWorldSetContactMaxCorrectingVel(world_, ode::to_real(e.velocity)); }
+  void operator()(const SurfaceLayer& e) const { dWorldSetContactSurfaceLayer(world_, ode::to_real(e.depth)); }
   template <typename Other>
   void operator()(const Other& /*effect*/) const {}
 
  private:
-  static dReal real(double value) { return static_cast<dReal>(value); }
   dWorldID world_;
   double step_;
 };

@@ -25,11 +25,10 @@ Vector3 world_direction(const Grain& grain, const dContactGeom& geom) {
   const dGeomID carrier = grain.is_on_second ? geom.g2 : geom.g1;
   const Vector3& d = grain.direction;
   dVector3 world;
-  const auto real = [](double value) { return static_cast<dReal>(value); };
   if (const dBodyID body = dGeomGetBody(carrier)) {
-    dBodyVectorToWorld(body, real(d.x()), real(d.y()), real(d.z()), world);
+    dBodyVectorToWorld(body, ode::to_real(d.x()), ode::to_real(d.y()), ode::to_real(d.z()), world);
   } else {
-    dGeomVectorToWorld(carrier, real(d.x()), real(d.y()), real(d.z()), world);
+    dGeomVectorToWorld(carrier, ode::to_real(d.x()), ode::to_real(d.y()), ode::to_real(d.z()), world);
   }
   return ode::to_vector(world);
 }
@@ -45,8 +44,8 @@ void set_ellipse(const Grain& grain, const Slip& slip, dContact& contact) {
   Shares shares = Shares::towards(grain.along * first.dot(u), grain.across * n.cross(first).dot(u));
   if (grain.along == 0 || grain.across == 0) shares = {1, 1};  // a line in place of the ellipse
   ode::from_vector(first, contact.fdir1);
-  contact.surface.mu = static_cast<dReal>(grain.along * shares.first);
-  contact.surface.mu2 = static_cast<dReal>(grain.across * shares.second);
+  contact.surface.mu = ode::to_real(grain.along * shares.first);
+  contact.surface.mu2 = ode::to_real(grain.across * shares.second);
 }
 
 }  // namespace
@@ -82,8 +81,8 @@ void align_rolling(const Law& law, Patch& patch) {
     const Vector3 onset = radius > 0 && std::isfinite(radius) ? Vector3(n.cross(slip.at(contact)) / radius) : Vector3::Zero();
     const Vector3 turn = spin + onset;
     const Shares shares = Shares::towards(turn.dot(first), turn.dot(n.cross(first)));
-    contact.surface.rho = static_cast<dReal>(law.rolling * shares.first);
-    contact.surface.rho2 = static_cast<dReal>(law.rolling * shares.second);
+    contact.surface.rho = ode::to_real(law.rolling * shares.first);
+    contact.surface.rho2 = ode::to_real(law.rolling * shares.second);
   }
 }
 

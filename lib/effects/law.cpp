@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "effects/hertz.hpp"
+#include "ode/convert.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -129,7 +130,7 @@ class LawWriter {
     if (!found) return;
     // Approx1: a coefficient; without it ODE takes mu for a force in newtons. A square that fits into the circle.
     law_.surface.mode |= dContactApprox1 | dContactFDir1;
-    law_.surface.mu = law_.surface.mu2 = static_cast<dReal>(found->coefficient * std::sqrt(0.5));
+    law_.surface.mu = law_.surface.mu2 = ode::to_real(found->coefficient * std::sqrt(0.5));
     add<Friction>(2, align_friction);
   }
 
@@ -152,8 +153,8 @@ class LawWriter {
     law_.spinning = found->spinning;
     // ODE makes a dead row for a coefficient of 0 and none for a negative one.
     law_.surface.mode |= dContactApprox1 | dContactRolling | dContactMu2;
-    law_.surface.rho = law_.surface.rho2 = static_cast<dReal>(found->rolling > 0 ? found->rolling : -1);
-    law_.surface.rhoN = static_cast<dReal>(found->spinning > 0 ? found->spinning : -1);
+    law_.surface.rho = law_.surface.rho2 = ode::to_real(found->rolling > 0 ? found->rolling : -1);
+    law_.surface.rhoN = ode::to_real(found->spinning > 0 ? found->spinning : -1);
     add<RollingResistance>((found->rolling > 0 ? 2 : 0) + (found->spinning > 0 ? 1 : 0), align_rolling);
   }
 
@@ -161,8 +162,8 @@ class LawWriter {
     const auto found = find_common<Restitution>(list_, a_, b_);
     if (!found) return;
     law_.surface.mode |= dContactBounce;
-    law_.surface.bounce = static_cast<dReal>(found->coefficient);
-    law_.surface.bounce_vel = static_cast<dReal>(found->threshold);
+    law_.surface.bounce = ode::to_real(found->coefficient);
+    law_.surface.bounce_vel = ode::to_real(found->threshold);
     add<Restitution>(0, nullptr);
   }
 

@@ -1,4 +1,4 @@
-// How bodies move, as far as the passes ask.
+// How bodies move, as far as the passes ask, and what pushes them.
 #pragma once
 
 #include <ode/ode.h>
@@ -42,6 +42,14 @@ inline double mobility(dBodyID body, const Vector3& point, const Vector3& n) {
   const Vector3 arm = rotation.transpose() * (point - ode::to_vector(dBodyGetPosition(body))).cross(n);
   const Matrix3 inertia = ode::to_rotation(mass.I);
   return 1 / double{mass.mass} + arm.dot(inertia.inverse() * arm);
+}
+
+/// N, at a point of the body; `body` may be 0, a wall.
+inline void add_force(dBodyID body, const Vector3& force, const Vector3& point) {
+  if (body == nullptr) return;
+  using ode::to_real;
+  dBodyAddForceAtPos(body, to_real(force.x()), to_real(force.y()), to_real(force.z()), to_real(point.x()), to_real(point.y()),
+                     to_real(point.z()));
 }
 
 }  // namespace supernormal::effects

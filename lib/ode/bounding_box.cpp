@@ -39,8 +39,8 @@ int write_finite_aabb(dGeomID geom, dReal* aabb) {
   for (int axis = 0; axis < 3; ++axis) {
     const Interval extent = extent_along(axis, body, pose);
     if (!std::isfinite(extent.low) || !std::isfinite(extent.high)) return 0;
-    aabb[2 * axis] = static_cast<dReal>(extent.low);
-    aabb[2 * axis + 1] = static_cast<dReal>(extent.high);
+    aabb[2 * axis] = to_real(extent.low);
+    aabb[2 * axis + 1] = to_real(extent.high);
   }
   return 1;
 }

@@ -40,7 +40,7 @@ int append_contact(const Proximity& proximity, const ContactArray& out, int coun
   dContactGeom& contact = *reinterpret_cast<dContactGeom*>(place);
   from_vector(proximity.contact, contact.pos);
   from_vector(-proximity.normal.normalized(), contact.normal);
-  contact.depth = static_cast<dReal>(-proximity.gap);
+  contact.depth = to_real(-proximity.gap);
   if (contact.depth == 0) contact.depth = 0;  // not -0
   contact.g1 = out.o1;
   contact.g2 = out.o2;

@@ -8,11 +8,13 @@
 
 namespace supernormal::ode {
 
+inline dReal to_real(double value) { return static_cast<dReal>(value); }
+
 inline Vector3 to_vector(const dReal* v) { return Vector3(v[0], v[1], v[2]); }
 
 /// Writes the three coordinates; a fourth one (dVector3 has it) is left alone.
 inline void from_vector(const Vector3& v, dReal* out) {
-  for (int i = 0; i < 3; ++i) out[i] = static_cast<dReal>(v[i]);
+  for (int i = 0; i < 3; ++i) out[i] = to_real(v[i]);
 }
 
 /// Row-major rows of four, as ODE keeps rotations.

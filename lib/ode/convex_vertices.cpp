@@ -71,8 +71,7 @@ bool ConvexVertices::list(dGeomID convex, const Eigen::AlignedBox3d& box) {
 // The vertices v with side * v[axis] <= offset, or < if not `with_plane`.
 bool ConvexVertices::list_below(dGeomID convex, int axis, double side, double offset, bool with_plane) {
   const Vector3 normal = side * Vector3::Unit(axis);
-  dGeomPlaneSetParams(plane_, static_cast<dReal>(normal.x()), static_cast<dReal>(normal.y()), static_cast<dReal>(normal.z()),
-                      static_cast<dReal>(offset));
+  dGeomPlaneSetParams(plane_, to_real(normal.x()), to_real(normal.y()), to_real(normal.z()), to_real(offset));
   std::size_t count = 0;
   while (true) {
     count = static_cast<std::size_t>(

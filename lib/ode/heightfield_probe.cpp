@@ -40,7 +40,7 @@ HeightfieldProbe& HeightfieldProbe::looking_at(dGeomID heightfield) {
 
 HeightfieldProbe::HeightfieldProbe()
     : heightfield_(dCreateHeightfield(nullptr, nullptr, 0)),
-      ray_(dCreateRay(nullptr, static_cast<dReal>(kRayLength))),
+      ray_(dCreateRay(nullptr, to_real(kRayLength))),
       capsule_(dCreateCapsule(nullptr, 1, 1)),
       contacts_(kMaxListed) {
   dGeomRaySet(ray_, 0, 0, 0, 0, -1, 0);
@@ -55,7 +55,7 @@ HeightfieldProbe::~HeightfieldProbe() {
 bool HeightfieldProbe::is_infinite() const { return std::isinf(half_width_); }
 
 bool HeightfieldProbe::cast_down(double x, double z, double start, Facet& facet) {
-  dGeomSetPosition(ray_, static_cast<dReal>(x), static_cast<dReal>(start), static_cast<dReal>(z));
+  dGeomSetPosition(ray_, to_real(x), to_real(start), to_real(z));
   dContactGeom hit;
   if (dCollide(heightfield_, ray_, 1, &hit, sizeof hit) != 1) return false;
   facet.x = x;
@@ -84,8 +84,8 @@ bool HeightfieldProbe::find_facet(double x, double z, double scale, Facet& facet
 // very triangle (heightfield.cpp, "pass 2"); the points of these come first, far below.
 bool HeightfieldProbe::list_samples(const Facet& facet, double radius, std::vector<Vector3>& samples) {
   const double reach = 1e9 * radius;
-  dGeomCapsuleSetParams(capsule_, static_cast<dReal>(radius), static_cast<dReal>(2 * reach));
-  dGeomSetPosition(capsule_, static_cast<dReal>(facet.x), static_cast<dReal>(facet.height), static_cast<dReal>(facet.z));
+  dGeomCapsuleSetParams(capsule_, to_real(radius), to_real(2 * reach));
+  dGeomSetPosition(capsule_, to_real(facet.x), to_real(facet.height), to_real(facet.z));
   const int count = dCollide(heightfield_, capsule_, kMaxListed, contacts_.data(), sizeof(dContactGeom));
   for (int k = 0; k < count; ++k) {
     const Vector3 point = to_vector(contacts_[static_cast<std::size_t>(k)].pos);

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "ode/body.hpp"
+#include "ode/convert.hpp"
 #include "ode/last_error.hpp"
 #include "ode/require.hpp"
 #include "supernormal/supernormal.h"
@@ -32,9 +33,9 @@ void set_mass(dMass* mass, const MassProperties& properties, double density) {
   const Matrix3 inertia = density * (S.trace() * Matrix3::Identity() - S);
   const Vector3& c = properties.centroid;
   dMass result;
-  const auto real = [](double value) { return static_cast<dReal>(value); };
-  dMassSetParameters(&result, real(density * properties.volume), real(c.x()), real(c.y()), real(c.z()), real(inertia(0, 0)),
-                     real(inertia(1, 1)), real(inertia(2, 2)), real(inertia(0, 1)), real(inertia(0, 2)), real(inertia(1, 2)));
+  dMassSetParameters(&result, to_real(density * properties.volume), to_real(c.x()), to_real(c.y()), to_real(c.z()),
+                     to_real(inertia(0, 0)), to_real(inertia(1, 1)), to_real(inertia(2, 2)), to_real(inertia(0, 1)),
+                     to_real(inertia(0, 2)), to_real(inertia(1, 2)));
   // dMassCheck lets infinite ones pass.
   const bool is_finite =
       std::isfinite(result.mass) && std::isfinite(result.I[0]) && std::isfinite(result.I[5]) && std::isfinite(result.I[10]);

@@ -85,8 +85,8 @@ void MeshCandidates::ask_tree(dGeomID mesh, const BodyBox& box, const Pose& pose
   const Vector3 centre = pose.position + pose.rotation * box.centre;
   dMatrix3 rotation{};
   for (int row = 0; row < 3; ++row) from_vector(pose.rotation.row(row).transpose(), rotation + std::ptrdiff_t{4} * row);
-  dGeomBoxSetLengths(question_, static_cast<dReal>(sides.x()), static_cast<dReal>(sides.y()), static_cast<dReal>(sides.z()));
-  dGeomSetPosition(question_, static_cast<dReal>(centre.x()), static_cast<dReal>(centre.y()), static_cast<dReal>(centre.z()));
+  dGeomBoxSetLengths(question_, to_real(sides.x()), to_real(sides.y()), to_real(sides.z()));
+  dGeomSetPosition(question_, to_real(centre.x()), to_real(centre.y()), to_real(centre.z()));
   dGeomSetRotation(question_, rotation);
   const Interception interception(mesh);
   dContactGeom unused;

@@ -31,8 +31,8 @@ Proximity query(dGeomID ours, dGeomID partner, Goal goal) {
 }
 
 void write(const Proximity& proximity, bool swapped, snProximity& out) {
-  out.gap = static_cast<dReal>(proximity.gap);
-  out.error = static_cast<dReal>(proximity.error);
+  out.gap = to_real(proximity.gap);
+  out.error = to_real(proximity.error);
   from_vector(swapped ? Vector3(-proximity.normal) : proximity.normal, out.normal);
   from_vector(swapped ? proximity.point2 : proximity.point1, out.point1);
   from_vector(swapped ? proximity.point1 : proximity.point2, out.point2);

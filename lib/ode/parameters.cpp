@@ -3,6 +3,7 @@
 #include <string>
 
 #include "ode/body.hpp"
+#include "ode/convert.hpp"
 #include "ode/last_error.hpp"
 #include "ode/require.hpp"
 #include "supernormal/supernormal.h"
@@ -29,11 +30,11 @@ void get_superellipsoid(const SuperellipsoidParameters& parameters, dReal* a, dR
   require_not_null("c", c);
   require_not_null("delta", delta);
   require_not_null("epsilon", epsilon);
-  *a = static_cast<dReal>(parameters.half_axes.x());
-  *b = static_cast<dReal>(parameters.half_axes.y());
-  *c = static_cast<dReal>(parameters.half_axes.z());
-  *delta = static_cast<dReal>(parameters.delta);
-  *epsilon = static_cast<dReal>(parameters.epsilon);
+  *a = to_real(parameters.half_axes.x());
+  *b = to_real(parameters.half_axes.y());
+  *c = to_real(parameters.half_axes.z());
+  *delta = to_real(parameters.delta);
+  *epsilon = to_real(parameters.epsilon);
 }
 
 }  // namespace
@@ -76,8 +77,8 @@ extern "C" int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal
     require_not_null("taper_x", taper_x);
     require_not_null("taper_y", taper_y);
     get_superellipsoid(parameters.straight, a, b, c, delta, epsilon);
-    *taper_x = static_cast<dReal>(parameters.taper_x);
-    *taper_y = static_cast<dReal>(parameters.taper_y);
+    *taper_x = to_real(parameters.taper_x);
+    *taper_y = to_real(parameters.taper_y);
     return 1;
   });
 }

@@ -29,8 +29,7 @@ Pose pose_of_heightfield(dGeomID heightfield) {
   pose.position = to_vector(column);
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 unit = Vector3::Unit(axis);
-    dGeomVectorToWorld(heightfield, static_cast<dReal>(unit.x()), static_cast<dReal>(unit.y()), static_cast<dReal>(unit.z()),
-                       column);
+    dGeomVectorToWorld(heightfield, to_real(unit.x()), to_real(unit.y()), to_real(unit.z()), column);
     pose.rotation.col(axis) = to_vector(column);
   }
   return pose;

@@ -22,7 +22,7 @@ extern "C" dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z) {
     const Settings settings = for_goal(body.settings(), Goal::Distance);
     const Proximity result = find_proximity(body.shape(), pose_of(geom), Sphere(0), point_pose, settings);
     if (result.status == Status::InvalidInput) throw std::invalid_argument("the pose of geom is not finite");
-    return static_cast<dReal>(0 - result.gap);  // 0 - 0 is +0
+    return to_real(0 - result.gap);  // 0 - 0 is +0
   });
 }
 

@@ -11,9 +11,7 @@ namespace {
 
 using Direction = std::array<dReal, 3>;
 
-Direction to_direction(const Vector3& n) {
-  return {static_cast<dReal>(n.x()), static_cast<dReal>(n.y()), static_cast<dReal>(n.z())};
-}
+Direction to_direction(const Vector3& n) { return {to_real(n.x()), to_real(n.y()), to_real(n.z())}; }
 
 CallbackShape::Hessian wrap_hessian(const snShape& shape) {
   if (shape.hessian == nullptr) return {};
