@@ -9,6 +9,7 @@
 // also where a body has ten such contacts at once, and lets no impact gain more than 0.5 %, wherever in a step it begins.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "effects/elastic_geom.hpp"
 #include "effects/hertz.hpp"
@@ -19,9 +20,8 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLeastSteps = 10;  // of a contact, half a period
-constexpr double kStiffest = (kPi / kLeastSteps) * (kPi / kLeastSteps);
+constexpr double kStiffest = (std::numbers::pi / kLeastSteps) * (std::numbers::pi / kLeastSteps);
 constexpr double kLeastShare = 1e-6;  // of B in mass / step: what stands for 0, a rigid row that ODE's solver can divide by
 
 struct Spring {

@@ -85,7 +85,7 @@ class Laws {
   std::vector<Law> laws_;
 };
 
-// The passes: friction.cpp, rolling.cpp, compliance.cpp, adhesion.cpp.
+// The passes: friction.cpp, compliance.cpp, adhesion.cpp.
 void align_friction(const Law& law, Patch& patch);
 void align_anisotropic_friction(const Law& law, Patch& patch);
 void align_rolling(const Law& law, Patch& patch);

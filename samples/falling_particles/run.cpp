@@ -156,7 +156,6 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         watches.discharge ? &*watches.discharge : nullptr,
                         watches.compressor ? std::optional(watches.compressor->packing()) : std::nullopt,
                         find_heap(world, scene.container),
-
                         world.effects().costs()};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);
