@@ -22,22 +22,20 @@ struct Interval {
 };
 
 // The body between its two supporting planes perpendicular to a world axis. Row i of R is axis i in the body's frame.
-Interval extent_along(int axis, const Body& body, const Pose& pose) {
-  const Shape& shape = body.shape();
+Interval extent_along(int axis, const Shape& shape, const Pose& pose) {
   const Vector3 direction = pose.rotation.row(axis).transpose();
   const double position = pose.position[axis];
   const double up = shape.support(direction);
-  const bool is_symmetric = body.superellipsoid() != nullptr;  // about its origin, also when it is rounded
-  const double down = is_symmetric ? up : shape.support(-direction);
+  const double down = shape.is_symmetric() ? up : shape.support(-direction);
   const double margin = rounding_of(std::abs(position) + std::abs(up) + std::abs(down));
   return {position - down - margin, position + up + margin};
 }
 
 int write_finite_aabb(dGeomID geom, dReal* aabb) {
-  const Body& body = require_body(geom);
+  const Shape& shape = require_body(geom).shape();
   const Pose pose = pose_of(geom);
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval extent = extent_along(axis, body, pose);
+    const Interval extent = extent_along(axis, shape, pose);
     if (!std::isfinite(extent.low) || !std::isfinite(extent.high)) return 0;
     aabb[2 * axis] = to_real(extent.low);
     aabb[2 * axis + 1] = to_real(extent.high);

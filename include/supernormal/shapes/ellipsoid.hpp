@@ -13,6 +13,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool is_round() const override { return true; }
+  bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return half_axes_; }
 
   /// That of the smallest radius of curvature: c^2/a with c the smallest half-axis and a the largest.

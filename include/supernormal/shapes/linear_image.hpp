@@ -24,6 +24,7 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   std::span<const Vector3> face_normals() const override { return face_normals_; }
+  bool is_symmetric() const override { return shape_->is_symmetric(); }
   Vector3 half_extents() const override { return half_extents_; }
   double sharpest_radius() const override;
 

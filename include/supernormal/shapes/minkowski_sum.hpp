@@ -27,6 +27,7 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
 
   /// Those of both; of the sum of two polytopes the faces that an edge of one makes with an edge of the other are missing.
   std::span<const Vector3> face_normals() const override { return face_normals_; }
+  bool is_symmetric() const override { return first_->is_symmetric() && second_->is_symmetric(); }
   Vector3 half_extents() const override { return first_->half_extents() + second_->half_extents(); }
   double sharpest_radius() const override;
   double rolling_radius() const override { return first_->rolling_radius() + second_->rolling_radius(); }

@@ -105,6 +105,9 @@ class SUPERNORMAL_API Shape {
   /// (contact_patch.hpp). False where it is not known.
   virtual bool is_round() const { return false; }
 
+  /// Whether the body is its own image in the origin of its frame: h(-n) = h(n), digit by digit. False where it is not known.
+  virtual bool is_symmetric() const { return false; }
+
   /// Half of the extent along the three axes of the body's frame, m.
   virtual Vector3 half_extents() const;
 

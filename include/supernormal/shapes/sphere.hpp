@@ -13,6 +13,7 @@ class SUPERNORMAL_API Sphere final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool is_round() const override { return true; }
+  bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return Vector3::Constant(radius_); }
   double sharpest_radius() const override;
   double rolling_radius() const override { return radius_; }

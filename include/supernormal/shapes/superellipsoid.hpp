@@ -43,6 +43,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
 
   bool is_round() const override { return std::min(delta_, epsilon_) >= 2 && std::max(delta_, epsilon_) <= kMostRound; }
+  bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return half_axes_; }
   double sharpest_radius() const override;
   double rolling_radius() const override { return rolling_radius_; }
