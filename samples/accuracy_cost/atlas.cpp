@@ -1,6 +1,5 @@
 #include "atlas.hpp"
 
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -80,12 +79,6 @@ std::string joined(const std::vector<std::string>& cells) {
   std::string line;
   for (const std::string& cell : cells) line.append(&cell == cells.data() ? "" : ",").append(cell);
   return line;
-}
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
 }
 
 void run_parts(const std::vector<Part>& parts, const std::string& folder) {

@@ -22,7 +22,6 @@ struct Part {
 
 /// A line of CSV.
 std::string joined(const std::vector<std::string>& cells);
-std::string number(double value);
 
 /// Does the tasks that `folder` does not have the lines of, with a progress bar on stderr. A file begins with where and with what
 /// it was measured; each task's lines are on the disk before the next task starts. Throws when they cannot be written.

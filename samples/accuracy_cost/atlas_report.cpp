@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "csv_table.hpp"
+#include "text.hpp"
 
 namespace accuracy_cost {
 namespace {
@@ -18,13 +18,6 @@ constexpr std::array kClasses = {"E", "M", "B", "O", "N"};
 constexpr std::array kClassNames = {"ellipsoids", "exponents 1.3…5", "exponents 6…20", "exponents 1.1…1.3", "needles"};
 constexpr std::array kPoses = {"T", "S", "D", "N", "F"};
 constexpr std::array kPoseNames = {"touching", "1 % overlap", "30 % overlap", "1 % apart", "far"};
-
-std::string text(const char* format, double value) {
-  if (std::isnan(value)) return "–";
-  std::array<char, 48> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
-}
 
 std::string microseconds(double seconds) { return text(seconds < 1e-5 ? "%.2f" : "%.1f", 1e6 * seconds); }
 std::string milliseconds(double seconds) { return text("%.2f", 1e3 * seconds); }

@@ -1,7 +1,5 @@
-#include <array>
-#include <cstdio>
-
 #include "method.hpp"
+#include "text.hpp"
 
 namespace accuracy_cost {
 
@@ -22,11 +20,7 @@ Methods fcl_methods() { return {}; }
 Methods simbody_methods() { return {}; }
 #endif
 
-std::string power_of_ten(double tolerance) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.0e", tolerance);
-  return text.data();
-}
+std::string power_of_ten(double tolerance) { return text("%.0e", tolerance); }
 
 std::vector<Library> libraries() {
   return {{"Bullet", ACCURACY_COST_BULLET_VERSION}, {"FCL", ACCURACY_COST_FCL_VERSION}, {"Simbody", ACCURACY_COST_SIMBODY_VERSION}};

@@ -1,7 +1,7 @@
 #include "partner_cost.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
 #include <limits>
 #include <numeric>
 
@@ -9,6 +9,7 @@
 #include "ode_timing.hpp"
 #include "statistics.hpp"
 #include "supernormal/supernormal.h"
+#include "text.hpp"
 
 namespace accuracy_cost {
 namespace {
@@ -82,13 +83,6 @@ class Meeting {
   std::vector<OdeBody> bodies_;
   std::vector<OdeGeom> geoms_, partners_;
 };
-
-std::string text(const char* format, double value) {
-  if (!(value == value)) return "–";
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
-}
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();

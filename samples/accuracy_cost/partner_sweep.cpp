@@ -9,6 +9,7 @@
 #include "ode_timing.hpp"
 #include "statistics.hpp"
 #include "supernormal/supernormal.h"
+#include "text.hpp"
 
 namespace accuracy_cost {
 namespace {

@@ -1,11 +1,11 @@
 #include "report.hpp"
 
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
 #include "environment.hpp"
 #include "statistics.hpp"
+#include "text.hpp"
 
 namespace accuracy_cost {
 namespace {
@@ -14,12 +14,6 @@ using Group = std::function<bool(const Pair&)>;
 
 Group group_of(BodyClass body_class, Situation situation) {
   return [=](const Pair& pair) { return pair.body_class == body_class && pair.situation == situation; };
-}
-
-std::string text(const char* format, double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
 }
 
 Statistics of_method(const Results& results, const std::string& name, const Group& group) {
@@ -103,8 +97,8 @@ void write_csv(const Results& results, const std::string& path) {
       for (std::size_t m = 0; m < results.methods.size(); ++m) {
         const Statistics s = statistics(results.samples[m], results.pairs, group_of(body_class, situation));
         file << letter(body_class) << ',' << letter(situation) << ",\"" << results.methods[m]->name() << "\"," << s.queries << ','
-             << text("%.6g", s.time) << ',' << text("%.6g", s.evaluations) << ',' << text("%.6g", s.median_error) << ','
-             << text("%.6g", s.worst_error) << ',' << s.inexact << ',' << s.failures << '\n';
+             << number(s.time) << ',' << number(s.evaluations) << ',' << number(s.median_error) << ',' << number(s.worst_error)
+             << ',' << s.inexact << ',' << s.failures << '\n';
       }
     }
   }

@@ -11,6 +11,7 @@
 #include "overlap.hpp"
 #include "random.hpp"
 #include "rocking.hpp"
+#include "text.hpp"
 
 namespace accuracy_cost {
 namespace {
