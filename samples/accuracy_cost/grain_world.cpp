@@ -174,10 +174,9 @@ Snapshot GrainWorld::snapshot() const {
   snapshot.velocities.reserve(kinds_.size());
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const falling_particles::Body& body = world_.bodies()[i];
-    const dReal* const q = dBodyGetQuaternion(body.body);
     const dReal* const v = dBodyGetLinearVel(body.body);
     const dReal* const w = dBodyGetAngularVel(body.body);
-    snapshot.placements.push_back({kinds_[i], body.position(), {q[0], q[1], q[2], q[3]}});
+    snapshot.placements.push_back({kinds_[i], body.position(), body.quaternion()});
     snapshot.velocities.push_back({v[0], v[1], v[2], w[0], w[1], w[2]});
   }
   return snapshot;

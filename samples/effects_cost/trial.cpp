@@ -21,9 +21,8 @@ std::vector<Placement> settle(const Scene& scene) {
   falling_particles::Stepper stepper(world, scene);
   for (int i = 0; i < scene.time.steps(); ++i) stepper.step();
   for (std::size_t i = 0; i < placements.size(); ++i) {
-    const dReal* const q = dBodyGetQuaternion(world.bodies()[i].body);
     placements[i].position = world.bodies()[i].position();
-    placements[i].quaternion = {q[0], q[1], q[2], q[3]};
+    placements[i].quaternion = world.bodies()[i].quaternion();
   }
   return placements;
 }

@@ -15,9 +15,8 @@ std::string in_brackets(std::span<const double> numbers) {
 }
 
 Leak leak_of(const Body& body, std::size_t index, double time) {
-  const dReal* q = dBodyGetQuaternion(body.body);
   const dReal* v = dBodyGetLinearVel(body.body);
-  return {time, index, body.grain->name, body.position(), {q[0], q[1], q[2], q[3]}, {v[0], v[1], v[2]}};
+  return {time, index, body.grain->name, body.position(), body.quaternion(), {v[0], v[1], v[2]}};
 }
 
 }  // namespace

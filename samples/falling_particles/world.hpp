@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <supernormal/effects.hpp>
@@ -26,10 +27,11 @@ struct Body {
     const dReal* p = dBodyGetPosition(body);
     return {p[0], p[1], p[2]};
   }
+  std::array<double, 4> quaternion() const {  ///< w, x, y, z
+    const dReal* q = dBodyGetQuaternion(body);
+    return {q[0], q[1], q[2], q[3]};
+  }
 };
-
-/// The geom of a grain. Throws std::runtime_error when the library refuses it.
-dGeomID create_geom(dSpaceID space, const Grain& grain);
 
 /// The body of a geom in a World; null for a wall.
 inline const Body* body_of(dGeomID geom) { return static_cast<const Body*>(dGeomGetData(geom)); }
