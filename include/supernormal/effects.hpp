@@ -95,7 +95,8 @@ struct Restitution {
 };
 
 /// A linear spring and damper for each pair that touches, in place of rigid contact: k depth + c approach velocity, never pulling.
-/// Springs, and dampers, of two materials are in series; a material without is rigid; listed for all they are those of the pair.
+/// Springs, and dampers, of two materials are in series, also where both are the same; a material without is rigid; listed for all
+/// they are those of the pair.
 /// The spring follows the deepest contact (contacts with depths of their own share its force in proportion to depth), the damper is
 /// shared equally by the corners of a flat contact. No row. Integrated as a leapfrog: of second order, and no damping of its own
 /// down to ten steps a contact. With fewer it is made implicit as far as stability asks, and loses energy: costs().coarse counts

@@ -171,7 +171,8 @@ class LawWriter {
     const auto [first, second] = find_sides<Compliance>(list_, a_, b_);
     if (first == nullptr && second == nullptr) return;
     require_alone("compliance", "restitution", dContactBounce, "its damping decides how it rebounds");
-    const bool two_springs = first != nullptr && second != nullptr && first != second;
+    const bool are_materials = first != nullptr && second != nullptr && !first->on.is_pair();
+    const bool two_springs = are_materials && !(first->on.is_all() && second->on.is_all());
     const Compliance& one = first != nullptr ? *first : *second;
     law_.stiffness = two_springs ? in_series(first->stiffness, second->stiffness) : one.stiffness;
     law_.damping = two_springs ? in_series(first->damping, second->damping) : one.damping;

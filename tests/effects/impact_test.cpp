@@ -126,6 +126,34 @@ TEST_CASE("spring and damper: contact time, overlap and rebound") {
   }
 }
 
+TEST_CASE("springs of two materials are in series, also where both are the same; a pair and all have one") {
+  struct Case {
+    std::vector<fx::Effect> list;
+    fx::Material of_plane;
+    double stiffness;
+  };
+  const double k = 3000;
+  const std::vector<Case> cases = {
+      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}, fx::Compliance{2 * k, 0, fx::Surfaces::of(2)}}, 2, 2 * k / 3},
+      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}}, 2, k},
+      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}}, 1, k / 2},
+      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}, fx::Compliance{2 * k, 0, {}}}, 2, 2 * k / 3},
+      {{fx::Compliance{k, 0, fx::Surfaces::between(1, 2)}}, 2, k},
+      {{fx::Compliance{k, 0, {}}}, 1, k},
+  };
+  const double v = 0.4;
+  const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
+  const double step = std::numbers::pi / std::sqrt(k / mass) / 100;
+  for (const Case& c : cases) {
+    OdeSession session;
+    EffectsWorld scene(c.list, step);
+    scene.material_of = [&](dGeomID geom) { return dGeomGetBody(geom) != nullptr ? 1 : c.of_plane; };
+    scene.world.add_plane();
+    const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-5}), v, step);
+    CHECK(found.overlap == relative(v / std::sqrt(c.stiffness / mass)).epsilon(0.005));
+  }
+}
+
 TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
   const double v = 0.5;
   const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
