@@ -47,7 +47,7 @@ csv = folder."/partners.csv"
 partners = "dPlane dBox dCapsule dTriMesh"
 methods = "'Supernormal' 'Supernormal (warm)' 'dConvex' 'dTriMesh'"
 colours = "#0b5394 #6fa8dc #38761d #cc0000"
-partner_error(p, m) = strcol(1) eq p && strcol(2) eq m ? shown(column(7)) : NaN
+partner_error(p, m) = word(strcol(1), 1) eq p && strcol(2) eq m ? shown(column(7)) : NaN
 set output folder."/partners.svg"
 set multiplot layout 2,2 title "A superellipsoid against ODE's geoms: exact, and as a polyhedron of 32 to 1922 vertices"
 set yrange [0.01:1000]

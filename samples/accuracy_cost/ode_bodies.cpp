@@ -45,9 +45,9 @@ std::string name_of(PartnerClass partner) {
     case PartnerClass::Cylinder:
       return "dCylinder";
     case PartnerClass::Convex:
-      return "dConvex, 20 triangles";
+      return "dConvex of 20 triangles";
     case PartnerClass::Trimesh:
-      return "dTriMesh, 3200 triangles";
+      return "dTriMesh of 3200 triangles";
     case PartnerClass::Ray:
       return "dRay";
     case PartnerClass::Itself:
