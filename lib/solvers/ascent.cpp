@@ -194,9 +194,7 @@ void Ascent::probe_step(const LocalModel& local, const CuttingPlanes::Maximum& t
   step = {current().n + local.plane1.lift(u), u.norm(), rise};
 }
 
-double Ascent::distance_that_matters() const {
-  return current().s < 0 ? kProbe * std::sqrt(tolerance_ / -current().s) : std::numeric_limits<double>::infinity();
-}
+double Ascent::distance_that_matters() const { return kProbe * std::sqrt(tolerance_ / -current().s); }
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const auto [newton, whole_gain] = local.model.peak(radius_, gap_.rounding());

@@ -73,7 +73,7 @@ class Ascent {
   bool is_slight(const LocalModel& local, const Vector2& newton) const;
   void leave_face(const LocalModel& local, Step& step);
   void cut_step(const LocalModel& local, Step& step);
-  /// Gnomonic; a normal that is turned so far from one with an overlap gains about the tolerance, if nothing holds it.
+  /// Of bodies that overlap, gnomonic: a normal that is turned so far gains about the tolerance, if nothing holds it.
   double distance_that_matters() const;
   void probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step);
   Symmetric2 curvature_that_counts(const Symmetric2& A, std::span<const Piece> pieces) const;

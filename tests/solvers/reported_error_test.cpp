@@ -42,6 +42,17 @@ double excess_around(const Shape& shape1, const Pose& pose1, const Shape& shape2
   return excess;
 }
 
+/// What a rough answer reports must cover what an exact one finds.
+void check_rough_answers(const Shape& body, const Pose& pose2) {
+  const Proximity exact = find_proximity(body, {}, body, pose2, {});
+  Settings settings;
+  for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    settings.tolerance = tolerance;
+    const Proximity rough = find_proximity(body, {}, body, pose2, settings);
+    CHECK(exact.gap <= rough.gap + rough.error + exact.error);
+  }
+}
+
 Pose pose_of(const Vector3& position, double w, double x, double y, double z) {
   return {position, Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix()};
 }
@@ -181,13 +192,7 @@ TEST_CASE("needles tip to tip, roughly: two evaluations do not tell how far s ri
   Pose pose2{Vector3(1.183667999427793, 0.081650939054187716, -0.97954861724386533), Matrix3::Identity()};
   pose2.rotation << 9, -32, -36, 4, -36, 33, -48, -9, -4;
   pose2.rotation /= 49;
-  const Proximity exact = find_proximity(needle, {}, needle, pose2, {});
-  Settings settings;
-  for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
-    settings.tolerance = tolerance;
-    const Proximity loose = find_proximity(needle, {}, needle, pose2, settings);
-    CHECK(exact.gap <= loose.gap + loose.error + exact.error);
-  }
+  check_rough_answers(needle, pose2);
 }
 
 // The slope of the cut there is rounding: it must not be taken for a sign that s falls in all directions.
@@ -219,13 +224,7 @@ TEST_CASE("needles tip to tip, after a long step: it tells no contraction") {
   const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
   const Pose pose2 = pose_of({1.1836648306002431, 0.081643334851451546, -0.9796003455933715}, -0.3030032323743363,
                              0.7070555157317914, -0.20201529605587054, -0.606177662903718);
-  const Proximity exact = find_proximity(needle, {}, needle, pose2, {});
-  Settings settings;
-  for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
-    settings.tolerance = tolerance;
-    const Proximity loose = find_proximity(needle, {}, needle, pose2, settings);
-    CHECK(exact.gap <= loose.gap + loose.error + exact.error);
-  }
+  check_rough_answers(needle, pose2);
 }
 
 // The climb ends in an overlap, after many steps along the edges, although another normal shows that the bodies are apart.
