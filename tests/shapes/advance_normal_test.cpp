@@ -63,9 +63,7 @@ TEST_CASE("advance_normal is n + dn exactly where there are no flat faces") {
 }
 
 TEST_CASE("superellipsoid: without a step the boundary point gives its normal back, digit by digit near the planes too") {
-  std::vector<Vector3> normals = singular_normals();
-  const std::vector<Vector3> random = random_normals(100, 22);
-  normals.insert(normals.end(), random.begin(), random.end());
+  const std::vector<Vector3> normals = all_normals(100, 22);
   for (const Superellipsoid& shape : superellipsoids(2.4, 1000)) {
     const double largest_exponent = std::max(shape.delta(), shape.epsilon());
     for (const Vector3& n : normals) {
@@ -83,9 +81,7 @@ TEST_CASE("superellipsoid: without a step the boundary point gives its normal ba
 }
 
 TEST_CASE("flat superellipsoid: the advanced normal is that of the moved point") {
-  std::vector<Vector3> normals = singular_normals();
-  const std::vector<Vector3> random = random_normals(100, 23);
-  normals.insert(normals.end(), random.begin(), random.end());
+  const std::vector<Vector3> normals = all_normals(100, 23);
   const std::vector<Vector3> steps = random_normals(static_cast<int>(normals.size()), 24);
   int checked = 0;
   for (const Superellipsoid& shape : superellipsoids(2.4, 200)) {

@@ -23,14 +23,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Directions in general and along faces, edges and rims.
-std::vector<Vector3> all_normals(unsigned seed) {
-  std::vector<Vector3> normals = singular_normals();
-  const std::vector<Vector3> random = random_normals(100, seed);
-  normals.insert(normals.end(), random.begin(), random.end());
-  return normals;
-}
-
 /// h, r and the corners against points that cover the boundary, the farthest of which is within `grain` of the true maximum.
 void check_against(const Shape& shape, const std::vector<Vector3>& boundary, const std::vector<Vector3>& normals, double grain) {
   const double size = shape.half_extents().norm();
@@ -55,7 +47,7 @@ void check_against(const Shape& shape, const std::vector<Vector3>& boundary, con
 }
 
 std::vector<Vector3> normals_of_test(unsigned seed) {
-  std::vector<Vector3> normals = all_normals(seed);
+  std::vector<Vector3> normals = all_normals(100, seed);
   // A hundred will do for comparisons of each with each.
   std::vector<Vector3> few;
   for (std::size_t i = 0; i < normals.size(); i += 9) few.push_back(normals[i]);

@@ -67,6 +67,14 @@ inline std::vector<Vector3> singular_normals() {
   return normals;
 }
 
+/// The singular ones and `count` random ones.
+inline std::vector<Vector3> all_normals(int count, unsigned seed) {
+  std::vector<Vector3> normals = singular_normals();
+  const std::vector<Vector3> random = random_normals(count, seed);
+  normals.insert(normals.end(), random.begin(), random.end());
+  return normals;
+}
+
 /// Superellipsoids of all exponents up to `max_exponent` and from `min_exponent`, in four proportions (aspect ratios up to 100).
 inline std::vector<Superellipsoid> superellipsoids(double min_exponent, double max_exponent) {
   const Vector3 proportions[] = {{1, 1, 1}, {3, 2, 1}, {0.01, 1, 0.3}, {0.5, 0.02, 2}};

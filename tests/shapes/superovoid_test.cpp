@@ -55,13 +55,6 @@ std::vector<Superovoid> superovoids(double min_exponent, double max_exponent, co
 
 const std::vector<Tapers> kTapers = {{0.3, 0.3}, {-0.9, -0.9}, {1, 1}, {0.5, -0.2}, {0, 0.7}};
 
-std::vector<Vector3> all_normals(int count, unsigned seed) {
-  std::vector<Vector3> normals = singular_normals();
-  const std::vector<Vector3> random = random_normals(count, seed);
-  normals.insert(normals.end(), random.begin(), random.end());
-  return normals;
-}
-
 /// Left side of the implicit equation, in extended precision.
 Real implicit(const Superovoid& shape, const Vector3& point) {
   const Real z = Real{point.z()} / Real{shape.half_axes().z()};

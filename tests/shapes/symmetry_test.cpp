@@ -28,17 +28,10 @@ bool has_equal_sides(const Shape& shape, const std::vector<Vector3>& normals) {
   return std::ranges::all_of(normals, [&](const Vector3& n) { return shape.support(n) == shape.support(-n); });
 }
 
-std::vector<Vector3> all_normals() {
-  std::vector<Vector3> normals = singular_normals();
-  const std::vector<Vector3> random = random_normals(300, 1);
-  normals.insert(normals.end(), random.begin(), random.end());
-  return normals;
-}
-
 }  // namespace
 
 TEST_CASE("superellipsoids are symmetric about the origin") {
-  const std::vector<Vector3> normals = all_normals();
+  const std::vector<Vector3> normals = all_normals(300, 1);
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
     CHECK(shape.is_symmetric());
     if (!has_equal_sides(shape, normals)) FAIL_CHECK(text(shape));
@@ -72,7 +65,7 @@ TEST_CASE("a shape is symmetric about the origin if it says so; others are not")
       std::make_shared<MinkowskiSum>(grain, egg),
       std::make_shared<MinkowskiSum>(egg, box),
   };
-  const std::vector<Vector3> normals = all_normals();
+  const std::vector<Vector3> normals = all_normals(300, 1);
   for (const auto& shape : symmetric) {
     CHECK(shape->is_symmetric());
     CHECK(has_equal_sides(*shape, normals));
