@@ -4,6 +4,7 @@
 #include "contact/mesh_samples.hpp"
 #include "relative.hpp"
 #include "supernormal/solvers/plane.hpp"
+#include "z_axis_to.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -43,9 +44,8 @@ const Superellipsoid kTip({0.5, 0.5, 1.5}, 1.02, 1.02);
 
 // With the tip along (1, 1, 1), nearly, that far beyond the planes x = 3, y = 4, z = 5.
 Pose pressed_into_corner(Draw& draw, const Vector3& depths) {
-  const Vector3 target = Vector3::Ones() + draw.in_box({0.1, 0.1, 0.1});
   Pose pose;
-  pose.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), target).toRotationMatrix();
+  pose.rotation = z_axis_to(Vector3::Ones() + draw.in_box({0.1, 0.1, 0.1}));
   for (int axis = 0; axis < 3; ++axis) {
     pose.position[axis] = Vector3(3, 4, 5)[axis] + depths[axis] - kTip.support(pose.rotation.transpose() * Vector3::Unit(axis));
   }
@@ -74,8 +74,7 @@ TEST_CASE("a sharp tip pressed into a corner of three walls is held by all of th
   for (int axis = 0; axis < 3; ++axis) {
     Pose wall;
     wall.position = Vector3(3, 4, 5)[axis] * Vector3::Unit(axis);
-    wall.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), -Vector3::Unit(axis)).toRotationMatrix();
-    wall.rotation = wall.rotation.array().round();
+    wall.rotation << Vector3::Unit((axis + 2) % 3), Vector3::Unit((axis + 1) % 3), -Vector3::Unit(axis);
     for (const MeshTriangle& triangle : floor_mesh(8, 2).placed(wall)) crossing.push_back(triangle);
   }
   for (int i = 0; i < 300; ++i) {

@@ -14,9 +14,11 @@
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/solve.hpp"
+#include "z_axis_to.hpp"
 
 using namespace supernormal;
 using supernormal::test::without_hessian;
+using supernormal::test::z_axis_to;
 
 namespace {
 
@@ -86,8 +88,7 @@ TEST_CASE("apex on a flat top: a step that ends beside infinite curvature is no 
   const Superellipsoid apex(Vector3(0.611306, 1.00865, 0.507747), 3.33016, 1.31775);
   const Superellipsoid top(Vector3(0.658949, 1.03858, 0.716509), 1.33293, 3.87141);
   const Vector3 n(-6.1304644873200358e-07, -7.8583620252973426e-08, 1);
-  const Pose pose2{Vector3(0.0043862700608445059, 5.6630166193835717e-05, 1.2252065452805536),
-                   Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), n).toRotationMatrix()};
+  const Pose pose2{Vector3(0.0043862700608445059, 5.6630166193835717e-05, 1.2252065452805536), z_axis_to(n)};
   const Proximity answer = find_proximity(apex, {}, top, pose2, {});
   CHECK(answer.status == Status::Converged);
   for (int i = -200; i <= 200; ++i) {
