@@ -21,13 +21,14 @@ std::optional<HardCase> rescaled(const HardCase& one, double unit) {
   }
 }
 
-/// Whether every coordinate keeps its digits on the way to a normal: none is so small that a quotient may be denormal.
+/// Whether every coordinate keeps its digits on the way to a normal, and of the normals to a boundary point: none is so small that
+/// a quotient, or a tilt times a component of a normal that is rounding itself, may be denormal.
 bool keeps_digits(const HardCase& one) {
   constexpr double kLeast = 1e3 * std::numeric_limits<double>::min();
+  constexpr double kLeastTilt = kLeast / std::numeric_limits<double>::epsilon();
+  const auto is_less = [](const auto& numbers, double least) { return (numbers != 0 && numbers.abs() < least).any(); };
   for (const Pose* pose : {&one.pose1, &one.pose2}) {
-    for (const double x : pose->position) {
-      if (x != 0 && std::abs(x) < kLeast) return false;
-    }
+    if (is_less(pose->position.array(), kLeast) || is_less(pose->rotation.array(), kLeastTilt)) return false;
   }
   return true;
 }
