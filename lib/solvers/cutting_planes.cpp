@@ -30,11 +30,11 @@ struct Cut {
 /// two neighbours on a rim, the product would cancel.
 Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
   const Vector2 edge = b - a;
+  // Asked of each end by itself: their difference drowns in the rounding of a long segment.
+  if (!(a.dot(edge) < 0)) return a;
+  if (!(b.dot(edge) > 0)) return b;
   const double squared = edge.squaredNorm();
-  const double share = -a.dot(edge);
-  if (!(share > 0)) return a;
-  if (share >= squared) return b;
-  if (squared < kShort * a.squaredNorm()) return a + share / squared * edge;
+  if (squared < kShort * a.squaredNorm()) return a - a.dot(edge) / squared * edge;
   return (a.x() * b.y() - a.y() * b.x()) / squared * Vector2(edge.y(), -edge.x());
 }
 

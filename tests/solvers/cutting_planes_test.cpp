@@ -138,6 +138,17 @@ TEST_CASE("cuts of a flat face, steep one way and gentle the other, are climbed 
   }
 }
 
+TEST_CASE("maximize goes on where the gentle cut is all but across a steep one") {
+  // Whether the ridge of the two rises along the gentle slope or beside it is less than the rounding of the steep one.
+  const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
+  CuttingPlanes cuts;
+  cuts.add(3.68e-5 * plane.n + plane.lift({-1.5504933237218308, -2.9551042409240947e-07}));
+  cuts.add(3.68e-5 * plane.n + plane.lift({2.6352787137355293e-16, -2.9455823693878426e-07}));
+  const CuttingPlanes::Maximum top = cuts.maximize(plane, kRadius);
+  CHECK_FALSE(top.is_interior);
+  CHECK(top.value == relative(3.68e-5 + 2.9455823693878426e-07 * kRadius));
+}
+
 TEST_CASE("one level cut has its maximum where it stands") {
   const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
   CuttingPlanes cuts;
