@@ -18,6 +18,9 @@ constexpr double kMaxRadius = 4;
 // A trust radius below the spacing of double-precision directions: no normal is left to try.
 constexpr double kNoRadius = 1e-15;
 
+// A step below the spacing of double-precision directions, about: what has changed with it is rounding.
+constexpr double kSpacing = 1e-14;
+
 // A step of this share of the trust radius is held back by it: the model beyond has just been found wrong.
 constexpr double kAtRim = 0.98;
 
@@ -97,6 +100,13 @@ bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
   if (!(height > kGrazing * direction.norm())) return false;
   u = plane.project(direction) / height;
   return true;
+}
+
+/// Of at least one piece; before curvature.
+double lowest_rise(std::span<const Piece> pieces, const Vector2& u) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces) lowest = std::min(lowest, piece.value + piece.slope.dot(u));
+  return lowest;
 }
 
 }  // namespace
@@ -202,7 +212,7 @@ Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   error_ = std::max(error_, unseen_gain(local.model.g, true));
   Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && !is_slight(local, newton) &&
-      flat_step(local, {0, local.model.g, newton, nullptr}, step) == FlatStep::LeavesFace) {
+      flat_step(local, {0, local.model.g, newton, nullptr, {}}, step) == FlatStep::LeavesFace) {
     leave_face(local, step);
   }
   return step;
@@ -220,7 +230,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
   estimate_error(local.model.A, whole_gain, peak.u.norm());
 
-  Target target{0, Vector2::Zero(), peak.u, &peak};
+  Target target{0, Vector2::Zero(), peak.u, &peak, pieces};
   for (std::size_t i = 0; i < peak.count; ++i) {
     target.value += peak.weight[i] * pieces[peak.active[i]].value;
     target.slope += peak.weight[i] * pieces[peak.active[i]].slope;
@@ -278,6 +288,7 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
   constexpr double kMost = 1 / (1 - kSlowestContraction);
   const double curvature = std::abs(A.xx + A.yy);
   double gains = kMost;
+  bool is_elsewhere = false;
   const bool is_rounding = whole_gain <= gap_.rounding();
   const bool is_slow = promised_gain_ > 0 && whole_gain > kSlowShare * promised_gain_ && !is_rounding;
   slow_steps_ = is_slow ? slow_steps_ + 1 : 0;
@@ -288,14 +299,16 @@ void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_
     const double of_steps = is_rounding ? 0 : contraction_of(promised_step_, step_length);
     const double contraction = std::max(contraction_of(promised_gain_, whole_gain), of_steps);
     const auto [low, high] = std::minmax(curvature, promised_curvature_);
-    const double change = is_rounding ? 1 : high < kMost * low ? high / low : kMost;
+    is_elsewhere = !(high < kMost * low) && step_length > kSpacing;
+    const double change = is_elsewhere ? kMost : is_rounding ? 1 : high / low;
     gains = std::min(change / (1 - contraction), kMost);
   }
   promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
   promised_curvature_ = curvature;
   promised_step_ = step_length;
   error_ = kGainSafety * gains * whole_gain;
-  if ((is_slow || gains == kMost) && error_ <= tolerance_ && !is_rounding && has_tips()) error_ *= kTipSafety;
+  const bool is_at_tip = (is_slow || gains == kMost) && !is_rounding && has_tips();
+  if ((is_at_tip || is_elsewhere) && error_ <= tolerance_) error_ *= kTipSafety;
 }
 
 bool Ascent::has_tips() const {
@@ -346,6 +359,9 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
   Vector2 u = blend(local.A1, local.A2, u1, u2);
   if (!all_finite(u)) return FlatStep::None;
   if (target.peak != nullptr) {
+    // An edge holds the normal only while the point of body 1 stays between its corners: where this turn rises for all of them, it
+    // does not.
+    error_ = std::max(error_, kCornerSafety * lowest_rise(target.pieces, u));
     const Vector3 normal = known_.shared_normal(*target.peak, current().n + local.plane1.lift(u));
     if (!to_plane(local.plane1, normal, u)) return FlatStep::LeavesFace;
   }

@@ -50,6 +50,7 @@ class Ascent {
     Vector2 slope;                     ///< m
     Vector2 newton;                    ///< where the model has its maximum
     const PiecewiseModel::Peak* peak;  ///< null for a smooth body 2
+    std::span<const Piece> pieces;     ///< of which the peak tells; none for a smooth body 2
   };
 
   const GapJet& current() const { return jets_[now_]; }

@@ -12,7 +12,9 @@ constexpr double kAcross = 0.95;
 }  // namespace
 
 void SecantCurvature::restart(const GapJet& jet) {
-  H_ = Matrix3::Identity() * std::abs(jet.jet1.h + jet.jet2.h);
+  const double size = std::abs(jet.jet1.h + jet.jet2.h);
+  H_ = Matrix3::Identity() * size;
+  rounding_ = std::numeric_limits<double>::epsilon() * size;
   along_.setZero();
   reach_along_ = reach_across_ = std::numeric_limits<double>::infinity();
 }
@@ -23,10 +25,11 @@ void SecantCurvature::update(const GapJet& from, const GapJet& to) {
   const Vector3 predicted = H_ * dn;
   const double slope = change.dot(dn);
   const double predicted_slope = predicted.dot(dn);
-  // Rounding can make a vanishing slope negative, or the update larger than the estimate is good for: skip it then.
-  const double least = std::numeric_limits<double>::epsilon() * std::abs(predicted_slope);
-  if (!(slope > least) || !(predicted_slope > 0)) return;
+  // Rounding can make a vanishing slope negative, or the update larger than the estimate is good for, or all that was seen: skip it
+  // then.
   const double length = dn.norm();
+  const double least = std::max(std::numeric_limits<double>::epsilon() * predicted_slope, rounding_ * length);
+  if (!(slope > least) || !(predicted_slope > 0)) return;
   if (std::abs(along_.dot(dn)) < kAcross * length) reach_across_ = reach_along_;
   along_ = dn / length;
   reach_along_ = length;

@@ -26,6 +26,7 @@ class SecantCurvature {
 
  private:
   Matrix3 H_ = Matrix3::Identity();
+  double rounding_ = 0;              // m; of a boundary point
   Vector3 along_ = Vector3::Zero();  // unit; the way of the last update
   double reach_along_ = 0, reach_across_ = 0;
 };

@@ -281,3 +281,56 @@ TEST_CASE("apex on a rounded edge: one direction converges fast, and does not te
   CHECK(answer.status == Status::Converged);
   CHECK(answer.gap + answer.error >= -4.4543813082498218e-11 - 1e-15);  // the bodies were placed with that
 }
+
+// The faces are parallel but for rounding: the model of the flat face, far from where it ends, sees the body's point between the
+// corners of the edge.
+TEST_CASE("a box's corner over the rim of a flat face: the edge does not hold the normal, and the bodies are apart") {
+  const Superellipsoid body1(Vector3(1.0106766395349354, 1.1199663975031902, 0.93721208263966826), 50.378808016519002,
+                             93.708399580680634);
+  const Box box(Vector3(1.4393928801921916, 0.63778120268802896, 0.63705217643466394));
+  const Pose pose2 = pose_of({-2.4131399614737408, 0.63778120268802918, 1.5739590135933721}, 1, 8.022369665304116e-16,
+                             -4.886896275868019e-16, -4.165030878349209e-16);
+  const Proximity answer = find_proximity(body1, {}, box, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(answer.gap == test::relative(5.0747044678667308e-06).epsilon(1e-3));
+}
+
+// The steps end at the rounding of the boundary points: the differences between those are no curvature.
+TEST_CASE("vertex in vertex without a Hessian, as exactly as can be: rounding is not taken for a curvature that holds") {
+  const Superellipsoid body1(Vector3(0.57808874109912955, 0.65892262340956331, 1.129978841879919), 1.0347375952555244,
+                             1.0686434521814809);
+  const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(0.95570924194021956, 0.99097304158845334, 1.1201359115970475), 1.0536246603371802, 1.2957508292981013));
+  Pose pose2{Vector3(-2.7549160037065582e-15, -6.8192142169786934e-15, 2.2501139455497614), Matrix3::Identity()};
+  pose2.rotation << 1, -1.4011441413626117e-14, -2.4594479787534914e-15,  //
+      1.4011441413626117e-14, 1, -6.0878453644577068e-15,                 //
+      2.4594479787534914e-15, 6.0878453644577068e-15, 1;
+  Settings settings;
+  settings.tolerance = 1e-15;
+  CHECK(excess_around(body1, {}, body2, pose2, find_proximity(body1, {}, body2, pose2, settings)) <= 1e-15);
+}
+
+// What the model promises is rounding, but only because it was made of another curvature than that of the normals around.
+TEST_CASE("concentric bodies of exponents 50 and 2, as exactly as can be: a curvature that has just changed promises nothing") {
+  const Superellipsoid body(Vector3(1, 0.8, 0.5), 50, 2);
+  const Pose pose2 = pose_of({2.2943614940614911e-06, 3.504289014228068e-08, -1.0213569298247613e-06}, 1, -1.5533454596453008e-12,
+                             7.621408478987834e-13, 3.7524472547362336e-13);
+  Settings settings;
+  settings.tolerance = 1e-12;
+  CHECK(excess_around(body, {}, body, pose2, find_proximity(body, {}, body, pose2, settings)) <= 1e-15);
+}
+
+// Out of a plane of symmetry both are flat, but not for as far as the overlap is deep: s rises again beyond.
+TEST_CASE("deep in one another on a plane of symmetry, roughly: no more is claimed than was asked for") {
+  const Superellipsoid body1(Vector3(0.73002180059886235, 0.56683809566604848, 0.62266994040512536), 2.119437673850507,
+                             1.3131646722902539);
+  const Superellipsoid body2(Vector3(0.65528541551416686, 1.092746153907642, 0.92671333436035175), 2.8873780785639553,
+                             1.7148107806140822);
+  const Pose pose2{Vector3(5.2657600938117704e-191, -1.1903173577266656e-57, -1.3187070210755167), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-3;
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
+  CHECK_FALSE(answer.is_global);
+  CHECK(gap_at(body1, {}, body2, pose2, Vector3(0.058365145784997553, 0.023409028784580899, -0.99802080495792211)) <=
+        answer.gap + answer.error);
+}

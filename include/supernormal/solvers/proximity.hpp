@@ -37,7 +37,8 @@ struct Settings {
 /// The common normal of two bodies. Points and the normal are in the frame that the query was asked in.
 struct Proximity {
   double gap = 0;                                     ///< m; distance when positive, minus the penetration depth when negative
-  double error = 0;                                   ///< m; bound on |gap - the local maximum of the gap function|
+  double error = 0;                                   ///< m; bound on |gap - the local maximum of the gap function|. Where that is
+                                                      ///< not proved to be the only one, it is not less than the tolerance
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, from body 1 to body 2
   Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
   Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
