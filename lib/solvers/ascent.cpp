@@ -18,12 +18,6 @@ constexpr double kMaxRadius = 4;
 // A trust radius below the spacing of double-precision directions: no normal is left to try.
 constexpr double kNoRadius = 1e-15;
 
-// A step below the spacing of double-precision directions, about: what has changed with it is rounding.
-constexpr double kSpacing = 1e-14;
-
-// A step of this share of the trust radius is held back by it: the model beyond has just been found wrong.
-constexpr double kAtRim = 0.98;
-
 // Share of the promised gain that must come true for the trust region to grow, and below which it shrinks.
 constexpr double kGoodShare = 0.5;
 constexpr double kPoorShare = 0.1;
@@ -38,33 +32,8 @@ constexpr double kSlightTurn = 0.01;
 // its gain only, creeps along an edge between two flat faces: the step through the normal is tried.
 constexpr double kCreep = 1e-2;
 
-// Where s rises like a power of the distance from the maximum, however high, the gain to come is less than twice that of the
-// quadratic model; sums of different powers take a little more.
-constexpr double kGainSafety = 3;
-
 // A corner or an edge adds no curvature to that of a flat face: the step that rises to it may be so many times too short.
 constexpr double kCornerSafety = 3;
-
-// The gain to come is summed as a geometric series of the contraction of gains or steps, times the factor by which the curvature
-// has changed in the last step: where it grows or falls to infinity or nothing, the model knows as little. This is the slowest
-// contraction that is believed, and the one assumed before two steps have shown it.
-constexpr double kSlowestContraction = 0.95;
-
-// Towards the normals of a sharp tip, where the radii of curvature are 0, s may rise this much farther: unless the contraction is
-// fast.
-constexpr double kTipSafety = 10;
-
-// Steps that each promise more than this share of the last may zigzag across a ridge, which rises where they never look: beyond so
-// many in a row the cuts are asked, which meet on the ridge.
-constexpr double kSlowShare = 0.3;
-constexpr int kManySlowSteps = 4;
-
-// Steps longer than this (radians) reach to where the curvature may be another (two vertices of exponent 1.02 change theirs within
-// 1/50): the contraction is not believed.
-constexpr double kAsymptoticStep = 1e-3;
-
-// A step that came this far (radians) to the normals of a sharp tip says nothing of the contraction there.
-constexpr double kFarStep = 0.3;
 
 // Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-15;
@@ -85,9 +54,6 @@ constexpr double kNoWeight = 1e-12;
 
 // Corners that share a normal; more than this are coplanar, and any three of them know the normal.
 constexpr std::size_t kMaxTied = 24;
-
-/// At most the slowest that is believed; asked before dividing, which might overflow.
-double contraction_of(double before, double now) { return now < kSlowestContraction * before ? now / before : kSlowestContraction; }
 
 /// Of the solutions u1, u2 that the two bodies propose, each counted by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2).
 Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
@@ -119,13 +85,12 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
       rolling_radius_(gap.rolling_radius()),
       has_flat_faces_(gap.has_curvature() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())),
       has_kinks_(gap.shape2().has_kinks()),
-      known_(gap) {}
+      known_(gap),
+      to_come_(gap, tolerance) {}
 
 Status Ascent::climb(const Vector3& start, double worth) {
   radius_ = kFirstRadius;
-  promised_gain_ = 0;
-  slow_steps_ = 0;
-  grows_ = false;
+  to_come_.restart();
   evaluate(start, current(), corners_[now_]);
   if (!gap_.has_curvature()) secant_.restart(current());
   Status status = Status::Converged;
@@ -141,7 +106,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
       now_ = 1 - now_;
     } else {
-      promised_gain_ = 0;
+      to_come_.forget();
     }
   }
 }
@@ -167,12 +132,7 @@ LocalModel Ascent::local_model() const {
 Ascent::Step Ascent::choose_step() {
   const LocalModel local = local_model();
   Step step = has_kinks_ ? kinked_step(local) : smooth_step(local);
-  if (slow_steps_ >= kManySlowSteps) {
-    slow_steps_ = 0;
-    cut_step(local, step);
-  } else if (error_ > tolerance_ && (is_open_ || ruled_out(step))) {
-    cut_step(local, step);
-  }
+  if (to_come_.may_zigzag() || (error_ > tolerance_ && (is_open_ || ruled_out(step)))) cut_step(local, step);
   return step;
 }
 
@@ -181,7 +141,7 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   step = {current().n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current().s, 0.0)};
   // The cuts bound s over the whole plane where their maximum is not on the rim.
   if (!top.is_interior) return;
-  const double error = kGainSafety * step.gain + top.uncertainty;
+  const double error = GainToCome::kSafety * step.gain + top.uncertainty;
   const double turn = turn_gain();
   if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
     error_ = std::min(error_, turn < tolerance_ ? error + turn : std::max(error, turn));  // turn_gain() may end at the tolerance
@@ -198,7 +158,7 @@ void Ascent::probe_step(const LocalModel& local, const CuttingPlanes::Maximum& t
   const CuttingPlanes::Reach reach = cuts_.reach(local.plane1, top.u, current().s, matters);
   const double distance = top.u.norm() + reach.distance;
   const double rise = 0.5 * -current().s * distance * distance;
-  error_ = std::min(error_, error + kGainSafety * rise);
+  error_ = std::min(error_, error + GainToCome::kSafety * rise);
   if (error > tolerance_ || error_ <= tolerance_) return;
   const Vector2 u = top.u + std::min(reach.distance, matters) * reach.way;
   step = {current().n + local.plane1.lift(u), u.norm(), rise};
@@ -208,7 +168,7 @@ double Ascent::distance_that_matters() const { return kProbe * std::sqrt(toleran
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const auto [newton, whole_gain] = local.model.peak(radius_, gap_.rounding());
-  estimate_error(local.model.A, whole_gain, newton.norm());
+  error_ = to_come_.learn({whole_gain, newton.norm(), std::abs(local.model.A.xx + local.model.A.yy)}, radius_);
   error_ = std::max(error_, unseen_gain(local.model.g, true));
   Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && !is_slight(local, newton) &&
@@ -228,7 +188,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
   const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
-  estimate_error(local.model.A, whole_gain, peak.u.norm());
+  error_ = to_come_.learn({whole_gain, peak.u.norm(), std::abs(local.model.A.xx + local.model.A.yy)}, radius_);
 
   Target target{0, Vector2::Zero(), peak.u, &peak, pieces};
   for (std::size_t i = 0; i < peak.count; ++i) {
@@ -283,38 +243,6 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
           curvature * along.y() * along.y() + size * across.y() * across.y()};
 }
 
-// What the model says is still to come, and by how much it promised more the step before.
-void Ascent::estimate_error(const Symmetric2& A, double whole_gain, double step_length) {
-  constexpr double kMost = 1 / (1 - kSlowestContraction);
-  const double curvature = std::abs(A.xx + A.yy);
-  double gains = kMost;
-  bool is_elsewhere = false;
-  const bool is_rounding = whole_gain <= gap_.rounding();
-  const bool is_slow = promised_gain_ > 0 && whole_gain > kSlowShare * promised_gain_ && !is_rounding;
-  slow_steps_ = is_slow ? slow_steps_ + 1 : 0;
-  if (promised_gain_ > 0 || is_rounding) grows_ = step_length >= promised_step_ && !is_rounding;
-  const bool is_far = step_length >= std::min(kAsymptoticStep, kAtRim * radius_) || (promised_step_ > kFarStep && has_tips());
-  if (promised_gain_ > 0 && !is_far) {
-    // Where one direction converges fast, the gain hides that another is slow; the step tells it.
-    const double of_steps = is_rounding ? 0 : contraction_of(promised_step_, step_length);
-    const double contraction = std::max(contraction_of(promised_gain_, whole_gain), of_steps);
-    const auto [low, high] = std::minmax(curvature, promised_curvature_);
-    is_elsewhere = !(high < kMost * low) && step_length > kSpacing;
-    const double change = is_elsewhere ? kMost : is_rounding ? 1 : high / low;
-    gains = std::min(change / (1 - contraction), kMost);
-  }
-  promised_gain_ = std::isfinite(whole_gain) ? whole_gain : 0;
-  promised_curvature_ = curvature;
-  promised_step_ = step_length;
-  error_ = kGainSafety * gains * whole_gain;
-  const bool is_at_tip = (is_slow || gains == kMost) && !is_rounding && has_tips();
-  if ((is_at_tip || is_elsewhere) && error_ <= tolerance_) error_ *= kTipSafety;
-}
-
-bool Ascent::has_tips() const {
-  return gap_.shape1().sharpest_radius() == 0 || (!has_kinks_ && gap_.shape2().sharpest_radius() == 0);
-}
-
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
 // If they are as round as they seem it does; then no more is claimed than was asked for.
 double Ascent::turn_gain() const {
@@ -329,7 +257,7 @@ double Ascent::turn_gain() const {
 // the normals of a sharp tip. And with the turn itself.
 double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
   is_open_ = false;
-  if (gap_.has_curvature() && !grows_) return 0;
+  if (gap_.has_curvature() && !to_come_.steps_grow()) return 0;
   const double along_slope = kSecantReach * slope.norm();
   const double turn = is_held_by_curvature ? turn_gain() : 0;
   is_open_ = along_slope <= tolerance_ && turn > tolerance_;

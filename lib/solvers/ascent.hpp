@@ -6,6 +6,7 @@
 
 #include "solvers/curvature.hpp"
 #include "solvers/cutting_planes.hpp"
+#include "solvers/gain_to_come.hpp"
 #include "solvers/known_corners.hpp"
 #include "solvers/local_model.hpp"
 #include "supernormal/solvers/gap_function.hpp"
@@ -61,8 +62,6 @@ class Ascent {
   Step choose_step();
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
-  void estimate_error(const Symmetric2& A, double whole_gain, double step_length);
-  bool has_tips() const;
   double turn_gain() const;
   double unseen_gain(const Vector2& slope, bool is_held_by_curvature);
   enum class FlatStep {
@@ -95,17 +94,13 @@ class Ascent {
   const bool has_kinks_;
   SecantCurvature secant_;
   KnownCorners known_;
+  GainToCome to_come_;
   std::array<GapJet, 2> jets_;      // current and trial, which change places
   std::array<Corners, 2> corners_;  // theirs
   std::size_t now_ = 0;
-  double radius_ = 0;              // of the trust region, gnomonic
-  double promised_gain_ = 0;       // m; of the quadratic model at the last accepted normal; 0: no history
-  double promised_curvature_ = 0;  // m; the trace of its matrix
-  double promised_step_ = 0;       // gnomonic
-  int slow_steps_ = 0;             // in a row
-  bool grows_ = false;             // whether the next step is longer than the last
-  bool is_open_ = false;           // whether nothing is left but what a turn may gain that has not been seen
-  double error_ = 0;               // m
+  double radius_ = 0;     // of the trust region, gnomonic
+  bool is_open_ = false;  // whether nothing is left but what a turn may gain that has not been seen
+  double error_ = 0;      // m
 };
 
 }  // namespace supernormal

@@ -1,0 +1,82 @@
+#include "solvers/gain_to_come.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supernormal {
+namespace {
+
+// The slowest contraction that is believed, and the one assumed before two steps have shown it; and the sum of its series, which no
+// change of the curvature exceeds.
+constexpr double kSlowestContraction = 0.95;
+constexpr double kMost = 1 / (1 - kSlowestContraction);
+
+// Towards the normals of a sharp tip, and where the curvature has changed by more than kMost, s may rise this much farther: unless
+// the contraction is fast.
+constexpr double kTipSafety = 10;
+
+// Steps that each promise more than this share of the last may zigzag, when there are so many in a row.
+constexpr double kSlowShare = 0.3;
+constexpr int kManySlowSteps = 4;
+
+// Steps longer than this (radians) reach to where the curvature may be another (two vertices of exponent 1.02 change theirs within
+// 1/50): the contraction is not believed.
+constexpr double kAsymptoticStep = 1e-3;
+
+// A step that came this far (radians) to the normals of a sharp tip says nothing of the contraction there.
+constexpr double kFarStep = 0.3;
+
+// A step of this share of the trust radius is held back by it: the model beyond has just been found wrong.
+constexpr double kAtRim = 0.98;
+
+// A step below the spacing of double-precision directions, about: what has changed with it is rounding.
+constexpr double kSpacing = 1e-14;
+
+/// At most the slowest that is believed; asked before dividing, which might overflow.
+double contraction_of(double before, double now) { return now < kSlowestContraction * before ? now / before : kSlowestContraction; }
+
+/// Whether a body has a sharp tip, where the radii of curvature are 0: other than corners, which an ascent knows.
+bool has_tips(const GapFunction& gap) {
+  return gap.shape1().sharpest_radius() == 0 || (!gap.shape2().has_kinks() && gap.shape2().sharpest_radius() == 0);
+}
+
+}  // namespace
+
+void GainToCome::restart() {
+  last_.gain = 0;
+  slow_steps_ = 0;
+  steps_grow_ = false;
+}
+
+double GainToCome::learn(const Promise& now, double radius) {
+  const bool is_rounding = now.gain <= gap_.rounding();
+  const bool is_slow = last_.gain > 0 && now.gain > kSlowShare * last_.gain && !is_rounding;
+  slow_steps_ = is_slow ? slow_steps_ + 1 : 0;
+  if (last_.gain > 0 || is_rounding) steps_grow_ = now.step >= last_.step && !is_rounding;
+
+  double gains = kMost;
+  bool is_elsewhere = false;
+  const bool is_far = now.step >= std::min(kAsymptoticStep, kAtRim * radius) || (last_.step > kFarStep && has_tips(gap_));
+  if (last_.gain > 0 && !is_far) {
+    // Where one direction converges fast, the gain hides that another is slow; the step tells it.
+    const double of_steps = is_rounding ? 0 : contraction_of(last_.step, now.step);
+    const double contraction = std::max(contraction_of(last_.gain, now.gain), of_steps);
+    const auto [low, high] = std::minmax(now.curvature, last_.curvature);
+    const double change = high < kMost * low ? high / low : kMost;
+    is_elsewhere = change == kMost && now.step > kSpacing;
+    gains = std::min((is_rounding && !is_elsewhere ? 1 : change) / (1 - contraction), kMost);
+  }
+  last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
+
+  const double error = kSafety * gains * now.gain;
+  const bool is_at_tip = (is_slow || gains == kMost) && !is_rounding && has_tips(gap_);
+  return (is_at_tip || is_elsewhere) && error <= tolerance_ ? kTipSafety * error : error;
+}
+
+bool GainToCome::may_zigzag() {
+  if (slow_steps_ < kManySlowSteps) return false;
+  slow_steps_ = 0;
+  return true;
+}
+
+}  // namespace supernormal
