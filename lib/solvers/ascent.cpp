@@ -180,10 +180,16 @@ Ascent::Step Ascent::smooth_step(const LocalModel& local) {
 
 Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const std::span<const Piece> pieces = known_.pieces(current(), corners_[now_], local.plane1);
-  const PiecewiseModel model{pieces, curvature_that_counts(local.model.A, pieces)};
-  const bool is_concave = Eigen2(model.A).low > 0;
+  PiecewiseModel model{pieces, curvature_that_counts(local.model.A, pieces)};
+  bool is_concave = Eigen2(model.A).low > 0;
   PiecewiseModel::Peak peak;
-  if (is_concave) peak = model.maximize();
+  if (is_concave) {
+    peak = model.maximize();
+    if (model.A != local.model.A && !is_held(peak, pieces, local.model.A)) {
+      model.A = local.model.A;
+      is_concave = false;
+    }
+  }
   // Here the model is 0; where its matrix is as good as singular, rounding may leave it without a maximum that is not lower.
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
   const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
@@ -224,14 +230,7 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
   for (const Piece& piece : pieces) {
     if (piece.value <= gap_.rounding() && count < tied.size()) tied[count++] = {0, piece.slope};
   }
-  auto rest = PiecewiseModel{{tied.data(), count}, {1, 0, 1}}.maximize();
-  // Where the point of body 1 is beside a corner, or on an edge of the face, the others do not hold the normal.
-  // Nor where they hold it for less than the distance that matters: the turn itself gains more beyond.
-  const double least_slope = current().s < 0 ? -0.5 * current().s * distance_that_matters() : 0;
-  for (std::size_t i = rest.count; i-- > 0;) {
-    if (rest.weight[i] > kNoWeight && rest.weight[i] * tied[rest.active[i]].slope.norm() >= least_slope) continue;
-    rest.active[i] = rest.active[--rest.count];
-  }
+  const PiecewiseModel::Peak rest = holding({tied.data(), count});
   const double size = std::max(std::abs(A.xx) + std::abs(A.yy), gap_.length_unit());
   if (rest.count == 3) return {size, 0, size};
   if (rest.count == 1) return A;
@@ -276,6 +275,25 @@ bool Ascent::is_slight(const LocalModel& local, const Vector2& newton) const {
 void Ascent::leave_face(const LocalModel& local, Step& step) {
   error_ = std::numeric_limits<double>::infinity();
   cut_step(local, step);
+}
+
+// Where the point of body 1 is beside a corner, or on an edge of the face, the others do not hold the normal.
+// Nor where they hold it for less than the distance that matters: the turn itself gains more beyond.
+PiecewiseModel::Peak Ascent::holding(std::span<const Piece> tied) const {
+  auto rest = PiecewiseModel{tied, {1, 0, 1}}.maximize();
+  const double least_slope = current().s < 0 ? -0.5 * current().s * distance_that_matters() : 0;
+  for (std::size_t i = rest.count; i-- > 0;) {
+    if (rest.weight[i] > kNoWeight && rest.weight[i] * tied[rest.active[i]].slope.norm() >= least_slope) continue;
+    rest.active[i] = rest.active[--rest.count];
+  }
+  return rest;
+}
+
+// What holds the normal here need not do so at the peak: on the way along an edge the curvature turns the slopes as well.
+bool Ascent::is_held(const PiecewiseModel::Peak& peak, std::span<const Piece> pieces, const Symmetric2& A) const {
+  std::array<Piece, 3> tied;
+  for (std::size_t i = 0; i < peak.count; ++i) tied[i] = {0, pieces[peak.active[i]].slope - A * peak.u};
+  return holding({tied.data(), peak.count}).count == peak.count;
 }
 
 Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {

@@ -43,6 +43,7 @@ struct Symmetric2 {
   }
 
   Vector2 operator*(const Vector2& u) const { return {xx * u.x() + xy * u.y(), xy * u.x() + yy * u.y()}; }
+  bool operator==(const Symmetric2&) const = default;
   Symmetric2 operator+(const Symmetric2& o) const { return {xx + o.xx, xy + o.xy, yy + o.yy}; }
   Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
 

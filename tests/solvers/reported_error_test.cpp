@@ -5,11 +5,13 @@
 #include <cfenv>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "relative.hpp"
 #include "shapes/without_hessian.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
@@ -333,4 +335,26 @@ TEST_CASE("deep in one another on a plane of symmetry, roughly: no more is claim
   CHECK_FALSE(answer.is_global);
   CHECK(gap_at(body1, {}, body2, pose2, Vector3(0.058365145784997553, 0.023409028784580899, -0.99802080495792211)) <=
         answer.gap + answer.error);
+}
+
+// The edge holds the normal where the step begins. Where it ends, the tip's curvature, which is large one way only, has turned the
+// slopes: both corners rise the other way.
+TEST_CASE("an octahedron's tip beside a corner of a polytope: an edge that holds the normal here need not do so there") {
+  const Superellipsoid tip(Vector3(1.4246107994091295, 1.4552453147657094, 1.4980420995776373), 1.0611851224682807,
+                           1.1857292548358858);
+  const std::vector<Vector3> corners{{-0.22475503103533237, -1.0839390061168674, 0.1805641183498764},
+                                     {0.52294833316291045, 0.020090764293210203, -0.1466002124326875},
+                                     {-0.47532449665319415, 0.21874580023164641, 0.35950123906777054},
+                                     {0.29395868278280018, 0.79533662169481623, -0.46282027745092369},
+                                     {0.13644121938065543, 1.1629449333018775, -0.17109004755354093},
+                                     {0.075545205753441799, -1.1831437140554164, -0.20153666395955599},
+                                     {-0.2923423139466001, -0.87115665614451399, 0.38890632535536901}};
+  const Polytope polytope(corners);
+  Pose pose2{Vector3(1.5969316929970585, 0.74040962281354361, 0.72443197034332307), Matrix3::Identity()};
+  pose2.rotation << -0.86675865923410567, 0.41618509602994036, -0.27480791925496728,  //
+      0.32247637655485839, 0.88802063803451159, 0.32776261682630642,                  //
+      0.38044501995261348, 0.19547202425750937, -0.90390943933887935;
+  const Proximity answer = find_proximity(tip, {}, polytope, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(answer.gap + answer.global_error >= 2.9898827857977039e-10);  // the bodies were placed with that
 }
