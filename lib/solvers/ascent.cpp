@@ -98,7 +98,11 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (!current().is_finite()) return Status::InvalidInput;
     if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
     const Step step = choose_step();
-    if (finished(worth, status)) return status;
+    if (finished(worth, status)) {
+      // What was asked for is not reached: nothing is claimed of it.
+      if (status != Status::Converged) error_ = std::max(error_, unheld_turn_gain());
+      return status;
+    }
     evaluate(step.normal.normalized(), trial(), corners_[1 - now_]);
     if (!gap_.has_curvature()) learn_curvature();
     const double actual_gain = trial().s - current().s;
@@ -243,11 +247,15 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
 }
 
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
-// If they are as round as they seem it does; then no more is claimed than was asked for.
-double Ascent::turn_gain() const {
+double Ascent::unheld_turn_gain() const {
   if (gap_.has_curvature() || current().s >= 0) return 0;
   const double turn = std::min(kSecantReach, secant_.reach());
-  const double gain = -0.5 * turn * turn * current().s;
+  return -0.5 * turn * turn * current().s;
+}
+
+// If they are as round as they seem the curvature does hold it back; then no more is claimed than was asked for.
+double Ascent::turn_gain() const {
+  const double gain = unheld_turn_gain();
   const bool is_round = -current().s <= gap_.shape1().sharpest_radius() + gap_.shape2().sharpest_radius();
   return is_round ? std::min(gain, tolerance_) : gain;
 }

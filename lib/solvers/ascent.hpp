@@ -62,6 +62,7 @@ class Ascent {
   Step choose_step();
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
+  double unheld_turn_gain() const;
   double turn_gain() const;
   double unseen_gain(const Vector2& slope, bool is_held_by_curvature);
   enum class FlatStep {

@@ -358,3 +358,21 @@ TEST_CASE("an octahedron's tip beside a corner of a polytope: an edge that holds
   CHECK(answer.is_global);
   CHECK(answer.gap + answer.global_error >= 2.9898827857977039e-10);  // the bodies were placed with that
 }
+
+// Seen from five degrees aside they are as round as the overlap is deep, but not from nearer.
+TEST_CASE("vertex in vertex without a Hessian: what is not reached is not claimed to be round") {
+  const CallbackShape body1 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(0.51672908601276279, 0.98833782519962443, 0.98651173005067938), 1.1835505891400295, 1.1405561913876934));
+  const Superellipsoid body2(Vector3(0.7412565493429647, 0.53304009409860575, 0.71259252494090819), 1.1915695538026552,
+                             1.1332870028195809);
+  Pose pose2{Vector3(1.1480640582756675e-05, 5.4190503248488957e-06, -1.6991042540033008), Matrix3::Identity()};
+  pose2.rotation << 0.99999999978717513, 1.2887306830300617e-05, -1.6111087586427754e-05,  //
+      -1.2887429351539794e-05, 0.99999999988804134, -7.6046971237851132e-06,               //
+      1.6110989580560531e-05, 7.6049047526660086e-06, 0.99999999984130072;
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
+  CHECK(answer.status == Status::Stalled);
+  const Vector3 higher(0.00027239265596954397, 0.017589773913291116, -0.9998452508543112);
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+}
