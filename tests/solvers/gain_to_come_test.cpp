@@ -1,0 +1,95 @@
+// The estimate of what an ascent has still to gain, of sequences whose sum is known.
+#include "solvers/gain_to_come.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "relative.hpp"
+#include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+using namespace supernormal;
+using test::relative;
+
+namespace {
+
+constexpr double kTolerance = 1e-9;  // m
+constexpr double kRadius = 1;        // of the trust region
+// The sum of the slowest series that is believed, with the safety.
+constexpr double kMost = GainToCome::kSafety * 20;
+
+const Sphere kBall(1);
+const GapFunction kGap(kBall, {}, kBall, {Vector3(1.9, 0, 0), Matrix3::Identity()});
+
+}  // namespace
+
+TEST_CASE("gains that shrink by the same factor are summed") {
+  for (const double contraction : {1e-3, 0.1, 0.5, 0.9}) {
+    GainToCome to_come(kGap, kTolerance);
+    to_come.restart();
+    CHECK(to_come.learn({1e-4, 1e-4, 1}, kRadius) == relative(kMost * 1e-4));  // nothing has been shown
+    const double gain = contraction * 1e-4;
+    const double sum = gain / (1 - contraction);
+    CHECK(to_come.learn({gain, contraction * 1e-4, 1}, kRadius) == relative(GainToCome::kSafety * sum));
+    CHECK_FALSE(to_come.steps_grow());
+  }
+}
+
+TEST_CASE("steps that shrink more slowly than the gains tell the contraction, and so do curvatures that change") {
+  GainToCome to_come(kGap, kTolerance);
+  to_come.restart();
+  to_come.learn({1e-4, 1e-4, 1}, kRadius);
+  CHECK(to_come.learn({1e-6, 0.5e-4, 1}, kRadius) == relative(GainToCome::kSafety * 2 * 1e-6));
+  CHECK(to_come.learn({1e-8, 0.5e-6, 4}, kRadius) == relative(GainToCome::kSafety * 4 / (1 - 1e-2) * 1e-8));
+  // A hundred times another curvature: more than the slowest series, all the more where that would end the climb.
+  CHECK(to_come.learn({1e-10, 0.5e-8, 400}, kRadius) == relative(kMost * 1e-10));
+  CHECK(to_come.learn({1e-12, 0.5e-10, 4}, kRadius) == relative(10 * kMost * 1e-12));
+}
+
+TEST_CASE("no contraction is believed of long steps, of those at the rim of the trust region, and after one that did not rise") {
+  const double gain = 1e-6;
+  for (const double step : {2e-3, 0.99e-5}) {
+    GainToCome to_come(kGap, kTolerance);
+    to_come.restart();
+    to_come.learn({1e-4, 1e-2, 1}, kRadius);
+    CHECK(to_come.learn({gain, step, 1}, 1e-5) == relative(kMost * gain));
+  }
+  GainToCome to_come(kGap, kTolerance);
+  to_come.restart();
+  to_come.learn({1e-4, 1e-4, 1}, kRadius);
+  to_come.forget();
+  CHECK(to_come.learn({gain, 1e-6, 1}, kRadius) == relative(kMost * gain));
+}
+
+TEST_CASE("towards a sharp tip more may come than the slowest series says") {
+  const Superellipsoid tip(Vector3(1, 1, 1), 1.1, 1.1);
+  const GapFunction gap(tip, {}, kBall, {Vector3(1.9, 0, 0), Matrix3::Identity()});
+  GainToCome to_come(gap, kTolerance);
+  to_come.restart();
+  CHECK(to_come.learn({1e-12, 1e-2, 1}, kRadius) == relative(10 * kMost * 1e-12));
+  to_come.restart();
+  CHECK(to_come.learn({1e-6, 1e-2, 1}, kRadius) == relative(kMost * 1e-6));  // goes on in any case
+}
+
+TEST_CASE("steps that grow, and slow steps in a row, are told") {
+  GainToCome to_come(kGap, kTolerance);
+  to_come.restart();
+  double gain = 1e-4;
+  for (int k = 0; k < 4; ++k) {
+    to_come.learn({gain, 1e-4 * (k + 1), 1}, kRadius);
+    CHECK(to_come.steps_grow() == (k > 0));
+    CHECK_FALSE(to_come.may_zigzag());
+    gain *= 0.9;
+  }
+  to_come.learn({gain, 1e-4, 1}, kRadius);
+  CHECK(to_come.may_zigzag());
+  CHECK_FALSE(to_come.may_zigzag());
+}
+
+TEST_CASE("a model without a maximum promises no end, and is no history") {
+  GainToCome to_come(kGap, kTolerance);
+  to_come.restart();
+  CHECK(to_come.learn({std::numeric_limits<double>::infinity(), 0.5, 1}, kRadius) == std::numeric_limits<double>::infinity());
+  CHECK(to_come.learn({1e-6, 1e-6, 1}, kRadius) == relative(kMost * 1e-6));
+}
