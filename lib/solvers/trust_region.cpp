@@ -35,7 +35,7 @@ double find_largest_gain(const Vector2& g, const Eigen2& e, double rounding) {
 Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
   const double low = e.low_vector.dot(g);
   const double high = e.high_vector.dot(g);
-  const double slope = std::sqrt(low * low + high * high);
+  const double slope = std::hypot(low, high);  // may be too small to square
   if (slope == 0 && !(e.low < 0)) return Vector2::Zero();
   // Asked before dividing, which might overflow.
   if (e.low > 0 && std::abs(low) <= radius * e.low && std::abs(high) <= radius * e.high) {
@@ -63,8 +63,9 @@ Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
     const double length = u.norm();
     if (std::abs(length - radius) <= kRimTolerance * radius) break;
     (length > radius ? below : above) = shift;
-    const double fall = (u.x() * (u.x() / low_sum) + u.y() * (u.y() / high_sum)) / length;
-    double next = shift + (length / radius) * (length - radius) / fall;
+    const Vector2 way = u / length;
+    const double fall = way.x() * way.x() / low_sum + way.y() * way.y() / high_sum;  // of the length, relative to it
+    double next = shift + (length / radius - 1) / fall;
     if (!(next > below && next < above)) next = 0.5 * (below + above);
     shift = next;
   }

@@ -117,6 +117,16 @@ TEST_CASE("one radius of curvature beyond all measure leaves the other its digit
   }
 }
 
+TEST_CASE("one curvature is next to nothing, the other that over again: no overflow on the way to the rim") {
+  const QuadraticModel model{{1.2706869609825529e-225, 0},
+                             {8.8208958574947383e-211, 1.7849350496270764e-239, 3.6118702486213016e-268}};
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const Vector2 u = model.maximize(1);
+  CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
+  CHECK(u.norm() <= 1 + 1e-15);
+  CHECK(model.gain(u) >= 0);
+}
+
 TEST_CASE("eigenvalues and vectors") {
   std::mt19937_64 engine(62);
   std::normal_distribution<double> gauss;
