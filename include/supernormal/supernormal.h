@@ -131,7 +131,7 @@ SUPERNORMAL_API void snSetWarmStart(int on);
 
 typedef struct snProximity {
   dReal gap;               /* m; < 0: overlap depth = -gap */
-  dReal error;             /* m; bound on |gap - local maximum of s|; 0 for closed forms */
+  dReal error;             /* m; bound on |gap - local maximum of s|, >= tolerance unless is_global; 0 for closed forms */
   dVector3 normal;         /* unit, from g1 to g2, world frame */
   dVector3 point1, point2; /* m, world frame, on the two boundaries */
   int evaluations;         /* of the gap function; 0 for closed forms */
