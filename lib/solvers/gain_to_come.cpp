@@ -11,9 +11,12 @@ namespace {
 constexpr double kSlowestContraction = 0.95;
 constexpr double kMost = 1 / (1 - kSlowestContraction);
 
-// Towards the normals of a sharp tip, and where the curvature has changed by more than kMost, s may rise this much farther: unless
-// the contraction is fast.
+// Towards the normals of a sharp tip, where the curvature has changed by more than kMost, and where steps hardly shrink, s may rise
+// this much farther: unless the contraction is fast.
 constexpr double kTipSafety = 10;
+
+// Steps that shrink by less than this may cross a shelf, beyond which s rises as before.
+constexpr double kSlowSteps = 0.6;
 
 // Steps that each promise more than this share of the last may zigzag, when there are so many in a row.
 constexpr double kSlowShare = 0.3;
@@ -55,7 +58,7 @@ double GainToCome::learn(const Promise& now, double radius) {
   if (last_.gain > 0 || is_rounding) steps_grow_ = now.step >= last_.step && !is_rounding;
 
   double gains = kMost;
-  bool is_elsewhere = false;
+  bool is_unknown = false;
   const bool is_far = now.step >= std::min(kAsymptoticStep, kAtRim * radius) || (last_.step > kFarStep && has_tips(gap_));
   if (last_.gain > 0 && !is_far) {
     // Where one direction converges fast, the gain hides that another is slow; the step tells it.
@@ -63,14 +66,14 @@ double GainToCome::learn(const Promise& now, double radius) {
     const double contraction = std::max(contraction_of(last_.gain, now.gain), of_steps);
     const auto [low, high] = std::minmax(now.curvature, last_.curvature);
     const double change = high < kMost * low ? high / low : kMost;
-    is_elsewhere = change == kMost && now.step > kSpacing;
-    gains = std::min((is_rounding && !is_elsewhere ? 1 : change) / (1 - contraction), kMost);
+    is_unknown = (change == kMost && now.step > kSpacing) || of_steps > kSlowSteps;
+    gains = is_unknown ? kMost : std::min((is_rounding ? 1 : change) / (1 - contraction), kMost);
   }
   last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
 
   const double error = kSafety * gains * now.gain;
   const bool is_at_tip = (is_slow || gains == kMost) && !is_rounding && has_tips(gap_);
-  return (is_at_tip || is_elsewhere) && error <= tolerance_ ? kTipSafety * error : error;
+  return (is_at_tip || is_unknown) && error <= tolerance_ ? kTipSafety * error : error;
 }
 
 bool GainToCome::may_zigzag() {

@@ -376,3 +376,13 @@ TEST_CASE("vertex in vertex without a Hessian: what is not reached is not claime
   const Vector3 higher(0.00027239265596954397, 0.017589773913291116, -0.9998452508543112);
   CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
 }
+
+// Where the steps end s is nearly level, but rises more steeply again beyond.
+TEST_CASE("concentric bodies of exponents 50 and 2: a shelf is no maximum") {
+  const Superellipsoid body1(Vector3(1, 0.8, 0.5), 50, 2);
+  const Superellipsoid body2(Vector3(0.99999999999983802, 0.80000000000007532, 0.49999999999998263), 49.999999999989086,
+                             2.0000000000000786);
+  const Pose pose2{Vector3(0.0008700175882708197, -0.00046653732960186245, 0.00026086288847033262), Matrix3::Identity()};
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(excess_around(body1, {}, body2, pose2, answer) <= 1e-15);
+}
