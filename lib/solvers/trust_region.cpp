@@ -20,6 +20,9 @@ constexpr double kWellConditioned = 1e-6;
 // m; the square of a larger trace might overflow.
 constexpr double kMostTrace = 1e150;
 
+// m; shares of a smaller slope might underflow.
+constexpr double kNoSlope = 1e-290;
+
 // Where s is level as far as it goes, its slope may go on for a quarter turn (radians).
 constexpr double kQuarterTurn = 1.6;
 
@@ -36,7 +39,7 @@ Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
   const double low = e.low_vector.dot(g);
   const double high = e.high_vector.dot(g);
   const double slope = std::hypot(low, high);  // may be too small to square
-  if (slope == 0 && !(e.low < 0)) return Vector2::Zero();
+  if (slope < kNoSlope && !(e.low < 0)) return Vector2::Zero();
   // Asked before dividing, which might overflow.
   if (e.low > 0 && std::abs(low) <= radius * e.low && std::abs(high) <= radius * e.high) {
     const Vector2 newton(low / e.low, high / e.high);

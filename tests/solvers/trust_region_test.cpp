@@ -127,6 +127,12 @@ TEST_CASE("one curvature is next to nothing, the other that over again: no overf
   CHECK(model.gain(u) >= 0);
 }
 
+TEST_CASE("a denormal slope without curvature is none") {
+  std::feclearexcept(FE_ALL_EXCEPT);
+  CHECK(QuadraticModel{{1e-312, 0}, {0, 0, 0}}.maximize(1) == Vector2::Zero());
+  CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
+}
+
 TEST_CASE("eigenvalues and vectors") {
   std::mt19937_64 engine(62);
   std::normal_distribution<double> gauss;
