@@ -82,7 +82,7 @@ void hessian(const void* user, const dReal* n, dReal* H) {
   const double* const a = shape.half_axes;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      const double diagonal = i == j ? a[i] * (a[i] / h) : 0;
+      const double diagonal = h > 0 && i == j ? a[i] * (a[i] / h) : 0;
       H[3 * i + j] = h > 0 ? diagonal - a[i] * (a[i] * n[i] / h) * (a[j] * (a[j] * n[j] / h) / h) : 0;
     }
   }
