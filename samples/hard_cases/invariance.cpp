@@ -46,14 +46,17 @@ class SecondOpinions {
     report(how, found);
   }
 
-  /// In units of a power of two no digit may differ, but where a number of one of the two is so small that it loses some.
+  /// In units of a power of two no digit may differ. Where a number of one of the two is so small that it loses some, they may take
+  /// another way, but not to another gap.
   void compare_in_units(double unit) {
     Violations found;
     std::feclearexcept(FE_UNDERFLOW);
     const std::optional<HardCase> other = rescaled(one_, unit);
     if (!other) return;
     const Proximity second = solve(*other, settings_, found);
-    if (has_underflow_ || std::fetestexcept(FE_UNDERFLOW) != 0) {
+    const bool has_underflow = has_underflow_ || std::fetestexcept(FE_UNDERFLOW) != 0;
+    const bool is_same_gap = std::abs(second.gap / unit - first_.gap) <= rounding_of(one_) && second.is_global == first_.is_global;
+    if (has_underflow && is_same_gap) {
       compare_gaps(*other, second, unit, found);
     } else {
       compare_digits(second, unit, found);
