@@ -55,6 +55,20 @@ TEST_CASE("steps that shrink more slowly than the gains tell the contraction, an
   CHECK(to_come.learn({1e-12, 0.5e-10, 4}, kRadius) == relative(10 * kMost * 1e-12));
 }
 
+TEST_CASE("a gain below rounding is believed to be the last one, but not of a curvature that has just changed") {
+  const double gain = 0.1 * kGap.rounding();
+  GainToCome to_come(kGap, kTolerance);
+  const auto learn_after_a_step = [&](double step, double curvature) {
+    to_come.restart();
+    to_come.learn({1e-6, 1e-4, 1}, kRadius);
+    return to_come.learn({gain, step, curvature}, kRadius);
+  };
+  CHECK(learn_after_a_step(1e-5, 10) == relative(GainToCome::kSafety * gain));
+  CHECK(learn_after_a_step(1e-5, 100) == relative(10 * kMost * gain));
+  // Of two normals this near each other even another curvature is rounding.
+  CHECK(learn_after_a_step(1e-15, 100) == relative(GainToCome::kSafety * gain));
+}
+
 TEST_CASE("no contraction is believed of long steps, of those at the rim of the trust region, and after one that did not rise") {
   const double gain = 1e-6;
   for (const double step : {2e-3, 0.99e-5}) {

@@ -320,6 +320,12 @@ TEST_CASE("concentric bodies of exponents 50 and 2, as exactly as can be: a curv
   Settings settings;
   settings.tolerance = 1e-12;
   CHECK(excess_around(body, {}, body, pose2, find_proximity(body, {}, body, pose2, settings)) <= 1e-15);
+
+  const Superellipsoid other(Vector3(0.99999999987539379, 0.80000000017434747, 0.50000000006820589), 49.9999999989762,
+                             1.9999999998172231);
+  const Pose pose_of_other{Vector3(1.7309494666010041e-06, -9.1551727213599139e-07, 9.5425382754125488e-06), Matrix3::Identity()};
+  settings.tolerance = 1e-15;
+  CHECK(excess_around(body, {}, other, pose_of_other, find_proximity(body, {}, other, pose_of_other, settings)) <= 1e-15);
 }
 
 // Out of a plane of symmetry both are flat, but not for as far as the overlap is deep: s rises again beyond.
