@@ -1,3 +1,4 @@
+// Poses that look a given way.
 #pragma once
 
 #include <Eigen/Geometry>

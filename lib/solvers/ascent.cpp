@@ -71,7 +71,7 @@ bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
 /// Of at least one piece; before curvature.
 double lowest_rise(std::span<const Piece> pieces, const Vector2& u) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Piece& piece : pieces) lowest = std::min(lowest, piece.value + piece.slope.dot(u));
+  for (const Piece& piece : pieces) lowest = std::min(lowest, piece.at(u));
   return lowest;
 }
 
@@ -172,7 +172,7 @@ double Ascent::distance_that_matters() const { return kProbe * std::sqrt(toleran
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const auto [newton, whole_gain] = local.model.peak(radius_, gap_.rounding());
-  error_ = to_come_.learn({whole_gain, newton.norm(), std::abs(local.model.A.xx + local.model.A.yy)}, radius_);
+  error_ = to_come_.learn({whole_gain, newton.norm(), std::abs(local.model.A.trace())}, radius_);
   error_ = std::max(error_, unseen_gain(local.model.g, true));
   Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && !is_slight(local, newton) &&
@@ -198,7 +198,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
   const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
-  error_ = to_come_.learn({whole_gain, peak.u.norm(), std::abs(local.model.A.xx + local.model.A.yy)}, radius_);
+  error_ = to_come_.learn({whole_gain, peak.u.norm(), std::abs(local.model.A.trace())}, radius_);
 
   Target target{0, Vector2::Zero(), peak.u, &peak, pieces};
   for (std::size_t i = 0; i < peak.count; ++i) {
@@ -207,7 +207,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
     if (peak.count > 1) cuts_.add(known_.difference(current(), peak.active[i]));
   }
   error_ = std::max(error_, unseen_gain(target.slope, peak.count == 1));
-  if (local.A1.xx + local.A1.yy > kFlatRadius * gap_.length_unit()) {
+  if (local.A1.trace() > kFlatRadius * gap_.length_unit()) {
     // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
     const Vector2 way = target.slope - local.A2 * peak.u - current().s * peak.u;
     const Vector2 turn = local.A1.solve(way);

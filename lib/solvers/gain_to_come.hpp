@@ -7,8 +7,8 @@ namespace supernormal {
 
 /// Sums the gains to come as a geometric series. Its contraction is that of the gains, or of the steps where these shrink more
 /// slowly, as the last two steps show it, times the factor by which the curvature has changed in between: where it grows or falls
-/// to infinity or nothing, the model knows as little. Where nothing has been shown, or not near enough to the maximum, the slowest
-/// contraction that is believed is assumed.
+/// to infinity or nothing, the model knows as little. Where nothing has been shown, or not near enough to the maximum, or where the
+/// steps hardly shrink, the slowest contraction that is believed is assumed.
 class GainToCome {
  public:
   /// Where s rises like a power of the distance from the maximum, however high, the gain to come is less than twice that of the

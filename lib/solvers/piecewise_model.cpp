@@ -51,7 +51,7 @@ class Candidates {
     if (!all_finite(peak.u)) return;
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < count_; ++k) {
-      lowest = std::min(lowest, piece(subset_[k]).value + piece(subset_[k]).slope.dot(peak.u));
+      lowest = std::min(lowest, piece(subset_[k]).at(peak.u));
     }
     const double gain = lowest - 0.5 * peak.u.dot(model_.A * peak.u);
     if (!(gain > best_.gain)) return;
@@ -110,7 +110,7 @@ PiecewiseModel::Peak PiecewiseModel::maximize() const {
     std::size_t lowest = peak.active[0];
     double lowest_value = height - kRounding * (std::abs(height) + curvature);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const double value = pieces[k].value + pieces[k].slope.dot(peak.u);
+      const double value = pieces[k].at(peak.u);
       if (!(value < lowest_value)) continue;
       lowest = k;
       lowest_value = value;

@@ -12,6 +12,8 @@ namespace supernormal {
 struct Piece {
   double value;   ///< m
   Vector2 slope;  ///< m
+
+  double at(const Vector2& u) const { return value + slope.dot(u); }
 };
 
 /// gain(u) = min over the pieces of (value + slope.u) - 1/2 u.A u over the tangent plane: concave where A is, with kinks where two

@@ -56,7 +56,7 @@ constexpr double kPortalRounding = 3;
 constexpr double kSureDepth = 100;
 
 bool is_curved(const Symmetric2& A) {
-  const double size = A.xx + A.yy;
+  const double size = A.trace();
   return size > kSharpestRadius && A.xx * (A.yy / size) - A.xy * (A.xy / size) > kSharpestRadius;
 }
 

@@ -43,6 +43,7 @@ struct Symmetric2 {
   }
 
   Vector2 operator*(const Vector2& u) const { return {xx * u.x() + xy * u.y(), xy * u.x() + yy * u.y()}; }
+  double trace() const { return xx + yy; }
   bool operator==(const Symmetric2&) const = default;
   Symmetric2 operator+(const Symmetric2& o) const { return {xx + o.xx, xy + o.xy, yy + o.yy}; }
   Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
@@ -75,7 +76,7 @@ struct Eigen2 {
   Vector2 low_vector, high_vector;
 
   explicit Eigen2(const Symmetric2& A) {
-    const double mean = 0.5 * (A.xx + A.yy);
+    const double mean = 0.5 * A.trace();
     const double half_difference = 0.5 * (A.xx - A.yy);
     // Scaled, so that no square over- or underflows: two vertices leave next to nothing beside the mean.
     const double scale = std::max(std::abs(half_difference), std::abs(A.xy));

@@ -84,7 +84,7 @@ double QuadraticModel::largest_gain(double rounding) const { return find_largest
 Vector2 QuadraticModel::maximize(double radius) const { return find_maximum(g, Eigen2(A), radius); }
 
 QuadraticModel::Peak QuadraticModel::peak(double radius, double rounding) const {
-  const double trace = A.xx + A.yy;
+  const double trace = A.trace();
   const double determinant = A.xx * A.yy - A.xy * A.xy;
   // The smaller eigenvalue is at least determinant / trace.
   if (trace > 0 && trace < kMostTrace && determinant > std::max(kWellConditioned * trace, rounding) * trace) {

@@ -16,7 +16,7 @@ namespace {
 
 double gain(const PiecewiseModel& model, const Vector2& u) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Piece& piece : model.pieces) lowest = std::min(lowest, piece.value + piece.slope.dot(u));
+  for (const Piece& piece : model.pieces) lowest = std::min(lowest, piece.at(u));
   return lowest - 0.5 * u.dot(model.A * u);
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("the active pieces meet at the maximum, and their weighted slopes bala
     double sum = 0;
     for (std::size_t i = 0; i < peak.count; ++i) {
       const Piece& piece = pieces[peak.active[i]];
-      CHECK(piece.value + piece.slope.dot(peak.u) == test::relative(height).epsilon(1e-9));
+      CHECK(piece.at(peak.u) == test::relative(height).epsilon(1e-9));
       CHECK(peak.weight[i] >= 0);
       slope += peak.weight[i] * piece.slope;
       sum += peak.weight[i];
