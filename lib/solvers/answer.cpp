@@ -10,7 +10,8 @@ double absolute_tolerance(const GapFunction& gap, const Settings& settings) {
 }
 
 double largest_excess(const GapJet& jet, double rolling_radius) {
-  return (jet.d + rolling_radius * jet.n).norm() - (jet.s + rolling_radius);
+  // Below 0 by the rounding of d, in which a large body's boundary point is turned.
+  return std::max((jet.d + rolling_radius * jet.n).norm() - (jet.s + rolling_radius), 0.0);
 }
 
 Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status) {

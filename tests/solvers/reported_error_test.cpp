@@ -13,6 +13,7 @@
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
+#include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/solve.hpp"
@@ -391,4 +392,14 @@ TEST_CASE("concentric bodies of exponents 50 and 2: a shelf is no maximum") {
   const Pose pose2{Vector3(0.0008700175882708197, -0.00046653732960186245, 0.00026086288847033262), Matrix3::Identity()};
   const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
   CHECK(excess_around(body1, {}, body2, pose2, answer) <= 1e-15);
+}
+
+TEST_CASE("a ball deep in a ball a thousand times its size: what rounding says of the error is no less than 0") {
+  const Sphere small(1), large(1000);
+  for (int k = 0; k < 100; ++k) {
+    const Pose pose2 = pose_of({0.1, 1.7, -0.9}, 0.9 - 0.017 * k, 0.3, -0.5 + 0.01 * k, 0.2);
+    const Proximity answer = find_proximity(small, {}, large, pose2, {});
+    CHECK(answer.error >= GapFunction(small, {}, large, pose2).rounding());
+    CHECK(answer.global_error >= answer.error);
+  }
 }
