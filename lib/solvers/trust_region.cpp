@@ -40,9 +40,9 @@ Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
   const double high = e.high_vector.dot(g);
   const double slope = std::hypot(low, high);  // may be too small to square
   if (slope < kNoSlope && !(e.low < 0)) return Vector2::Zero();
-  // Asked before dividing, which might overflow.
-  if (e.low > 0 && std::abs(low) <= radius * e.low && std::abs(high) <= radius * e.high) {
-    const Vector2 newton(low / e.low, high / e.high);
+  // Asked before dividing, which might overflow. Where s is level one way, with no slope that way, there is nothing to gain by it.
+  if (e.low >= 0 && std::abs(low) <= radius * e.low && std::abs(high) <= radius * e.high) {
+    const Vector2 newton(e.low > 0 ? low / e.low : 0, high / e.high);
     if (newton.norm() <= radius) return newton.x() * e.low_vector + newton.y() * e.high_vector;
   }
   const double floor = std::max(0.0, -e.low);

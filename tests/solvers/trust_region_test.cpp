@@ -133,6 +133,13 @@ TEST_CASE("a denormal slope without curvature is none") {
   CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
 }
 
+TEST_CASE("level one way, and next to no slope the other way: the step is the one there") {
+  std::feclearexcept(FE_ALL_EXCEPT);
+  CHECK(QuadraticModel{{0, 1e-196}, {0, 0, 2e-20}}.maximize(1) == Vector2(0, 1e-196 / 2e-20));
+  CHECK(QuadraticModel{{1e-196, 0}, {2e-20, 0, 0}}.maximize(1) == Vector2(1e-196 / 2e-20, 0));
+  CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
+}
+
 TEST_CASE("eigenvalues and vectors") {
   std::mt19937_64 engine(62);
   std::normal_distribution<double> gauss;
