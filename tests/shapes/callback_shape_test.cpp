@@ -11,6 +11,7 @@
 #include "relative.hpp"
 #include "shape_samples.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -145,11 +146,16 @@ TEST_CASE("a Hessian that cannot be one is refused") {
 TEST_CASE("where the body is sharpest is found from its points") {
   const CallbackShape ball([](const Vector3&) { return 1.0; }, [](const Vector3& n) { return n; });
   CHECK(ball.sharpest_radius() == relative(1).epsilon(1e-12));
-  // An ellipsoid is sharpest, c^2/a, at the ends of its longest axis; arcs of five degrees see it a little blunter.
+  // An ellipsoid is sharpest, c^2/a, at the ends of its longest axis.
   const Ellipsoid ellipsoid(Vector3(3, 2, 1));
   const CallbackShape copy([&](const Vector3& n) { return ellipsoid.support(n); },
                            [&](const Vector3& n) { return ellipsoid.point(n); });
-  CHECK(copy.sharpest_radius() == relative(1.0 / 3).epsilon(0.01));
+  CHECK(copy.sharpest_radius() == relative(1.0 / 3).epsilon(1e-6));
+  // A vertex is known by what is left of the radius near its normal: on five degrees still a hundredth of the body's size.
+  const Superellipsoid octahedral(Vector3(1, 1, 1), 1.3, 1.3);
+  const CallbackShape pointed([&](const Vector3& n) { return octahedral.support(n); },
+                              [&](const Vector3& n) { return octahedral.point(n); });
+  CHECK(pointed.sharpest_radius() <= 1e-6);
   // What two balls have in common: its edge, a circle around z, bends around the axes across z.
   const auto lens = [](const Vector3& n) -> Vector3 {
     if (std::abs(n.z()) > 0.5) return n - Vector3(0, 0, std::copysign(0.5, n.z()));
