@@ -18,6 +18,10 @@ constexpr double kMaxRadius = 4;
 // A trust radius below the spacing of double-precision directions: no normal is left to try.
 constexpr double kNoRadius = 1e-15;
 
+// Steps that no longer lead up, though the model promises more than the tolerance, show that it is not as good as it says: s may
+// rise this much farther.
+constexpr double kStalledSafety = 10;
+
 // Share of the promised gain that must come true for the trust region to grow, and below which it shrinks.
 constexpr double kGoodShare = 0.5;
 constexpr double kPoorShare = 0.1;
@@ -99,6 +103,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
     const Step step = choose_step();
     if (finished(worth, status)) {
+      if (status == Status::Stalled) error_ *= kStalledSafety;
       // What was asked for is not reached: nothing is claimed of it.
       if (status != Status::Converged) error_ = std::max(error_, unheld_turn_gain());
       return status;

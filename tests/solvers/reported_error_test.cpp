@@ -403,3 +403,29 @@ TEST_CASE("a ball deep in a ball a thousand times its size: what rounding says o
     CHECK(answer.global_error >= answer.error);
   }
 }
+
+// The ridge along which the tip keeps to the rim begins at the normal of the face, and is too narrow to be found from there.
+TEST_CASE("an octahedron's tip 1e-13 m beside the rim of a cylinder's face, as exactly as can be: stalled, it claims less") {
+  const Superellipsoid tip(Vector3(0.99177535343395917, 0.6734340285826611, 0.63517434717434995), 1.0635460553378775,
+                           1.0501094799923516);
+  const Cylinder cylinder(0.62322465858321741, 0.53309284841699722);
+  Pose pose2{Vector3(-0.12861393808765478, -0.46556061492126743, 1.2979780352034169), Matrix3::Identity()};
+  pose2.rotation << -0.27555679152977963, -0.95466164277940357, 0.11264813557065266,  //
+      0.94615240182235938, -0.24863945927753317, 0.20730183746401432,                 //
+      -0.16989434118767549, 0.1637057332407954, 0.97176969788962819;
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Proximity answer = find_proximity(tip, {}, cylinder, pose2, settings);
+  const Vector3 along_the_ridge(0.0018890292406196988, -0.12258626522473433, 0.99245606408887399);
+  CHECK(gap_at(tip, {}, cylinder, pose2, along_the_ridge) <= answer.gap + answer.error);
+}
+
+// The points of both show radii of 1e-4 m and more, five degrees from there.
+TEST_CASE("vertex in vertex, 5e-5 m deep, one without a Hessian: they are not as round as they seem from afar") {
+  const Superellipsoid body1(Vector3(1.4101510110964472, 1.2836217351915686, 1.3660322909353744), 1.2269106873577822,
+                             1.0814644158775701);
+  const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(0.82889523666349763, 0.56200225548227212, 0.74337281839323055), 1.2924158517482134, 1.2344923434058641));
+  const Pose pose2{Vector3(0, 0, -2.1093525448140267), Matrix3::Identity()};
+  CHECK(excess_around(body1, {}, body2, pose2, find_proximity(body1, {}, body2, pose2, {})) <= 1e-15);
+}
