@@ -94,6 +94,7 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
 
 Status Ascent::climb(const Vector3& start, double worth) {
   radius_ = kFirstRadius;
+  cuts_lead_ = false;
   to_come_.restart();
   evaluate(start, current(), corners_[now_]);
   if (!gap_.has_curvature()) secant_.restart(current());
@@ -112,6 +113,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (!gap_.has_curvature()) learn_curvature();
     const double actual_gain = trial().s - current().s;
     adapt_radius(step, actual_gain);
+    if (actual_gain > kPoorShare * step.gain) cuts_lead_ = false;
     if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
       now_ = 1 - now_;
     } else {
@@ -141,7 +143,12 @@ LocalModel Ascent::local_model() const {
 Ascent::Step Ascent::choose_step() {
   const LocalModel local = local_model();
   Step step = has_kinks_ ? kinked_step(local) : smooth_step(local);
-  if (to_come_.may_zigzag() || (error_ > tolerance_ && (is_open_ || ruled_out(step)))) cut_step(local, step);
+  cuts_lead_ = cuts_lead_ || to_come_.may_zigzag();
+  if (cuts_lead_ || (error_ > tolerance_ && (is_open_ || ruled_out(step)))) cut_step(local, step);
+  if (cuts_lead_) {
+    error_ = std::max(error_, step.gain);
+    cuts_lead_ = step.gain > tolerance_;
+  }
   return step;
 }
 

@@ -102,9 +102,10 @@ class Ascent {
   std::array<GapJet, 2> jets_;      // current and trial, which change places
   std::array<Corners, 2> corners_;  // theirs
   std::size_t now_ = 0;
-  double radius_ = 0;     // of the trust region, gnomonic
-  bool is_open_ = false;  // whether nothing is left but what a turn may gain that has not been seen
-  double error_ = 0;      // m
+  double radius_ = 0;       // of the trust region, gnomonic
+  bool cuts_lead_ = false;  // whether the steps zigzag, and those to the maximum of the cuts have not led up yet
+  bool is_open_ = false;    // whether nothing is left but what a turn may gain that has not been seen
+  double error_ = 0;        // m
 };
 
 }  // namespace supernormal

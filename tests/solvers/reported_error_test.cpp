@@ -429,3 +429,16 @@ TEST_CASE("vertex in vertex, 5e-5 m deep, one without a Hessian: they are not as
   const Pose pose2{Vector3(0, 0, -2.1093525448140267), Matrix3::Identity()};
   CHECK(excess_around(body1, {}, body2, pose2, find_proximity(body1, {}, body2, pose2, {})) <= 1e-15);
 }
+
+// The steps zigzag towards the normal of both faces, 1e-12 from it in the end; s rises by 0.4 m a radian across their way.
+TEST_CASE("a brick's face on the border of a cylinder's: steps that shrink in a zigzag are no convergence") {
+  const Superellipsoid brick(Vector3(0.89149106403377165, 2.1096758913725617, 0.16434391453892452), 53.271583303711246,
+                             11.288821456855265);
+  const Cylinder cylinder(3.9759904574194191, 0.19731531679932779);
+  Pose pose2{Vector3(-4.230903875161891, 0.00042199446719581559, 0.36165922074330903), Matrix3::Identity()};
+  pose2.rotation << 1, -1.2755978588381349e-16, 1.7957608729881174e-17,  //
+      1.2755978588381349e-16, 1, 2.7343879781824106e-17,                 //
+      -1.7957608729881174e-17, -2.7343879781824106e-17, 1;
+  const Proximity answer = find_proximity(brick, {}, cylinder, pose2, {});
+  CHECK(std::abs(answer.gap) <= answer.error);  // placed to touch
+}
