@@ -12,8 +12,11 @@ constexpr double kSlowestContraction = 0.95;
 constexpr double kMost = 1 / (1 - kSlowestContraction);
 
 // Towards the normals of a sharp tip, where the curvature has changed by more than kMost, and where steps hardly shrink, s may rise
-// this much farther: unless the contraction is fast.
+// this much farther: unless the contraction is fast, and the curvature does not fade with the steps.
 constexpr double kTipSafety = 10;
+
+// A curvature that has fallen to less than this share of it in one step.
+constexpr double kFading = 0.5;
 
 // Steps that shrink by less than this may cross a shelf, beyond which s rises as before.
 constexpr double kSlowSteps = 0.6;
@@ -69,10 +72,11 @@ double GainToCome::learn(const Promise& now, double radius) {
     is_unknown = (change == kMost && now.step > kSpacing) || of_steps > kSlowSteps;
     gains = is_unknown ? kMost : std::min((is_rounding ? 1 : change) / (1 - contraction), kMost);
   }
+  const bool fades = last_.gain > 0 && now.curvature < kFading * last_.curvature;
   last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
 
   const double error = kSafety * gains * now.gain;
-  const bool is_at_tip = (is_slow || gains == kMost) && !is_rounding && has_tips(gap_);
+  const bool is_at_tip = (is_slow || fades || gains == kMost) && !is_rounding && has_tips(gap_);
   return (is_at_tip || is_unknown) && error <= tolerance_ ? kTipSafety * error : error;
 }
 

@@ -94,6 +94,21 @@ TEST_CASE("towards a sharp tip more may come than the slowest series says") {
   CHECK(to_come.learn({1e-6, 1e-2, 1}, kRadius) == relative(kMost * 1e-6));  // goes on in any case
 }
 
+TEST_CASE("towards a sharp tip no fast contraction is believed while the curvature fades") {
+  const Superellipsoid tip(Vector3(1, 1, 1), 1.1, 1.1);
+  const GapFunction gap(tip, {}, kBall, {Vector3(1.9, 0, 0), Matrix3::Identity()});
+  GainToCome to_come(gap, kTolerance);
+  const auto learn_of_curvature = [&](double curvature) {
+    to_come.restart();
+    to_come.learn({1e-10, 1e-4, 1}, kRadius);
+    return to_come.learn({1e-12, 1e-6, curvature}, kRadius);
+  };
+  const double sum = GainToCome::kSafety / (1 - 1e-2) * 1e-12;
+  CHECK(learn_of_curvature(1 / 1.5) == relative(1.5 * sum));
+  CHECK(learn_of_curvature(2.5) == relative(2.5 * sum));
+  CHECK(learn_of_curvature(1 / 2.5) == relative(10 * 2.5 * sum));
+}
+
 TEST_CASE("steps that grow, and slow steps in a row, are told") {
   GainToCome to_come(kGap, kTolerance);
   to_come.restart();
