@@ -227,7 +227,9 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   }
   const Vector3 normal = known_.shared_normal(peak, current().n + local.plane1.lift(peak.u));
   Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0)};
-  if (has_flat_faces_ && peak.count < 3 && flat_step(local, target, step) != FlatStep::Taken) {
+  // Corners around the peak hold the normal whatever the curvature, which on a flat face says nothing a little farther on.
+  const bool is_at_face = peak.count == 3 && is_held(peak, pieces, {});
+  if (has_flat_faces_ && !is_at_face && flat_step(local, target, step) != FlatStep::Taken) {
     target.newton = peak.u;
     if (flat_step(local, target, step) != FlatStep::Taken) leave_face(local, step);
   }

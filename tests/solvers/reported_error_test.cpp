@@ -442,3 +442,32 @@ TEST_CASE("a brick's face on the border of a cylinder's: steps that shrink in a 
   const Proximity answer = find_proximity(brick, {}, cylinder, pose2, {});
   CHECK(std::abs(answer.gap) <= answer.error);  // placed to touch
 }
+
+// The brick's point is at the wrong end of its face. A turn by 2e-15 brings it to the other end, but no further: the corners of
+// the box's face do not hold the normal that way, its edge is to be found.
+TEST_CASE("a brick's edge on a box's, started at the normal of the faces: the curvature of a face holds nothing") {
+  const Box box(Vector3(0.58565179804385514, 1.3107073814951085, 0.71420637497054951));
+  const Superellipsoid brick(Vector3(0.68207095075621638, 1.2143136173534945, 0.61676367917088692), 102.59479598454982,
+                             196.71455901639888);
+  Pose pose2{Vector3(0.10186405946100457, -2.5244670469364126, 1.3233201304787157), Matrix3::Identity()};
+  pose2.rotation << 1, -9.071131668835325e-16, 2.1206262176702703e-15,  //
+      9.071131668835325e-16, 1, -1.5916131447741001e-15,                //
+      -2.1206262176702703e-15, 1.5916131447741001e-15, 1;
+  const Vector3 start(0.30116993208668003, -0.89749896072442492, -0.32216810441985394);
+  CHECK(std::abs(find_proximity(box, {}, brick, pose2, {}, &start).gap) <= 1e-13);  // placed to touch
+}
+
+// The model promises a fifth of what it promised a step before, but its curvature is less than half of what it was.
+TEST_CASE("an octahedron's tip in another's, 5e-5 m deep: a curvature that has just halved goes on fading") {
+  const Superellipsoid body1(Vector3(0.91855717191001063, 1.3217171393909011, 1.1310303975172471), 1.0300559655732762,
+                             1.2974700621527924);
+  const Superellipsoid body2(Vector3(0.622859106567343, 1.0872184036498354, 0.65620711217128369), 1.1469974323738119,
+                             1.0424575813281118);
+  Pose pose2{Vector3(0.15863829289317419, 0.3088316963572888, -1.68781275982544), Matrix3::Identity()};
+  pose2.rotation << -0.11036972297795322, -0.96404102904540079, 0.24175073643497932,  //
+      -0.85549105740384157, 0.21596197031427722, 0.47063306097216806,                 //
+      -0.50591854576782136, -0.15487195257715358, -0.84856414215609721;
+  const Vector3 higher(0.026188684787260982, -0.0038348958641832766, -0.99964966181298953);
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+}
