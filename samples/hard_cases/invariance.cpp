@@ -55,8 +55,8 @@ class SecondOpinions {
     if (!other) return;
     const Proximity second = solve(*other, settings_, found);
     const bool has_underflow = has_underflow_ || std::fetestexcept(FE_UNDERFLOW) != 0;
-    const bool is_same_gap = std::abs(second.gap / unit - first_.gap) <= rounding_of(one_) && second.is_global == first_.is_global;
-    if (has_underflow && is_same_gap) {
+    const bool is_near = std::abs(second.gap / unit - first_.gap) <= first_.error + rounding_of(one_);
+    if (has_underflow && is_near && second.is_global == first_.is_global) {
       compare_gaps(*other, second, unit, found);
     } else {
       compare_digits(second, unit, found);
