@@ -143,6 +143,7 @@ LocalModel Ascent::local_model() const {
 Ascent::Step Ascent::choose_step() {
   const LocalModel local = local_model();
   Step step = has_kinks_ ? kinked_step(local) : smooth_step(local);
+  // Where the steps zigzag across a ridge the model sees no further than they go; the cuts of both sides do.
   cuts_lead_ = cuts_lead_ || to_come_.may_zigzag();
   if (cuts_lead_ || (error_ > tolerance_ && (is_open_ || ruled_out(step)))) cut_step(local, step);
   if (cuts_lead_) {

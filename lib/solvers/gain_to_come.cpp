@@ -15,7 +15,7 @@ constexpr double kMost = 1 / (1 - kSlowestContraction);
 // this much farther: unless the contraction is fast, and the curvature does not fade with the steps.
 constexpr double kTipSafety = 10;
 
-// A curvature that has fallen to less than this share of it in one step.
+// A curvature that falls to less than this share of itself in one step fades: the next step may find as little left of it.
 constexpr double kFading = 0.5;
 
 // Steps that shrink by less than this may cross a shelf, beyond which s rises as before.

@@ -420,7 +420,7 @@ TEST_CASE("an octahedron's tip 1e-13 m beside the rim of a cylinder's face, as e
   CHECK(gap_at(tip, {}, cylinder, pose2, along_the_ridge) <= answer.gap + answer.error);
 }
 
-// The points of both show radii of 1e-4 m and more, five degrees from there.
+// Five degrees from its vertex the points of the second body show a radius of 1e-4 m and more.
 TEST_CASE("vertex in vertex, 5e-5 m deep, one without a Hessian: they are not as round as they seem from afar") {
   const Superellipsoid body1(Vector3(1.4101510110964472, 1.2836217351915686, 1.3660322909353744), 1.2269106873577822,
                              1.0814644158775701);
