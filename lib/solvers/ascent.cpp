@@ -185,7 +185,7 @@ double Ascent::distance_that_matters() const { return kProbe * std::sqrt(toleran
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const auto [newton, whole_gain] = local.model.peak(radius_, gap_.rounding());
-  error_ = to_come_.learn({whole_gain, newton.norm(), std::abs(local.model.A.trace())}, radius_);
+  error_ = to_come_.learn({whole_gain, newton.norm(), local.model.A}, radius_);
   error_ = std::max(error_, unseen_gain(local.model.g, true));
   Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && !is_slight(local, newton) &&
@@ -211,7 +211,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
   const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
-  error_ = to_come_.learn({whole_gain, peak.u.norm(), std::abs(local.model.A.trace())}, radius_);
+  error_ = to_come_.learn({whole_gain, peak.u.norm(), local.model.A}, radius_);
 
   Target target{0, Vector2::Zero(), peak.u, &peak, pieces};
   for (std::size_t i = 0; i < peak.count; ++i) {

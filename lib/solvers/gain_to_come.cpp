@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace supernormal {
 namespace {
@@ -35,11 +36,29 @@ constexpr double kFarStep = 0.3;
 // A step of this share of the trust radius is held back by it: the model beyond has just been found wrong.
 constexpr double kAtRim = 0.98;
 
+// Of the larger curvature: a smaller one is rounding.
+constexpr double kFlat = 4 * std::numeric_limits<double>::epsilon();
+
 // A step below the spacing of double-precision directions, about: what has changed with it is rounding.
 constexpr double kSpacing = 1e-14;
 
 /// At most the slowest that is believed; asked before dividing, which might overflow.
 double contraction_of(double before, double now) { return now < kSlowestContraction * before ? now / before : kSlowestContraction; }
+
+/// The factor by which a size has changed, at most kMost; asked before dividing, which might overflow.
+double change_of(double before, double now) {
+  const auto [low, high] = std::minmax(before, now);
+  return high < kMost * low ? high / low : kMost;
+}
+
+/// The factor by which the curvature has changed, the way that it has changed most.
+double change_of(const Eigen2& before, const Eigen2& now) {
+  const auto low = [](const Eigen2& e) { return std::max(std::abs(e.low), kFlat * e.high); };
+  return std::max(change_of(low(before), low(now)), change_of(before.high, now.high));
+}
+
+/// Whether it has become small, any way.
+bool fades(const Eigen2& before, const Eigen2& now) { return now.low < kFading * before.low || now.high < kFading * before.high; }
 
 /// Whether a body has a sharp tip, where the radii of curvature are 0: other than corners, which an ascent knows.
 bool has_tips(const GapFunction& gap) {
@@ -62,21 +81,25 @@ double GainToCome::learn(const Promise& now, double radius) {
 
   double gains = kMost;
   bool is_unknown = false;
-  const bool is_far = now.step >= std::min(kAsymptoticStep, kAtRim * radius) || (last_.step > kFarStep && has_tips(gap_));
-  if (last_.gain > 0 && !is_far) {
-    // Where one direction converges fast, the gain hides that another is slow; the step tells it.
-    const double of_steps = is_rounding ? 0 : contraction_of(last_.step, now.step);
-    const double contraction = std::max(contraction_of(last_.gain, now.gain), of_steps);
-    const auto [low, high] = std::minmax(now.curvature, last_.curvature);
-    const double change = high < kMost * low ? high / low : kMost;
-    is_unknown = (change == kMost && now.step > kSpacing) || of_steps > kSlowSteps;
-    gains = is_unknown ? kMost : std::min((is_rounding ? 1 : change) / (1 - contraction), kMost);
+  bool is_fading = false;
+  if (last_.gain > 0) {
+    const Eigen2 before(last_.curvature);
+    const Eigen2 curvature(now.curvature);
+    is_fading = fades(before, curvature);
+    const bool is_far = now.step >= std::min(kAsymptoticStep, kAtRim * radius) || (last_.step > kFarStep && has_tips(gap_));
+    if (!is_far) {
+      // Where one direction converges fast, the gain hides that another is slow; the step tells it.
+      const double of_steps = is_rounding ? 0 : contraction_of(last_.step, now.step);
+      const double contraction = std::max(contraction_of(last_.gain, now.gain), of_steps);
+      const double change = change_of(before, curvature);
+      is_unknown = (change == kMost && now.step > kSpacing) || of_steps > kSlowSteps;
+      gains = is_unknown ? kMost : std::min((is_rounding ? 1 : change) / (1 - contraction), kMost);
+    }
   }
-  const bool fades = last_.gain > 0 && now.curvature < kFading * last_.curvature;
   last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
 
   const double error = kSafety * gains * now.gain;
-  const bool is_at_tip = (is_slow || fades || gains == kMost) && !is_rounding && has_tips(gap_);
+  const bool is_at_tip = (is_slow || is_fading || gains == kMost) && !is_rounding && has_tips(gap_);
   return (is_at_tip || is_unknown) && error <= tolerance_ ? kTipSafety * error : error;
 }
 

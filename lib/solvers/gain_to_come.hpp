@@ -1,14 +1,15 @@
 // How much an ascent has still to gain, from what the model promised step by step.
 #pragma once
 
+#include "solvers/tangent_plane.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 
 namespace supernormal {
 
 /// Sums the gains to come as a geometric series. Its contraction is that of the gains, or of the steps where these shrink more
-/// slowly, as the last two steps show it, times the factor by which the curvature has changed in between: where it grows or falls
-/// to infinity or nothing, the model knows as little. Where nothing has been shown, or not near enough to the maximum, or where the
-/// steps hardly shrink, the slowest contraction that is believed is assumed.
+/// slowly, as the last two steps show it, times the factor by which the curvature has changed in between, the way that it has
+/// changed most: where it grows or falls to infinity or nothing, the model knows as little. Where nothing has been shown, or not
+/// near enough to the maximum, or where the steps hardly shrink, the slowest contraction that is believed is assumed.
 class GainToCome {
  public:
   /// Where s rises like a power of the distance from the maximum, however high, the gain to come is less than twice that of the
@@ -17,9 +18,9 @@ class GainToCome {
 
   /// What the model says at a normal.
   struct Promise {
-    double gain;       ///< m; to its maximum; infinite if it has none
-    double step;       ///< gnomonic; the length of the step that it takes
-    double curvature;  ///< m; the size of the trace of its matrix
+    double gain;           ///< m; to its maximum; infinite if it has none
+    double step;           ///< gnomonic; the length of the step that it takes
+    Symmetric2 curvature;  ///< m
   };
 
   /// Keeps a reference. `tolerance`: m
@@ -44,8 +45,8 @@ class GainToCome {
  private:
   const GapFunction& gap_;
   const double tolerance_;
-  Promise last_{0, 0, 0};  // gain 0: no history
-  int slow_steps_ = 0;     // in a row
+  Promise last_{0, 0, {}};  // gain 0: no history
+  int slow_steps_ = 0;      // in a row
   bool steps_grow_ = false;
 };
 

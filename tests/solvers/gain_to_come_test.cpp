@@ -19,6 +19,11 @@ constexpr double kRadius = 1;        // of the trust region
 // The sum of the slowest series that is believed, with the safety.
 constexpr double kMost = GainToCome::kSafety * 20;
 
+constexpr Symmetric2 kUnit{1, 0, 1};  // m
+
+/// m
+constexpr Symmetric2 alike(double curvature) { return {curvature, 0, curvature}; }
+
 const Sphere kBall(1);
 const GapFunction kGap(kBall, {}, kBall, {Vector3(1.9, 0, 0), Matrix3::Identity()});
 
@@ -28,10 +33,10 @@ TEST_CASE("gains that shrink by the same factor are summed") {
   for (const double contraction : {1e-3, 0.1, 0.5}) {
     GainToCome to_come(kGap, kTolerance);
     to_come.restart();
-    CHECK(to_come.learn({1e-4, 1e-4, 1}, kRadius) == relative(kMost * 1e-4));  // nothing has been shown
+    CHECK(to_come.learn({1e-4, 1e-4, kUnit}, kRadius) == relative(kMost * 1e-4));  // nothing has been shown
     const double gain = contraction * 1e-4;
     const double sum = gain / (1 - contraction);
-    CHECK(to_come.learn({gain, contraction * 1e-4, 1}, kRadius) == relative(GainToCome::kSafety * sum));
+    CHECK(to_come.learn({gain, contraction * 1e-4, kUnit}, kRadius) == relative(GainToCome::kSafety * sum));
     CHECK_FALSE(to_come.steps_grow());
   }
 }
@@ -39,20 +44,35 @@ TEST_CASE("gains that shrink by the same factor are summed") {
 TEST_CASE("steps that hardly shrink are not believed to go on shrinking") {
   GainToCome to_come(kGap, kTolerance);
   to_come.restart();
-  to_come.learn({1e-6, 1e-4, 1}, kRadius);
-  CHECK(to_come.learn({1e-7, 0.7e-4, 1}, kRadius) == relative(kMost * 1e-7));  // goes on in any case
-  CHECK(to_come.learn({1e-12, 0.5e-4, 1}, kRadius) == relative(10 * kMost * 1e-12));
+  to_come.learn({1e-6, 1e-4, kUnit}, kRadius);
+  CHECK(to_come.learn({1e-7, 0.7e-4, kUnit}, kRadius) == relative(kMost * 1e-7));  // goes on in any case
+  CHECK(to_come.learn({1e-12, 0.5e-4, kUnit}, kRadius) == relative(10 * kMost * 1e-12));
 }
 
 TEST_CASE("steps that shrink more slowly than the gains tell the contraction, and so do curvatures that change") {
   GainToCome to_come(kGap, kTolerance);
   to_come.restart();
-  to_come.learn({1e-4, 1e-4, 1}, kRadius);
-  CHECK(to_come.learn({1e-6, 0.5e-4, 1}, kRadius) == relative(GainToCome::kSafety * 2 * 1e-6));
-  CHECK(to_come.learn({1e-8, 0.5e-6, 4}, kRadius) == relative(GainToCome::kSafety * 4 / (1 - 1e-2) * 1e-8));
+  to_come.learn({1e-4, 1e-4, kUnit}, kRadius);
+  CHECK(to_come.learn({1e-6, 0.5e-4, kUnit}, kRadius) == relative(GainToCome::kSafety * 2 * 1e-6));
+  CHECK(to_come.learn({1e-8, 0.5e-6, alike(4)}, kRadius) == relative(GainToCome::kSafety * 4 / (1 - 1e-2) * 1e-8));
   // A hundred times another curvature: more than the slowest series, all the more where that would end the climb.
-  CHECK(to_come.learn({1e-10, 0.5e-8, 400}, kRadius) == relative(kMost * 1e-10));
-  CHECK(to_come.learn({1e-12, 0.5e-10, 4}, kRadius) == relative(10 * kMost * 1e-12));
+  CHECK(to_come.learn({1e-10, 0.5e-8, alike(400)}, kRadius) == relative(kMost * 1e-10));
+  CHECK(to_come.learn({1e-12, 0.5e-10, alike(4)}, kRadius) == relative(10 * kMost * 1e-12));
+}
+
+TEST_CASE("a curvature that changes one way counts, however little of the whole it is") {
+  GainToCome to_come(kGap, kTolerance);
+  const auto learn_after = [&](const Symmetric2& before, const Symmetric2& now) {
+    to_come.restart();
+    to_come.learn({1e-4, 1e-4, before}, kRadius);
+    return to_come.learn({1e-6, 1e-6, now}, kRadius);
+  };
+  const double sum = GainToCome::kSafety / (1 - 1e-2) * 1e-6;
+  CHECK(learn_after({1, 0, 0.1}, {0.95, 0, 0.4}) == relative(4 * sum));
+  CHECK(learn_after({1, 0, 0.1}, {0.1, 0, 1}) == relative(sum));  // turned
+  CHECK(learn_after({1, 0.9, 1}, {1, 0, 1}) == relative(10 * sum));
+  // Less than the rounding of the flat one says nothing.
+  CHECK(learn_after({1, 0, 1e-16}, {1, 0, 1e-18}) == relative(sum));
 }
 
 TEST_CASE("a gain below rounding is believed to be the last one, but not of a curvature that has just changed") {
@@ -60,8 +80,8 @@ TEST_CASE("a gain below rounding is believed to be the last one, but not of a cu
   GainToCome to_come(kGap, kTolerance);
   const auto learn_after_a_step = [&](double step, double curvature) {
     to_come.restart();
-    to_come.learn({1e-6, 1e-4, 1}, kRadius);
-    return to_come.learn({gain, step, curvature}, kRadius);
+    to_come.learn({1e-6, 1e-4, kUnit}, kRadius);
+    return to_come.learn({gain, step, alike(curvature)}, kRadius);
   };
   CHECK(learn_after_a_step(1e-5, 10) == relative(GainToCome::kSafety * gain));
   CHECK(learn_after_a_step(1e-5, 100) == relative(10 * kMost * gain));
@@ -74,14 +94,14 @@ TEST_CASE("no contraction is believed of long steps, of those at the rim of the 
   for (const double step : {2e-3, 0.99e-5}) {
     GainToCome to_come(kGap, kTolerance);
     to_come.restart();
-    to_come.learn({1e-4, 1e-2, 1}, kRadius);
-    CHECK(to_come.learn({gain, step, 1}, 1e-5) == relative(kMost * gain));
+    to_come.learn({1e-4, 1e-2, kUnit}, kRadius);
+    CHECK(to_come.learn({gain, step, kUnit}, 1e-5) == relative(kMost * gain));
   }
   GainToCome to_come(kGap, kTolerance);
   to_come.restart();
-  to_come.learn({1e-4, 1e-4, 1}, kRadius);
+  to_come.learn({1e-4, 1e-4, kUnit}, kRadius);
   to_come.forget();
-  CHECK(to_come.learn({gain, 1e-6, 1}, kRadius) == relative(kMost * gain));
+  CHECK(to_come.learn({gain, 1e-6, kUnit}, kRadius) == relative(kMost * gain));
 }
 
 TEST_CASE("towards a sharp tip more may come than the slowest series says") {
@@ -89,24 +109,25 @@ TEST_CASE("towards a sharp tip more may come than the slowest series says") {
   const GapFunction gap(tip, {}, kBall, {Vector3(1.9, 0, 0), Matrix3::Identity()});
   GainToCome to_come(gap, kTolerance);
   to_come.restart();
-  CHECK(to_come.learn({1e-12, 1e-2, 1}, kRadius) == relative(10 * kMost * 1e-12));
+  CHECK(to_come.learn({1e-12, 1e-2, kUnit}, kRadius) == relative(10 * kMost * 1e-12));
   to_come.restart();
-  CHECK(to_come.learn({1e-6, 1e-2, 1}, kRadius) == relative(kMost * 1e-6));  // goes on in any case
+  CHECK(to_come.learn({1e-6, 1e-2, kUnit}, kRadius) == relative(kMost * 1e-6));  // goes on in any case
 }
 
 TEST_CASE("towards a sharp tip no fast contraction is believed while the curvature fades") {
   const Superellipsoid tip(Vector3(1, 1, 1), 1.1, 1.1);
   const GapFunction gap(tip, {}, kBall, {Vector3(1.9, 0, 0), Matrix3::Identity()});
   GainToCome to_come(gap, kTolerance);
-  const auto learn_of_curvature = [&](double curvature) {
+  const auto learn_of_curvature = [&](const Symmetric2& curvature) {
     to_come.restart();
-    to_come.learn({1e-10, 1e-4, 1}, kRadius);
+    to_come.learn({1e-10, 1e-4, kUnit}, kRadius);
     return to_come.learn({1e-12, 1e-6, curvature}, kRadius);
   };
   const double sum = GainToCome::kSafety / (1 - 1e-2) * 1e-12;
-  CHECK(learn_of_curvature(1 / 1.5) == relative(1.5 * sum));
-  CHECK(learn_of_curvature(2.5) == relative(2.5 * sum));
-  CHECK(learn_of_curvature(1 / 2.5) == relative(10 * 2.5 * sum));
+  CHECK(learn_of_curvature(alike(1 / 1.5)) == relative(1.5 * sum));
+  CHECK(learn_of_curvature(alike(2.5)) == relative(2.5 * sum));
+  CHECK(learn_of_curvature(alike(1 / 2.5)) == relative(10 * 2.5 * sum));
+  CHECK(learn_of_curvature({1, 0, 1 / 2.5}) == relative(10 * 2.5 * sum));
 }
 
 TEST_CASE("steps that grow, and slow steps in a row, are told") {
@@ -114,12 +135,12 @@ TEST_CASE("steps that grow, and slow steps in a row, are told") {
   to_come.restart();
   double gain = 1e-4;
   for (int k = 0; k < 4; ++k) {
-    to_come.learn({gain, 1e-4 * (k + 1), 1}, kRadius);
+    to_come.learn({gain, 1e-4 * (k + 1), kUnit}, kRadius);
     CHECK(to_come.steps_grow() == (k > 0));
     CHECK_FALSE(to_come.may_zigzag());
     gain *= 0.9;
   }
-  to_come.learn({gain, 1e-4, 1}, kRadius);
+  to_come.learn({gain, 1e-4, kUnit}, kRadius);
   CHECK(to_come.may_zigzag());
   CHECK_FALSE(to_come.may_zigzag());
 }
@@ -127,6 +148,6 @@ TEST_CASE("steps that grow, and slow steps in a row, are told") {
 TEST_CASE("a model without a maximum promises no end, and is no history") {
   GainToCome to_come(kGap, kTolerance);
   to_come.restart();
-  CHECK(to_come.learn({std::numeric_limits<double>::infinity(), 0.5, 1}, kRadius) == std::numeric_limits<double>::infinity());
-  CHECK(to_come.learn({1e-6, 1e-6, 1}, kRadius) == relative(kMost * 1e-6));
+  CHECK(to_come.learn({std::numeric_limits<double>::infinity(), 0.5, kUnit}, kRadius) == std::numeric_limits<double>::infinity());
+  CHECK(to_come.learn({1e-6, 1e-6, kUnit}, kRadius) == relative(kMost * 1e-6));
 }

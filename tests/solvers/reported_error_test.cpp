@@ -471,3 +471,17 @@ TEST_CASE("an octahedron's tip in another's, 5e-5 m deep: a curvature that has j
   const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
   CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
 }
+
+// The model promises a fifth of what it promised a step before, of a curvature that has grown fourfold across its larger one.
+TEST_CASE("the tips of two needles, 1e-3 m apart: a curvature that changes where it is small goes on changing") {
+  const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
+  Pose pose2{Vector3(1.1836744101086172, 0.081632935277476476, -0.97959202487887065), Matrix3::Identity()};
+  pose2.rotation << 0.1837839537266481, -0.65285537721130771, -0.7348491782664538,  //
+      0.080714889249705463, -0.73503534204003285, 0.6732073622632927,               //
+      -0.97964716352675107, -0.18303798075364971, -0.082392551821251311;
+  Settings settings;
+  settings.tolerance = 1e-3;
+  const Proximity answer = find_proximity(needle, {}, needle, pose2, settings);
+  const Vector3 higher(0.00076949776623643211, 0.99820503945868144, 0.059960258561240709);
+  CHECK(gap_at(needle, {}, needle, pose2, higher) <= answer.gap + answer.error);
+}
