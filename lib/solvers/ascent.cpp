@@ -42,9 +42,8 @@ constexpr double kCornerSafety = 3;
 // Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-15;
 
-// A secant estimate knows the curvature only in the directions that were walked. What it promises is not believed within this
-// distance (radians): the slope may go on that far, as it does along the normals of a sharp edge.
-constexpr double kSecantReach = 0.6;
+// The distance between two unit normals a quarter turn apart, sqrt(2).
+constexpr double kQuarterTurn = 1.4142135623730951;
 
 // Where a level maximum of the cuts is probed: a normal that is turned by sqrt(2 tolerance / depth) may be higher by the tolerance
 // without bending. A cut of there reaches from 0.6 to more than 2 times as far.
@@ -161,7 +160,7 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   const double error = GainToCome::kSafety * step.gain + top.uncertainty;
   const double turn = turn_gain();
   if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
-    error_ = std::min(error_, turn < tolerance_ ? error + turn : std::max(error, turn));  // turn_gain() may end at the tolerance
+    error_ = std::min(error_, with_turn(error, turn));
   } else {
     probe_step(local, top, error, step);
   }
@@ -264,7 +263,7 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
 double Ascent::unheld_turn_gain() const {
   if (gap_.has_curvature() || current().s >= 0) return 0;
-  const double turn = std::min(kSecantReach, secant_.reach());
+  const double turn = std::min(secant_.reach(), kQuarterTurn);
   return -0.5 * turn * turn * current().s;
 }
 
@@ -275,15 +274,17 @@ double Ascent::turn_gain() const {
   return is_round ? std::min(gain, tolerance_) : gain;
 }
 
+double Ascent::with_turn(double error, double turn) const { return turn < tolerance_ ? error + turn : std::max(error, turn); }
+
 // Along the slope, where the model does not tell how far it goes on: of bodies without Hessians, and where the steps grow, as along
-// the normals of a sharp tip. And with the turn itself.
+// the normals of a sharp tip. However far, s gains no more than slope sin(turn) by it. And with the turn itself.
 double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
   is_open_ = false;
   if (gap_.has_curvature() && !to_come_.steps_grow()) return 0;
-  const double along_slope = kSecantReach * slope.norm();
+  const double along_slope = slope.norm();
   const double turn = is_held_by_curvature ? turn_gain() : 0;
   is_open_ = along_slope <= tolerance_ && turn > tolerance_;
-  return std::max(along_slope, turn);
+  return with_turn(along_slope, turn);
 }
 
 // The boundary point is a function of the normal's components over their sizes: where these hardly change, both steps are the same.

@@ -485,3 +485,20 @@ TEST_CASE("the tips of two needles, 1e-3 m apart: a curvature that changes where
   const Vector3 higher(0.00076949776623643211, 0.99820503945868144, 0.059960258561240709);
   CHECK(gap_at(needle, {}, needle, pose2, higher) <= answer.gap + answer.error);
 }
+
+// The first normal, 0.9 radians from the maximum, is one of both tips: s rises along its slope as far as the normals of the tips
+// go.
+TEST_CASE("a tip in another's, one without a Hessian, at a loose tolerance: before any curvature is seen none is believed") {
+  const Superellipsoid body1(Vector3(1.3307026937667679, 0.67791660216741145, 1.0579499391168263), 1.2734375926967885,
+                             1.0277908818452606);
+  const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(0.50522832563076037, 0.78192221662747452, 0.51572629986482765), 1.0532310556542768, 1.1400900862845573));
+  Pose pose2{Vector3(-0.13277975266132355, -0.062569660579594039, 1.8255023465012892), Matrix3::Identity()};
+  pose2.rotation << 0.83299510297149038, -0.1697472475102694, 0.52659759816030627,  //
+      0.52106547373530498, -0.079344687909482126, -0.84982068260401211,             //
+      0.1860374438292417, 0.98228829396630502, 0.022355693463802728;
+  Settings settings;
+  settings.tolerance = 1e-3;
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
+  CHECK(find_proximity(body1, {}, body2, pose2, {}).gap <= answer.gap + answer.error);
+}
