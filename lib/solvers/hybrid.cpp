@@ -28,6 +28,9 @@ constexpr int kShallowEvaluations = 18;
 constexpr int kShallowSharpEvaluations = 25;
 constexpr int kDeepEvaluations = 200;
 
+// Nor is anything spared where the overlap is so shallow that the bodies may as well be apart.
+constexpr double kTouchingDepth = 1e-6;  // of the pair's length
+
 // With history the branch is left when another is shallower by the second share, and not kept when one may be shallower by more
 // than the first: so it does not flip between two, and is at most 1.5 times as deep as the best.
 constexpr double kBranchWidth = 1.0 / 3;
@@ -45,7 +48,7 @@ GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, 
   const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), gap.shape2().has_kinks());
   if (!may_have_others && gap.evaluations() <= kEasyClimb) return {};
   const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
-  const bool is_shallow = depth < kShallowDepth * gap.length_unit();
+  const bool is_shallow = depth > kTouchingDepth * gap.length_unit() && depth < kShallowDepth * gap.length_unit();
   const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
   const int most = std::min(limit, gap.evaluations() + affordable);
   if (branch == Branch::OfStart) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reference_pairs.hpp"
@@ -11,7 +12,9 @@
 #include "solvers/triangle_program.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/solvers/solve.hpp"
 
 using namespace supernormal;
@@ -83,6 +86,25 @@ TEST_CASE("an edge above a parallel edge: the default search does not claim what
   CHECK(proved.gap < -0.031165);
   CHECK((found.is_global == false || std::abs(found.gap - proved.gap) <= 1e-9));
   CHECK(proved.gap <= found.gap + found.global_error);
+}
+
+// The normal of the first climb, 5e-10 m deep, leads up another hill: the one that separates the bodies is 103 degrees away.
+TEST_CASE("a needle's tip on a vertex of another, 7e-11 m apart: where bodies may touch, no normal is left to chance") {
+  const std::array<Vector3, 5> points = {Vector3(0.012051518399086192, -0.19603277197672586, 0.74698447795492073),
+                                         Vector3(-0.037081459265394953, 0.49587026379843452, 0.3345531509944204),
+                                         Vector3(-0.022943379748367337, 0.29853221052642576, -0.65531553626789973),
+                                         Vector3(0.029693041168745986, 0.0047201698522631756, -0.63785247806481193),
+                                         Vector3(0.022634272672686293, 0.833954313924401, -0.02090210250108604)};
+  const Polytope needle(points);
+  const Superellipsoid other(Vector3(0.33589502295312529, 2.079589666107458, 0.18992071014211995), 1.0505843814196085,
+                             7.6522420671329217);
+  Pose pose2{Vector3(0.32926131563088118, 2.5815167761638085, -1.0726527220048339), Matrix3::Identity()};
+  pose2.rotation << -0.91202224446929248, -0.12318873633911614, 0.39120322190949069,  //
+      0.31679658741664674, -0.81738716501577957, 0.4811633243178805,                  //
+      0.26049059060618945, 0.56276350068802317, 0.78450104811848398;
+  const Proximity answer = find_proximity(needle, {}, other, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(std::abs(answer.gap - 6.9003e-11) <= answer.error);
 }
 
 TEST_CASE("no radius of curvature is smaller than the rolling radius") {
