@@ -1,5 +1,6 @@
 // Is there a normal with a larger gap?
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -14,6 +15,12 @@ constexpr int kWalks = 8;
 constexpr double kFirstAngle = 1e-15;
 constexpr int kSteps = 25;  // to an angle of about 1
 constexpr int kRandomDirections = 50;
+
+// A valley is looked for at so many normals, and is one if it is so many times as deep as s is seen to jitter between normals that
+// differ by rounding.
+constexpr int kFineSteps = 64;
+constexpr double kJitters = 16;
+constexpr double kRoundingAngle = 1e-15;
 
 /// The box with the half-extents and the octahedron inscribed in it.
 struct Features {
@@ -55,6 +62,7 @@ class Probe {
       const double s = value(m);
       if (s < floor_) return;
       if (!(s <= local_ceiling_)) {
+        if (crosses_valley(tangent, angle)) return;
         out.push_back("not a maximum: " + exact_text(s - local_ceiling_) + " m more than it may be at an angle of " +
                       exact_text(angle) + ", n " + exact_text(m));
         return;
@@ -92,6 +100,31 @@ class Probe {
     GapJet jet;
     gap_.evaluate(n, Order::Value, jet);
     return jet.s;
+  }
+
+  /// Whether s falls on the way, if only by less than its rounding may be at worst: by more than its rounding is.
+  bool crosses_valley(const Vector3& tangent, double angle) {
+    Vector3 bottom = n_;
+    double lowest = value(n_);
+    const double here = lowest - kJitters * jitter(n_);
+    for (int k = 1; k < kFineSteps; ++k) {
+      const Vector3 m = (n_ + (angle * k / kFineSteps) * tangent).normalized();
+      const double s = value(m);
+      if (s >= lowest) continue;
+      lowest = s;
+      bottom = m;
+    }
+    return lowest < here - kJitters * jitter(bottom);
+  }
+
+  double jitter(const Vector3& n) {
+    const Vector3 tangent1 = n.unitOrthogonal(), tangent2 = n.cross(tangent1);
+    const double s = value(n);
+    double most = 0;
+    for (const Vector3& tangent : {tangent1, tangent2}) {
+      for (const double sign : {-1., 1.}) most = std::max(most, std::abs(value(n + sign * kRoundingAngle * tangent) - s));
+    }
+    return most;
   }
 
   GapFunction gap_;
