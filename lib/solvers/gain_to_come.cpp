@@ -79,6 +79,7 @@ double GainToCome::learn(const Promise& now, double radius) {
   slow_steps_ = is_slow ? slow_steps_ + 1 : 0;
   if (last_.gain > 0 || is_rounding) steps_grow_ = now.step >= last_.step && !is_rounding;
 
+  const bool is_held_back = now.step >= kAtRim * radius;
   double gains = kMost;
   bool is_unknown = false;
   bool is_fading = false;
@@ -86,7 +87,7 @@ double GainToCome::learn(const Promise& now, double radius) {
     const Eigen2 before(last_.curvature);
     const Eigen2 curvature(now.curvature);
     is_fading = fades(before, curvature);
-    const bool is_far = now.step >= std::min(kAsymptoticStep, kAtRim * radius) || (last_.step > kFarStep && has_tips(gap_));
+    const bool is_far = is_held_back || now.step >= kAsymptoticStep || (last_.step > kFarStep && has_tips(gap_));
     if (!is_far) {
       // Where one direction converges fast, the gain hides that another is slow; the step tells it.
       const double of_steps = is_rounding ? 0 : contraction_of(last_.step, now.step);
@@ -99,7 +100,9 @@ double GainToCome::learn(const Promise& now, double radius) {
   last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
 
   const double error = kSafety * gains * now.gain;
-  const bool is_at_tip = (is_slow || is_fading || gains == kMost) && !is_rounding && has_tips(gap_);
+  // What is below rounding is believed to be the last, but not where the model has just been found wrong.
+  const bool is_last = is_rounding && !is_held_back;
+  const bool is_at_tip = (is_slow || is_fading || gains == kMost) && !is_last && has_tips(gap_);
   return (is_at_tip || is_unknown) && error <= tolerance_ ? kTipSafety * error : error;
 }
 

@@ -502,3 +502,19 @@ TEST_CASE("a tip in another's, one without a Hessian, at a loose tolerance: befo
   const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
   CHECK(find_proximity(body1, {}, body2, pose2, {}).gap <= answer.gap + answer.error);
 }
+
+// On the cap's normal, which is where the climb gets first, s rises along one azimuth only, that of the tip to 1e-7: steps a
+// thousandth beside it lead down, until they are too short to gain anything.
+TEST_CASE("an octahedron's tip on the rim of a cylinder, at the finest tolerance: steps held back show no convergence") {
+  const Cylinder cylinder(1.2152125017461786, 1.2492630838922749);
+  const Superellipsoid tip(Vector3(1.0703647978263131, 0.6217203905892974, 1.0821407905791396), 1.0551426130855197,
+                           1.0376467731595393);
+  Pose pose2{Vector3(1.0191886248774535, 1.2361743712840529, 2.2310606505785624), Matrix3::Identity()};
+  pose2.rotation << 0.12376757649905845, 0.91826095498726024, -0.37613615294655495,  //
+      0.37858245289481446, 0.30668447398198118, 0.87328114589663552,                 //
+      0.91725509721543386, -0.25048243843487306, -0.30967989064197354;
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Proximity answer = find_proximity(cylinder, {}, tip, pose2, settings);
+  CHECK(2.7688962234151404e-13 <= answer.gap + answer.error);  // that of a normal between the cap's and the mantle's
+}
