@@ -43,7 +43,7 @@ constexpr double kCornerSafety = 3;
 constexpr double kGrazing = 1e-15;
 
 // The distance between two unit normals a quarter turn apart, sqrt(2).
-constexpr double kQuarterTurn = 1.4142135623730951;
+constexpr double kQuarterTurnChord = 1.4142135623730951;
 
 // Where a level maximum of the cuts is probed: a normal that is turned by sqrt(2 tolerance / depth) may be higher by the tolerance
 // without bending. A cut of there reaches from 0.6 to more than 2 times as far.
@@ -263,7 +263,7 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
 double Ascent::unheld_turn_gain() const {
   if (gap_.has_curvature() || current().s >= 0) return 0;
-  const double turn = std::min(secant_.reach(), kQuarterTurn);
+  const double turn = std::min(secant_.reach(), kQuarterTurnChord);
   return -0.5 * turn * turn * current().s;
 }
 

@@ -48,8 +48,10 @@ GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, 
   const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), gap.shape2().has_kinks());
   if (!may_have_others && gap.evaluations() <= kEasyClimb) return {};
   const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
-  const bool is_shallow = depth > kTouchingDepth * gap.length_unit() && depth < kShallowDepth * gap.length_unit();
-  const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
+  const bool may_be_apart = depth <= kTouchingDepth * gap.length_unit();
+  const bool is_shallow = depth < kShallowDepth * gap.length_unit();
+  const int affordable =
+      is_shallow && !may_be_apart ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
   const int most = std::min(limit, gap.evaluations() + affordable);
   if (branch == Branch::OfStart) {
     return {std::max(kBranchWidth * depth, tolerance), most, std::max(kBranchWorth * depth, tolerance), 0};

@@ -62,7 +62,7 @@ class Probe {
       const double s = value(m);
       if (s < floor_) return;
       if (!(s <= local_ceiling_)) {
-        if (crosses_valley(tangent, angle)) return;
+        if (std::isfinite(s) && crosses_valley(tangent, angle)) return;
         out.push_back("not a maximum: " + exact_text(s - local_ceiling_) + " m more than it may be at an angle of " +
                       exact_text(angle) + ", n " + exact_text(m));
         return;

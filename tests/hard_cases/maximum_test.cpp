@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cases/builders.hpp"
 #include "invariants.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/solve.hpp"
@@ -12,18 +13,8 @@ using namespace supernormal::samples;
 
 namespace {
 
-HardCase pair_of(const Body& body1, const Body& body2, const Pose& pose2) {
-  HardCase one;
-  one.body1 = body1;
-  one.body2 = body2;
-  one.shape1 = make_shape(body1);
-  one.shape2 = make_shape(body2);
-  one.pose2 = pose2;
-  return one;
-}
-
 /// The answer that a climb gives which ends before the maximum, by an angle.
-Proximity turned(const HardCase& one, Proximity answer, double angle) {
+Proximity beside(const HardCase& one, Proximity answer, double angle) {
   answer.normal = (answer.normal + angle * answer.normal.unitOrthogonal()).normalized();
   GapFunction gap(*one.shape1, one.pose1, *one.shape2, one.pose2);
   GapJet jet;
@@ -36,11 +27,10 @@ Proximity turned(const HardCase& one, Proximity answer, double angle) {
 
 TEST_CASE("an answer beside the maximum is told, be it apart, touching or deep") {
   for (const double distance : {2.5, 2.0, 1.5}) {
-    const HardCase one =
-        pair_of(ellipsoid(Vector3(1, 0.7, 0.5)), superball(1, 4), {Vector3(distance, 0.3, 0.2), Matrix3::Identity()});
+    const HardCase one = pair("", "", ellipsoid(Vector3(1, 0.7, 0.5)), superball(1, 4), at(Vector3(distance, 0.3, 0.2)));
     const Proximity answer = find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, {});
     CHECK(check_maximum(one, {}, answer).empty());
-    CHECK_FALSE(check_maximum(one, {}, turned(one, answer, 1e-3)).empty());
+    CHECK_FALSE(check_maximum(one, {}, beside(one, answer, 1e-3)).empty());
   }
 }
 
@@ -51,7 +41,8 @@ TEST_CASE("a higher normal beyond a shallow valley is another maximum") {
   pose2.rotation << 0.89344973057470922, -0.31982929357466361, 0.31536772489827042,  //
       0.0035525899381533277, 0.70713266322715096, 0.70707197349492501,               //
       -0.44914914899252661, -0.63061289200967685, 0.63292370977115464;
-  const HardCase one = pair_of(
+  const HardCase one = pair(
+      "", "",
       superellipsoid(Vector3(0.4903459476771726, 0.38967923981747343, 0.061520520560491412), 31.576372082447019,
                      1.6176656595678696),
       superellipsoid(Vector3(2.3743222585551198, 0.66988455851120476, 0.175064090576774), 160.56125457666411, 83.873937973465033),
@@ -61,5 +52,5 @@ TEST_CASE("a higher normal beyond a shallow valley is another maximum") {
   const Proximity answer = find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, settings);
   CHECK_FALSE(answer.is_global);
   CHECK(check_maximum(one, settings, answer).empty());
-  CHECK_FALSE(check_maximum(one, settings, turned(one, answer, 1e-4)).empty());
+  CHECK_FALSE(check_maximum(one, settings, beside(one, answer, 1e-4)).empty());
 }
