@@ -105,7 +105,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (finished(worth, status)) {
       if (status == Status::Stalled) error_ *= kStalledSafety;
       // What was asked for is not reached: nothing is claimed of it.
-      if (status != Status::Converged) error_ = std::max(error_, unheld_turn_gain());
+      if (status != Status::Converged) error_ = std::max(error_, turn_gain());
       return status;
     }
     evaluate(step.normal.normalized(), trial(), corners_[1 - now_]);
@@ -160,7 +160,7 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   const double error = GainToCome::kSafety * step.gain + top.uncertainty;
   const double turn = turn_gain();
   if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
-    error_ = std::min(error_, with_turn(error, turn));
+    error_ = std::min(error_, error + turn);
   } else {
     probe_step(local, top, error, step);
   }
@@ -261,20 +261,13 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
 }
 
 // Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
-double Ascent::unheld_turn_gain() const {
-  if (gap_.has_curvature() || current().s >= 0) return 0;
+// A ball as large as the overlap that rolls inside the bodies does; radii that were sampled, or estimated, prove nothing: below an
+// exponent of 2 they vanish at the vertices, and are rather large beside them.
+double Ascent::turn_gain() const {
+  if (gap_.has_curvature() || -current().s <= rolling_radius_) return 0;
   const double turn = std::min(secant_.reach(), kQuarterTurnChord);
   return -0.5 * turn * turn * current().s;
 }
-
-// If they are as round as they seem the curvature does hold it back; then no more is claimed than was asked for.
-double Ascent::turn_gain() const {
-  const double gain = unheld_turn_gain();
-  const bool is_round = -current().s <= gap_.shape1().sharpest_radius() + gap_.shape2().sharpest_radius();
-  return is_round ? std::min(gain, tolerance_) : gain;
-}
-
-double Ascent::with_turn(double error, double turn) const { return turn < tolerance_ ? error + turn : std::max(error, turn); }
 
 // Along the slope, where the model does not tell how far it goes on: of bodies without Hessians, and where the steps grow, as along
 // the normals of a sharp tip. However far, s gains no more than slope sin(turn) by it. And with the turn itself.
@@ -284,7 +277,7 @@ double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
   const double along_slope = slope.norm();
   const double turn = is_held_by_curvature ? turn_gain() : 0;
   is_open_ = along_slope <= tolerance_ && turn > tolerance_;
-  return with_turn(along_slope, turn);
+  return along_slope + turn;
 }
 
 // The boundary point is a function of the normal's components over their sizes: where these hardly change, both steps are the same.

@@ -62,10 +62,8 @@ class Ascent {
   Step choose_step();
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
-  double unheld_turn_gain() const;
+  /// m; what s may gain by a turn of which no slope tells.
   double turn_gain() const;
-  /// m; an error, and a gain of turn_gain(), which may end at the tolerance: then it does not add.
-  double with_turn(double error, double turn) const;
   double unseen_gain(const Vector2& slope, bool is_held_by_curvature);
   enum class FlatStep {
     Taken,

@@ -518,3 +518,16 @@ TEST_CASE("an octahedron's tip on the rim of a cylinder, at the finest tolerance
   const Proximity answer = find_proximity(cylinder, {}, tip, pose2, settings);
   CHECK(2.7688962234151404e-13 <= answer.gap + answer.error);  // that of a normal between the cap's and the mantle's
 }
+
+// The climb starts at the normal of both vertices, where s is level and nothing shows a curvature. Below an exponent of 2 the
+// radius of curvature vanishes there, though a few degrees beside it is as large as the overlap.
+TEST_CASE("a vertex deep in another's, one without a Hessian: no ball rolls there that would hold the normal") {
+  const CallbackShape body1 = without_hessian(std::make_shared<Superellipsoid>(Vector3(1.4, 0.6, 0.7), 1.45, 1.35));
+  const Superellipsoid body2(Vector3(0.65, 0.65, 0.65), 1.85, 1.8);
+  const Pose pose2{Vector3(0, 0, 1.08), Matrix3::Identity()};  // 0.27 m deep
+  Settings settings;
+  settings.tolerance = 1e-6;
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
+  const Vector3 higher = Vector3(0, 4e-3, 1).normalized();
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+}
