@@ -260,20 +260,22 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
           curvature * along.y() * along.y() + size * across.y() * across.y()};
 }
 
-// Two vertices that overlap come nearer whichever way the normal turns, for as far as no curvature has been seen to hold it back.
-// A ball as large as the overlap that rolls inside the bodies does; radii that were sampled, or estimated, prove nothing: below an
-// exponent of 2 they vanish at the vertices, and are rather large beside them.
+// Two vertices that overlap come nearer whichever way the normal turns: as far as no curvature has been seen to hold it back, or
+// where that is about to end. Only a ball as large as the overlap that rolls inside the bodies holds it for certain. Radii that
+// were sampled or estimated do not: below an exponent of 2 they vanish at the vertices, and are rather large beside them.
 double Ascent::turn_gain() const {
-  if (gap_.has_curvature() || -current().s <= rolling_radius_) return 0;
-  const double turn = std::min(secant_.reach(), kQuarterTurnChord);
+  const bool is_held = gap_.has_curvature() && !to_come_.may_be_shelf();
+  if (is_held || -current().s <= rolling_radius_) return 0;
+  const double turn = gap_.has_curvature() ? kQuarterTurnChord : std::min(secant_.reach(), kQuarterTurnChord);
   return -0.5 * turn * turn * current().s;
 }
 
 // Along the slope, where the model does not tell how far it goes on: of bodies without Hessians, and where the steps grow, as along
-// the normals of a sharp tip. However far, s gains no more than slope sin(turn) by it. And with the turn itself.
+// the normals of a sharp tip, or where the curvature is about to end. However far, s gains no more than slope sin(turn) by it. And
+// with the turn itself.
 double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
   is_open_ = false;
-  if (gap_.has_curvature() && !to_come_.steps_grow()) return 0;
+  if (gap_.has_curvature() && !to_come_.steps_grow() && !to_come_.may_be_shelf()) return 0;
   const double along_slope = slope.norm();
   const double turn = is_held_by_curvature ? turn_gain() : 0;
   is_open_ = along_slope <= tolerance_ && turn > tolerance_;

@@ -22,6 +22,10 @@ constexpr double kFading = 0.5;
 // Steps that shrink by less than this may cross a shelf, beyond which s rises as before.
 constexpr double kSlowSteps = 0.6;
 
+// Where the slope falls like the square of the distance to a shelf, so that the curvature falls like the distance, a step of
+// Newton's goes half of the way. The curvature may end within so many of them.
+constexpr double kShelfSteps = 4;
+
 // Steps that each promise more than this share of the last may zigzag, when there are so many in a row.
 constexpr double kSlowShare = 0.3;
 constexpr int kManySlowSteps = 4;
@@ -60,6 +64,11 @@ double change_of(const Eigen2& before, const Eigen2& now) {
 /// Whether it has become small, any way.
 bool fades(const Eigen2& before, const Eigen2& now) { return now.low < kFading * before.low || now.high < kFading * before.high; }
 
+/// Whether the curvature that has fallen so much with the last step would end within a few of the next.
+bool ends_soon(double before, double now, double last_step, double step) {
+  return kShelfSteps * step * (before - now) > now * last_step;
+}
+
 /// Whether a body has a sharp tip, where the radii of curvature are 0: other than corners, which an ascent knows.
 bool has_tips(const GapFunction& gap) {
   return gap.shape1().sharpest_radius() == 0 || (!gap.shape2().has_kinks() && gap.shape2().sharpest_radius() == 0);
@@ -71,6 +80,7 @@ void GainToCome::restart() {
   last_.gain = 0;
   slow_steps_ = 0;
   steps_grow_ = false;
+  may_be_shelf_ = false;
 }
 
 double GainToCome::learn(const Promise& now, double radius) {
@@ -83,10 +93,12 @@ double GainToCome::learn(const Promise& now, double radius) {
   double gains = kMost;
   bool is_unknown = false;
   bool is_fading = false;
+  may_be_shelf_ = false;
   if (last_.gain > 0) {
     const Eigen2 before(last_.curvature);
     const Eigen2 curvature(now.curvature);
     is_fading = fades(before, curvature);
+    may_be_shelf_ = ends_soon(before.low, curvature.low, last_.step, now.step);
     const bool is_far = is_held_back || now.step >= kAsymptoticStep || (last_.step > kFarStep && has_tips(gap_));
     if (!is_far) {
       // Where one direction converges fast, the gain hides that another is slow; the step tells it.

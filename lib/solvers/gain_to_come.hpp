@@ -38,6 +38,10 @@ class GainToCome {
   /// Whether the next step is longer than the last.
   bool steps_grow() const { return steps_grow_; }
 
+  /// Whether the curvature, as it has changed with the last step, ends within the next few: s may be level there and rise on
+  /// beyond.
+  bool may_be_shelf() const { return may_be_shelf_; }
+
   /// Whether there were so many steps with gains that hardly shrink that they may zigzag across a ridge, which rises where they
   /// never look. Counts anew when there were.
   bool may_zigzag();
@@ -48,6 +52,7 @@ class GainToCome {
   Promise last_{0, 0, {}};  // gain 0: no history
   int slow_steps_ = 0;      // in a row
   bool steps_grow_ = false;
+  bool may_be_shelf_ = false;
 };
 
 }  // namespace supernormal

@@ -162,3 +162,18 @@ TEST_CASE("a model without a maximum promises no end, and is no history") {
   CHECK(to_come.learn({std::numeric_limits<double>::infinity(), 0.5, kUnit}, kRadius) == std::numeric_limits<double>::infinity());
   CHECK(to_come.learn({1e-6, 1e-6, kUnit}, kRadius) == relative(kMost * 1e-6));
 }
+
+TEST_CASE("a slope that falls like the square of the distance to a shelf is told from one that falls to a maximum") {
+  GainToCome to_come(kGap, kTolerance);
+  const auto is_shelf_after = [&](double before, double now, double step) {
+    to_come.restart();
+    to_come.learn({1e-6, 1e-2, {1, 0, before}}, kRadius);
+    CHECK_FALSE(to_come.may_be_shelf());
+    to_come.learn({1e-7, step, {now, 0, 1}}, kRadius);
+    return to_come.may_be_shelf();
+  };
+  CHECK(is_shelf_after(0.5, 0.25, 0.5e-2));        // halfway
+  CHECK_FALSE(is_shelf_after(0.5, 0.25, 0.2e-2));  // ends after five such steps
+  CHECK_FALSE(is_shelf_after(0.25, 0.5, 1e-2));
+  CHECK_FALSE(is_shelf_after(0.5, 0.5, 1e-2));
+}

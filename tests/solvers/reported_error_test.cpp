@@ -531,3 +531,18 @@ TEST_CASE("a vertex deep in another's, one without a Hessian: no ball rolls ther
   const Vector3 higher = Vector3(0, 4e-3, 1).normalized();
   CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
 }
+
+// Steps and curvature halve towards a shelf of s, beyond which it rises 4e-9 m farther.
+TEST_CASE("an octahedron's tip in another's, 1e-6 m deep: where the curvature is about to end, s may rise on") {
+  const Superellipsoid body1(Vector3(0.56749216029451766, 0.65252412836825313, 1.0201018585264015), 1.1060605934645005,
+                             1.1584072967469143);
+  const Superellipsoid body2(Vector3(0.80102906096941917, 0.83995622940094428, 1.3256164648197444), 1.0926718750416728,
+                             1.1225894973559909);
+  Pose pose2{Vector3(-0.27482087727222648, 1.8876698889875803, 0.39515110932644842), Matrix3::Identity()};
+  pose2.rotation << 0.27594973644575649, -0.93854781889435079, 0.20731554356626114,  //
+      -0.23663711153651806, -0.27539009682028381, -0.93175274188862367,              //
+      0.93158715126346114, 0.20805837215063339, -0.29808906953938696;
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  const Vector3 higher = Vector3(-0.11966945393755965, 0.99272824452624409, -0.013032816814794776).normalized();
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+}
