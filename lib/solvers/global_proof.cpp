@@ -47,9 +47,13 @@ bool GlobalProof::complete(const Goal& goal, GapJet& best, double& error, Status
   error_ = error;
   status_ = status;
   start();
-  while (!storage_.cells.empty() && status_ != Status::InvalidInput && gap_.evaluations() < goal_.max_evaluations) {
+  while (!storage_.cells.empty() && status_ != Status::InvalidInput) {
+    const double highest = storage_.cells.front().bound;
     // Without their balls the bodies are apart: a climb has shown it, and found the only maximum.
-    if (best_.s + rho_ > 0 || !(excess_of(storage_.cells.front().bound) > goal_.width)) break;
+    if (best_.s + rho_ > 0 || !(excess_of(highest) > goal_.width)) break;
+    const bool overlap_is_proved = highest < rho_;
+    limit_ = overlap_is_proved ? goal_.max_evaluations : goal_.max_evaluations_for_overlap;
+    if (gap_.evaluations() >= limit_) break;
     refine(pop());
   }
   climb_from_tops();
@@ -105,7 +109,7 @@ GlobalProof::Index GlobalProof::evaluate(const Vector3& direction) {
   cuts_.add(jet_.d);
   storage_.cuts.add(jet_.d + rho_ * jet_.n, 0);
   const Index cut = storage_.cuts.size() - 1;
-  if (jet_.s > best_.s + goal_.worth && gap_.evaluations() < goal_.max_evaluations) {
+  if (jet_.s > best_.s + goal_.worth && gap_.evaluations() < limit_) {
     climb_from(jet_.n);
   } else {
     remember_top({jet_.n, jet_.s});

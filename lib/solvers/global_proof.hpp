@@ -31,10 +31,11 @@ class GlobalProof {
 
   /// What a search is to achieve.
   struct Goal {
-    double width;         ///< m; it ends when s is proved to be at most so much above the best normal known,
-    int max_evaluations;  ///< or when the query has taken so many, the climbs at the end apart
-    double worth;         ///< m; a normal that is higher than the best by more than this is climbed from
-    double near;          ///< m; in the end those are, too, that are lower by less and lead up other hills; none if 0
+    double width;                     ///< m; it ends when s is proved to be at most so much above the best normal known,
+    int max_evaluations;              ///< or when the query has taken so many, the climbs at the end apart,
+    int max_evaluations_for_overlap;  ///< or so many, as long as the bodies may be apart
+    double worth;                     ///< m; a normal that is higher than the best by more than this is climbed from
+    double near;                      ///< m; in the end those are, too, that are lower by less and lead up other hills; none if 0
   };
 
   /// Searches for higher normals than `best`. Whether the width was reached; `best`, `error` and `status` are those of the last
@@ -92,6 +93,7 @@ class GlobalProof {
   const double rho_;  // m
   Storage storage_;
   Goal goal_{};
+  int limit_ = 0;                   // evaluations: the one of the two that counts now
   double excess_ = 0;               // m
   double given_up_ = 0;             // m; the highest bound of the triangles that were
   std::array<Top, kMaxTops> tops_;  // the highest that were not climbed from, the lowest first

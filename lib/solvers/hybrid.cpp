@@ -28,8 +28,8 @@ constexpr int kShallowEvaluations = 18;
 constexpr int kShallowSharpEvaluations = 25;
 constexpr int kDeepEvaluations = 200;
 
-// Nor is anything spared where the overlap is so shallow that the bodies may as well be apart.
-constexpr double kTouchingDepth = 1e-6;  // of the pair's length
+// Nothing is spared until it is proved that the bodies overlap at all, which takes a few evaluations as a rule.
+constexpr int kOverlapEvaluations = 200;
 
 // With history the branch is left when another is shallower by the second share, and not kept when one may be shallower by more
 // than the first: so it does not flip between two, and is at most 1.5 times as deep as the best.
@@ -42,21 +42,20 @@ constexpr int kEasyClimb = 12;
 /// How thoroughly other maxima are looked for; not at all where no evaluation is allowed.
 GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, Branch branch, double tolerance, double depth) {
   const int limit = settings.max_evaluations;
-  if (settings.certify_depth) return {tolerance, limit, 0.5 * tolerance, 0};
+  if (settings.certify_depth) return {tolerance, limit, limit, 0.5 * tolerance, 0};
   if (branch == Branch::OfStart && depth <= kUnquestionedDepth * gap.length_unit()) return {};
   const double radius1 = gap.shape1().sharpest_radius(), radius2 = gap.shape2().sharpest_radius();
   const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), gap.shape2().has_kinks());
   if (!may_have_others && gap.evaluations() <= kEasyClimb) return {};
   const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
-  const bool may_be_apart = depth <= kTouchingDepth * gap.length_unit();
   const bool is_shallow = depth < kShallowDepth * gap.length_unit();
-  const int affordable =
-      is_shallow && !may_be_apart ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
+  const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
   const int most = std::min(limit, gap.evaluations() + affordable);
+  const int most_for_overlap = std::min(limit, gap.evaluations() + kOverlapEvaluations);
   if (branch == Branch::OfStart) {
-    return {std::max(kBranchWidth * depth, tolerance), most, std::max(kBranchWorth * depth, tolerance), 0};
+    return {std::max(kBranchWidth * depth, tolerance), most, most_for_overlap, std::max(kBranchWorth * depth, tolerance), 0};
   }
-  return {std::max(kHighestWidth * depth, tolerance), most, tolerance, kHighestNear * depth};
+  return {std::max(kHighestWidth * depth, tolerance), most, most_for_overlap, tolerance, kHighestNear * depth};
 }
 
 /// The answer after a search for higher maxima than `best`, in which that is put.

@@ -107,6 +107,20 @@ TEST_CASE("a needle's tip on a vertex of another, 7e-11 m apart: where bodies ma
   CHECK(std::abs(answer.gap - 6.9003e-11) <= answer.error);
 }
 
+// Likewise; the first climb ends 3e-7 m deep.
+TEST_CASE("the edges of two flat needles at one another's ends, 2e-10 m apart: no search ends before the overlap is proved") {
+  const Superellipsoid body1(Vector3(0.34214723099492178, 4.9050957934449073, 1.3734996802765909), 1.1442576482855413,
+                             86.759944962975169);
+  const Superellipsoid body2(Vector3(0.076701942377301269, 0.64845549724886942, 0.56743701898540477), 1.1392353648785363,
+                             41.491925853445579);
+  const Vector3 turn(1.03658376e-7, -3.37618822e-8, 1.18135856e-7);  // radians
+  const Pose pose2{Vector3(3.0025404397791209e-07, -5.5507419937433768, -1.8510334563316457),
+                   Matrix3(Eigen::AngleAxisd(turn.norm(), turn.normalized()))};
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(answer.gap > 0);
+}
+
 TEST_CASE("no radius of curvature is smaller than the rolling radius") {
   for (const Superellipsoid& shape : superellipsoids(2, 200)) {
     for (const Vector3& n : random_normals(40, 6)) {
