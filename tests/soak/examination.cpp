@@ -94,7 +94,7 @@ class Examiner {
     if (!sample_.placed_gap) return;
     const double placed = *sample_.placed_gap;
     if (placed > bound_ && !first_.is_global) violate("cold", "not sure of bodies that were placed apart by " + exact_text(placed));
-    stay_below_ceiling("the normal that the bodies were placed on", placed);
+    if (!(placed <= ceiling_)) violate_ceiling("the normal that the bodies were placed on", placed);
     if (!first_.is_global) return;
     if (!is_within(placed - first_.gap, bound_)) {
       violate("cold",
@@ -118,12 +118,11 @@ class Examiner {
     GapJet jet;
     gap.evaluate(direction / length, Order::Value, jet);
     if (first_.is_global) is_within(std::max(jet.s - first_.gap, 0.0), bound_);
-    stay_below_ceiling("n " + exact_text(Vector3(direction / length)), jet.s);
+    if (!(jet.s <= ceiling_)) violate_ceiling("n " + exact_text(Vector3(direction / length)), jet.s);
   }
 
   /// No direction may have a larger value of the gap function than the answer says is possible.
-  void stay_below_ceiling(const std::string& where, double s) {
-    if (s <= ceiling_) return;
+  void violate_ceiling(const std::string& where, double s) {
     violate("cold", "gap " + exact_text(first_.gap) + ", at most " + exact_text(ceiling_) + " as it says, but " + exact_text(s) +
                         " at " + where);
   }
@@ -132,7 +131,7 @@ class Examiner {
   void compare(const char* how, const Proximity& second) {
     if (!std::isfinite(second.gap) || !(second.error >= 0)) return violate(how, "no answer");
     if (!(std::abs(second.normal.norm() - 1) <= 1e-15)) return violate(how, "normal of length " + exact_text(second.normal.norm()));
-    stay_below_ceiling(how, second.gap);
+    if (!(second.gap <= ceiling_)) violate_ceiling(how, second.gap);
     if (!first_.is_global || !second.is_global) return;
     const double allowed = bound_ + samples::error_of(sample_.pair, sample_.settings, second) + rounding_;
     if (is_within(std::abs(second.gap - first_.gap), allowed)) return;
