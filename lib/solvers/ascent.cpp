@@ -103,6 +103,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
     const Step step = choose_step();
     if (finished(worth, status)) {
+      if (status == Status::Converged && leave_flat_spot()) continue;
       if (status == Status::Stalled) error_ *= kStalledSafety;
       // What was asked for is not reached: nothing is claimed of it.
       if (status != Status::Converged) error_ = std::max(error_, turn_gain());
@@ -343,6 +344,25 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
   if (target.peak != nullptr) normal = known_.shared_normal(*target.peak, normal);
   step = {normal, u.norm(), std::min(step.gain, shrink * rise)};
   return FlatStep::Taken;
+}
+
+// At the normal of a flat spot the radius of curvature is infinite, however fast it falls beside it: one of exponent 2.3 may hold
+// the normal for 1e-5 radians only. One look at the distance that matters tells.
+bool Ascent::leave_flat_spot() {
+  if (!has_flat_faces_ || -current().s <= std::max(rolling_radius_, tolerance_)) return false;
+  const LocalModel local = local_model();
+  const Eigen2 curvature(local.model.A);
+  const auto rises_along = [&](double radius, const Vector2& way) {
+    if (radius <= kFlatRadius * gap_.length_unit() || gap_.evaluations() >= settings_.max_evaluations) return false;
+    const Vector2 u = std::copysign(distance_that_matters(), local.model.g.dot(way)) * way;
+    evaluate((current().n + local.plane1.lift(u)).normalized(), trial(), corners_[1 - now_]);
+    return trial().s > current().s + gap_.rounding();
+  };
+  if (!rises_along(curvature.high, curvature.high_vector) && !rises_along(curvature.low, curvature.low_vector)) return false;
+  now_ = 1 - now_;
+  radius_ = kFirstRadius;
+  to_come_.restart();
+  return true;
 }
 
 bool Ascent::ruled_out(const Step& step) const {

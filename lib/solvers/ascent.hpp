@@ -72,6 +72,8 @@ class Ascent {
   };
   FlatStep flat_step(const LocalModel& local, const Target& target, Step& step);
   bool is_slight(const LocalModel& local, const Vector2& newton) const;
+  /// Goes on from beside the normal of a flat spot that does not hold it; false if there is none.
+  bool leave_flat_spot();
   void leave_face(const LocalModel& local, Step& step);
   void cut_step(const LocalModel& local, Step& step);
   /// Of bodies that overlap, gnomonic: a normal that is turned so far gains about the tolerance, if nothing holds it.

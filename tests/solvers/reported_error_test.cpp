@@ -546,3 +546,16 @@ TEST_CASE("an octahedron's tip in another's, 1e-6 m deep: where the curvature is
   const Vector3 higher = Vector3(-0.11966945393755965, 0.99272824452624409, -0.013032816814794776).normalized();
   CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
 }
+
+// On the plane of symmetry, which the climb never leaves, the radius of curvature across is infinite: it holds the normal for 1e-5
+// radians, with a valley 4e-14 m deep.
+TEST_CASE("a vertex in another's, both aligned: a flat spot of exponent 2.3 holds no normal for as far as matters") {
+  const Superellipsoid body1(Vector3(0.68110536473488115, 0.72987765699106344, 1.1571889241910578), 2.2772102576920141,
+                             1.3239459675164147);
+  const Superellipsoid body2(Vector3(1.3578682070477115, 0.51462979531380537, 1.0175208230541066), 2.1587757296700878,
+                             1.3244589589248879);
+  const Pose pose2{Vector3(1.7203305966049489e-245, 0, -2.1388302183892409), Matrix3::Identity()};
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  const Vector3 higher = Vector3(0.11064053130300258, -0.00026959619485366823, -0.99386045310706868).normalized();
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+}
