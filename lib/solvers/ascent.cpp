@@ -7,6 +7,7 @@
 
 #include "shapes/finite.hpp"
 #include "solvers/answer.hpp"
+#include "solvers/flat_spots.hpp"
 
 namespace supernormal {
 namespace {
@@ -48,9 +49,6 @@ constexpr double kQuarterTurnChord = 1.4142135623730951;
 // Where a level maximum of the cuts is probed: a normal that is turned by sqrt(2 tolerance / depth) may be higher by the tolerance
 // without bending. A cut of there reaches from 0.6 to more than 2 times as far.
 constexpr double kProbe = 2;
-
-// A radius of curvature beyond this, in units of the bodies' size, is that of a flat face.
-constexpr double kFlatRadius = 1e8;
 
 // Share of a corner in the point of a face or an edge below which it is rounding.
 constexpr double kNoWeight = 1e-12;
@@ -346,19 +344,20 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
   return FlatStep::Taken;
 }
 
-// At the normal of a flat spot the radius of curvature is infinite, however fast it falls beside it: one of exponent 2.3 may hold
-// the normal for 1e-5 radians only. One look at the distance that matters tells.
+// One look at the distance that matters tells whether a flat spot holds the normal, unless a cut does.
 bool Ascent::leave_flat_spot() {
   if (!has_flat_faces_ || -current().s <= std::max(rolling_radius_, tolerance_)) return false;
   const LocalModel local = local_model();
-  const Eigen2 curvature(local.model.A);
-  const auto rises_along = [&](double radius, const Vector2& way) {
-    if (radius <= kFlatRadius * gap_.length_unit() || gap_.evaluations() >= settings_.max_evaluations) return false;
-    const Vector2 u = std::copysign(distance_that_matters(), local.model.g.dot(way)) * way;
-    evaluate((current().n + local.plane1.lift(u)).normalized(), trial(), corners_[1 - now_]);
+  const double distance = distance_that_matters();
+  const WaysAcrossFlatSpots across(gap_, local, distance);
+  const auto rises_along = [&](const Vector2& way) {
+    const Vector2 u = std::copysign(distance, local.model.g.dot(way)) * way;
+    const Vector3 normal = (current().n + local.plane1.lift(u)).normalized();
+    if (cuts_.upper_bound(normal) <= current().s || gap_.evaluations() >= settings_.max_evaluations) return false;
+    evaluate(normal, trial(), corners_[1 - now_]);
     return trial().s > current().s + gap_.rounding();
   };
-  if (!rises_along(curvature.high, curvature.high_vector) && !rises_along(curvature.low, curvature.low_vector)) return false;
+  if (!std::ranges::any_of(across.ways(), rises_along)) return false;
   now_ = 1 - now_;
   radius_ = kFirstRadius;
   to_come_.restart();

@@ -559,3 +559,14 @@ TEST_CASE("a vertex in another's, both aligned: a flat spot of exponent 2.3 hold
   const Vector3 higher = Vector3(0.11064053130300258, -0.00026959619485366823, -0.99386045310706868).normalized();
   CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
 }
+
+TEST_CASE("a vertex in another's with an aligned plane: nor does a flat spot of exponent 2.03, which does not even look flat") {
+  const Superellipsoid body1(Vector3(1.1839660575572710, 0.86145032376977526, 1.2536389550690261), 1.696455721666096,
+                             3.0301289565502225);
+  const Superellipsoid body2(Vector3(0.59437843469356066, 0.84535615134282127, 0.9057917618317004), 2.0333247847664837,
+                             1.4338876670117855);
+  const Pose pose2{Vector3(0.59200751351479552, 0, -1.8542009286189103), Matrix3::Identity()};
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  const Vector3 higher = Vector3(0.33562441923301023, 0.00026959619485366807, -0.94199584740719344).normalized();
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+}
