@@ -45,7 +45,8 @@ GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, 
   if (settings.certify_depth) return {tolerance, limit, limit, 0.5 * tolerance, 0};
   if (branch == Branch::OfStart && depth <= kUnquestionedDepth * gap.length_unit()) return {};
   const double radius1 = gap.shape1().sharpest_radius(), radius2 = gap.shape2().sharpest_radius();
-  const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), gap.shape2().has_kinks());
+  const bool has_tips = gap.shape1().rolling_radius() == 0 || gap.shape2().rolling_radius() == 0 || gap.shape2().has_kinks();
+  const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), has_tips);
   if (!may_have_others && gap.evaluations() <= kEasyClimb) return {};
   const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
   const bool is_shallow = depth < kShallowDepth * gap.length_unit();
