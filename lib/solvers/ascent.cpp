@@ -90,9 +90,7 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
       to_come_(gap, tolerance) {}
 
 Status Ascent::climb(const Vector3& start, double worth) {
-  radius_ = kFirstRadius;
-  cuts_lead_ = false;
-  to_come_.restart();
+  forget_steps();
   evaluate(start, current(), corners_[now_]);
   if (!gap_.has_curvature()) secant_.restart(current());
   Status status = Status::Converged;
@@ -118,6 +116,12 @@ Status Ascent::climb(const Vector3& start, double worth) {
       to_come_.forget();
     }
   }
+}
+
+void Ascent::forget_steps() {
+  radius_ = kFirstRadius;
+  cuts_lead_ = false;
+  to_come_.restart();
 }
 
 bool Ascent::finished(double worth, Status& status) const {
@@ -259,13 +263,14 @@ Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Pi
           curvature * along.y() * along.y() + size * across.y() * across.y()};
 }
 
+bool Ascent::curvature_holds() const { return gap_.has_curvature() && !to_come_.may_be_shelf(); }
+
 // Two vertices that overlap come nearer whichever way the normal turns: as far as no curvature has been seen to hold it back, or
 // where that is about to end. Only a ball as large as the overlap that rolls inside the bodies holds it for certain. Radii that
 // were sampled or estimated do not: below an exponent of 2 they vanish at the vertices, and are rather large beside them.
 double Ascent::turn_gain() const {
-  const bool is_held = gap_.has_curvature() && !to_come_.may_be_shelf();
-  if (is_held || -current().s <= rolling_radius_) return 0;
-  const double turn = gap_.has_curvature() ? kQuarterTurnChord : std::min(secant_.reach(), kQuarterTurnChord);
+  if (curvature_holds() || -current().s <= rolling_radius_) return 0;
+  const double turn = std::min(secant_.reach(), kQuarterTurnChord);
   return -0.5 * turn * turn * current().s;
 }
 
@@ -274,7 +279,7 @@ double Ascent::turn_gain() const {
 // with the turn itself.
 double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
   is_open_ = false;
-  if (gap_.has_curvature() && !to_come_.steps_grow() && !to_come_.may_be_shelf()) return 0;
+  if (curvature_holds() && !to_come_.steps_grow()) return 0;
   const double along_slope = slope.norm();
   const double turn = is_held_by_curvature ? turn_gain() : 0;
   is_open_ = along_slope <= tolerance_ && turn > tolerance_;
@@ -359,8 +364,7 @@ bool Ascent::leave_flat_spot() {
   };
   if (!std::ranges::any_of(across.ways(), rises_along)) return false;
   now_ = 1 - now_;
-  radius_ = kFirstRadius;
-  to_come_.restart();
+  forget_steps();
   return true;
 }
 

@@ -58,10 +58,14 @@ class Ascent {
   GapJet& current() { return jets_[now_]; }
   const GapJet& trial() const { return jets_[1 - now_]; }
   GapJet& trial() { return jets_[1 - now_]; }
+  /// The next step is as good as the first of a climb.
+  void forget_steps();
   LocalModel local_model() const;
   Step choose_step();
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
+  /// Whether the curvature here is known, and does not end nearby.
+  bool curvature_holds() const;
   /// m; what s may gain by a turn of which no slope tells.
   double turn_gain() const;
   double unseen_gain(const Vector2& slope, bool is_held_by_curvature);

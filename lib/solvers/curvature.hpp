@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "supernormal/solvers/gap_function.hpp"
 
@@ -21,14 +22,15 @@ class SecantCurvature {
   const Matrix3& matrix() const { return H_; }
 
   /// The turn (about radians) over which both ways of the tangent plane were seen last: what is nearer may be different. Infinite
-  /// before there were updates across one another.
+  /// before there were updates across one another, or any.
   double reach() const { return std::max(reach_along_, reach_across_); }
 
  private:
   Matrix3 H_ = Matrix3::Identity();
   double rounding_ = 0;              // m; of a boundary point
   Vector3 along_ = Vector3::Zero();  // unit; the way of the last update
-  double reach_along_ = 0, reach_across_ = 0;
+  double reach_along_ = std::numeric_limits<double>::infinity();
+  double reach_across_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace supernormal

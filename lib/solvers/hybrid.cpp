@@ -21,15 +21,13 @@ constexpr double kUnquestionedDepth = 0.02;
 constexpr double kHighestWidth = 0.01;
 constexpr double kHighestNear = 0.06;
 
-// But it takes so many evaluations only: fewer in shallow overlaps, which are common, least of smooth bodies. Where
-// all the ways out are of about the same length, as of concentric spheres, it would take hundreds to prove that.
+// But it takes so many evaluations only: fewer in shallow overlaps, which are common, least of smooth bodies; not before it is
+// proved that the bodies overlap at all, though, which takes a few as a rule. Where all the ways out are of about the same length,
+// as of concentric spheres, it would take hundreds to prove that.
 constexpr double kShallowDepth = 0.15;  // of the pair's length
 constexpr int kShallowEvaluations = 18;
 constexpr int kShallowSharpEvaluations = 25;
-constexpr int kDeepEvaluations = 200;
-
-// Nothing is spared until it is proved that the bodies overlap at all, which takes a few evaluations as a rule.
-constexpr int kOverlapEvaluations = 200;
+constexpr int kManyEvaluations = 200;
 
 // With history the branch is left when another is shallower by the second share, and not kept when one may be shallower by more
 // than the first: so it does not flip between two, and is at most 1.5 times as deep as the best.
@@ -45,14 +43,14 @@ GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, 
   if (settings.certify_depth) return {tolerance, limit, limit, 0.5 * tolerance, 0};
   if (branch == Branch::OfStart && depth <= kUnquestionedDepth * gap.length_unit()) return {};
   const double radius1 = gap.shape1().sharpest_radius(), radius2 = gap.shape2().sharpest_radius();
-  const bool has_tips = gap.shape1().rolling_radius() == 0 || gap.shape2().rolling_radius() == 0 || gap.shape2().has_kinks();
-  const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), has_tips);
+  const bool may_have_tips = gap.shape1().rolling_radius() == 0 || gap.shape2().rolling_radius() == 0 || gap.shape2().has_kinks();
+  const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), may_have_tips);
   if (!may_have_others && gap.evaluations() <= kEasyClimb) return {};
   const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
   const bool is_shallow = depth < kShallowDepth * gap.length_unit();
-  const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kDeepEvaluations;
+  const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kManyEvaluations;
   const int most = std::min(limit, gap.evaluations() + affordable);
-  const int most_for_overlap = std::min(limit, gap.evaluations() + kOverlapEvaluations);
+  const int most_for_overlap = std::min(limit, gap.evaluations() + kManyEvaluations);
   if (branch == Branch::OfStart) {
     return {std::max(kBranchWidth * depth, tolerance), most, most_for_overlap, std::max(kBranchWorth * depth, tolerance), 0};
   }

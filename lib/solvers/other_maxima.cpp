@@ -14,10 +14,10 @@ constexpr double kAboutCentred = 0.5;  // likewise
 
 }  // namespace
 
-bool may_have_other_maxima(double radius1, double radius2, double depth, double length_unit, bool has_tips) {
-  const double radii = has_tips || depth > kAboutCentred * length_unit ? kCertainDepthPerRadius
-                       : depth > kDeep * length_unit                   ? kDeepDepthPerRadius
-                                                                       : kShallowDepthPerRadius;
+bool may_have_other_maxima(double radius1, double radius2, double depth, double length_unit, bool may_have_tips) {
+  const double radii = may_have_tips || depth > kAboutCentred * length_unit ? kCertainDepthPerRadius
+                       : depth > kDeep * length_unit                        ? kDeepDepthPerRadius
+                                                                            : kShallowDepthPerRadius;
   return depth > radii * (radius1 + radius2);
 }
 

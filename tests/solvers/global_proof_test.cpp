@@ -107,6 +107,20 @@ TEST_CASE("a needle's tip on a vertex of another, 7e-11 m apart: where bodies ma
   CHECK(std::abs(answer.gap - 6.9003e-11) <= answer.error);
 }
 
+// Likewise; the first climb ends 3e-7 m deep.
+TEST_CASE("the edges of two flat needles at one another's ends, 2e-10 m apart: no search ends before the overlap is proved") {
+  const Superellipsoid body1(Vector3(0.34214723099492178, 4.9050957934449073, 1.3734996802765909), 1.1442576482855413,
+                             86.759944962975169);
+  const Superellipsoid body2(Vector3(0.076701942377301269, 0.64845549724886942, 0.56743701898540477), 1.1392353648785363,
+                             41.491925853445579);
+  const Vector3 turn(1.03658376e-7, -3.37618822e-8, 1.18135856e-7);  // radians
+  const Pose pose2{Vector3(3.0025404397791209e-07, -5.5507419937433768, -1.8510334563316457),
+                   Matrix3(Eigen::AngleAxisd(turn.norm(), turn.normalized()))};
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(answer.gap > 0);
+}
+
 // Another hill, 5e-4 m deep, ends at the vertex of exponent 1.5 of the second body, beside which it is rather round.
 TEST_CASE("a needle's end on a flat body's edge, 2e-7 m apart: vertices are not as round as what is beside them") {
   const Superellipsoid body1(Vector3(0.050994107847938411, 0.062385800436830167, 0.64129993118620687), 57.006892184982505,
@@ -117,20 +131,6 @@ TEST_CASE("a needle's end on a flat body's edge, 2e-7 m apart: vertices are not 
   pose2.rotation << -0.42350580931167703, 0.103487019160247, -0.89996292498335062,  //
       -0.58454385565023337, -0.79017338989960284, 0.18421317736831186,              //
       -0.69206308260217175, 0.60408314887927195, 0.39513572217566306;
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
-  CHECK(answer.is_global);
-  CHECK(answer.gap > 0);
-}
-
-// Likewise; the first climb ends 3e-7 m deep.
-TEST_CASE("the edges of two flat needles at one another's ends, 2e-10 m apart: no search ends before the overlap is proved") {
-  const Superellipsoid body1(Vector3(0.34214723099492178, 4.9050957934449073, 1.3734996802765909), 1.1442576482855413,
-                             86.759944962975169);
-  const Superellipsoid body2(Vector3(0.076701942377301269, 0.64845549724886942, 0.56743701898540477), 1.1392353648785363,
-                             41.491925853445579);
-  const Vector3 turn(1.03658376e-7, -3.37618822e-8, 1.18135856e-7);  // radians
-  const Pose pose2{Vector3(3.0025404397791209e-07, -5.5507419937433768, -1.8510334563316457),
-                   Matrix3(Eigen::AngleAxisd(turn.norm(), turn.normalized()))};
   const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
   CHECK(answer.is_global);
   CHECK(answer.gap > 0);

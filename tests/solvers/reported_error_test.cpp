@@ -32,6 +32,12 @@ double gap_at(const Shape& shape1, const Pose& pose1, const Shape& shape2, const
   return jet.s;
 }
 
+/// What the answer reports must cover the gap at this normal; body 1 is at the origin.
+void check_covers(const Shape& body1, const Shape& body2, const Pose& pose2, const Vector3& higher, const Settings& settings = {}) {
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+}
+
 /// How much higher than the reported bound the gap function gets around the answer, m; 0 if nowhere.
 double excess_around(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Proximity& answer) {
   const Vector3 across = answer.normal.unitOrthogonal();
@@ -415,9 +421,8 @@ TEST_CASE("an octahedron's tip 1e-13 m beside the rim of a cylinder's face, as e
       -0.16989434118767549, 0.1637057332407954, 0.97176969788962819;
   Settings settings;
   settings.tolerance = 1e-15;
-  const Proximity answer = find_proximity(tip, {}, cylinder, pose2, settings);
   const Vector3 along_the_ridge(0.0018890292406196988, -0.12258626522473433, 0.99245606408887399);
-  CHECK(gap_at(tip, {}, cylinder, pose2, along_the_ridge) <= answer.gap + answer.error);
+  check_covers(tip, cylinder, pose2, along_the_ridge, settings);
 }
 
 // Five degrees from its vertex the points of the second body show a radius of 1e-4 m and more.
@@ -468,8 +473,7 @@ TEST_CASE("an octahedron's tip in another's, 5e-5 m deep: a curvature that has j
       -0.85549105740384157, 0.21596197031427722, 0.47063306097216806,                 //
       -0.50591854576782136, -0.15487195257715358, -0.84856414215609721;
   const Vector3 higher(0.026188684787260982, -0.0038348958641832766, -0.99964966181298953);
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
-  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+  check_covers(body1, body2, pose2, higher);
 }
 
 // The model promises a fifth of what it promised a step before, of a curvature that has grown fourfold across its larger one.
@@ -481,9 +485,8 @@ TEST_CASE("the tips of two needles, 1e-3 m apart: a curvature that changes where
       -0.97964716352675107, -0.18303798075364971, -0.082392551821251311;
   Settings settings;
   settings.tolerance = 1e-3;
-  const Proximity answer = find_proximity(needle, {}, needle, pose2, settings);
   const Vector3 higher(0.00076949776623643211, 0.99820503945868144, 0.059960258561240709);
-  CHECK(gap_at(needle, {}, needle, pose2, higher) <= answer.gap + answer.error);
+  check_covers(needle, needle, pose2, higher, settings);
 }
 
 // The first normal, 0.9 radians from the maximum, is one of both tips: s rises along its slope as far as the normals of the tips
@@ -527,9 +530,8 @@ TEST_CASE("a vertex deep in another's, one without a Hessian: no ball rolls ther
   const Pose pose2{Vector3(0, 0, 1.08), Matrix3::Identity()};  // 0.27 m deep
   Settings settings;
   settings.tolerance = 1e-6;
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
   const Vector3 higher = Vector3(0, 4e-3, 1).normalized();
-  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+  check_covers(body1, body2, pose2, higher, settings);
 }
 
 // Steps and curvature halve towards a shelf of s, beyond which it rises 4e-9 m farther.
@@ -542,9 +544,8 @@ TEST_CASE("an octahedron's tip in another's, 1e-6 m deep: where the curvature is
   pose2.rotation << 0.27594973644575649, -0.93854781889435079, 0.20731554356626114,  //
       -0.23663711153651806, -0.27539009682028381, -0.93175274188862367,              //
       0.93158715126346114, 0.20805837215063339, -0.29808906953938696;
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
   const Vector3 higher = Vector3(-0.11966945393755965, 0.99272824452624409, -0.013032816814794776).normalized();
-  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+  check_covers(body1, body2, pose2, higher);
 }
 
 // On the plane of symmetry, which the climb never leaves, the radius of curvature across is infinite: it holds the normal for 1e-5
@@ -555,9 +556,8 @@ TEST_CASE("a vertex in another's, both aligned: a flat spot of exponent 2.3 hold
   const Superellipsoid body2(Vector3(1.3578682070477115, 0.51462979531380537, 1.0175208230541066), 2.1587757296700878,
                              1.3244589589248879);
   const Pose pose2{Vector3(1.7203305966049489e-245, 0, -2.1388302183892409), Matrix3::Identity()};
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
   const Vector3 higher = Vector3(0.11064053130300258, -0.00026959619485366823, -0.99386045310706868).normalized();
-  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+  check_covers(body1, body2, pose2, higher);
 }
 
 TEST_CASE("a vertex in another's with an aligned plane: nor does a flat spot of exponent 2.03, which does not even look flat") {
@@ -566,7 +566,6 @@ TEST_CASE("a vertex in another's with an aligned plane: nor does a flat spot of 
   const Superellipsoid body2(Vector3(0.59437843469356066, 0.84535615134282127, 0.9057917618317004), 2.0333247847664837,
                              1.4338876670117855);
   const Pose pose2{Vector3(0.59200751351479552, 0, -1.8542009286189103), Matrix3::Identity()};
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
   const Vector3 higher = Vector3(0.33562441923301023, 0.00026959619485366807, -0.94199584740719344).normalized();
-  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+  check_covers(body1, body2, pose2, higher);
 }

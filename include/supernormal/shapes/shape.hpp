@@ -112,7 +112,8 @@ class SUPERNORMAL_API Shape {
   virtual Vector3 half_extents() const;
 
   /// m; about the smallest radius of curvature, 0 with an edge or a corner. An estimate, for where to look: rolling_radius() is
-  /// proved. Unless overridden, that of the ellipsoid of the same extents.
+  /// proved. Of vertices where the radius vanishes at one normal only it may be that of what is beside them. Unless overridden,
+  /// that of the ellipsoid of the same extents.
   virtual double sharpest_radius() const;
 
   /// m; a ball of this radius provably rolls freely inside the body: no radius of curvature is smaller, so that the body is the sum
