@@ -123,12 +123,16 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   PowerNormJet inner, outer;
   inner_gauge_.gradient(gauge_point.x(), gauge_point.y(), inner);
   Vector3 result;  // scaled by the half-axes, in the first octant
-  if (outer_is_flat) {
-    outer_gauge_.gradient(inner.value, gauge_point.z(), outer);
-    result.z() = outer.dy;
-  } else {
-    outer.dx = inner_potential_.value(scaled.x(), scaled.y());
-    result.z() = scaled.z();
+  outer_gauge_.gradient(inner.value, gauge_point.z(), outer);
+  result.z() = outer.dy;
+  if (!outer_is_flat) {
+    // But a flat inner norm turns the normal about the axis only: where that brings the point not as far, near the pole, this one
+    // goes through the point as well.
+    const double across = inner_potential_.value(scaled.x(), scaled.y());
+    if (across * outer.dy >= outer.dx * scaled.z()) {
+      outer.dx = across;
+      result.z() = scaled.z();
+    }
   }
   if (inner_is_flat) {
     result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);

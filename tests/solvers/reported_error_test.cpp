@@ -33,8 +33,9 @@ double gap_at(const Shape& shape1, const Pose& pose1, const Shape& shape2, const
 }
 
 /// What the answer reports must cover the gap at this normal; body 1 is at the origin.
-void check_covers(const Shape& body1, const Shape& body2, const Pose& pose2, const Vector3& higher, const Settings& settings = {}) {
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings);
+void check_covers(const Shape& body1, const Shape& body2, const Pose& pose2, const Vector3& higher, const Settings& settings = {},
+                  const Vector3* first_normal = nullptr) {
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, settings, first_normal);
   CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
 }
 
@@ -568,4 +569,17 @@ TEST_CASE("a vertex in another's with an aligned plane: nor does a flat spot of 
   const Pose pose2{Vector3(0.59200751351479552, 0, -1.8542009286189103), Matrix3::Identity()};
   const Vector3 higher = Vector3(0.33562441923301023, 0.00026959619485366807, -0.94199584740719344).normalized();
   check_covers(body1, body2, pose2, higher);
+}
+
+// On the body's plane of symmetry through the vertex the curvature is infinite: the cross-section is flat there. But a turn about
+// the vertex, however far, does not bring its point to the rim.
+TEST_CASE("a vertex of flat cross-section 1.3e-4 m beside a rim, 0.03 m apart: the turn that brings it there is the sharp norm's") {
+  const Superellipsoid body1(Vector3(1.3444236321789771, 1.2687551262821948, 0.75405833063231809), 4.1731844300678489,
+                             1.6727896210524513);
+  const Cylinder cylinder(0.55835664257566964, 1.4455460299454355);
+  const Pose pose2{Vector3(0.5584875288002276, 0, -2.229637531232395), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-9;
+  const Vector3 first(0, -3.1225022567582522e-17, -1), higher = Vector3(9.5121223673043051e-4, 0, -1).normalized();
+  check_covers(body1, cylinder, pose2, higher, settings, &first);
 }
