@@ -208,7 +208,7 @@ void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
 
 Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
   // Each of the two norms goes its own way, as in the Superellipsoid: a flat one (exponent above 2) through the boundary point, a
-  // sharp one through the normal.
+  // sharp one through the normal, unless the point demands a longer way.
   const Vector3 moved = n + dn;
   const bool inner_is_flat = delta_ > 2;
   const bool outer_is_flat = epsilon_ > 2;
@@ -229,7 +229,6 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   const Vector3& sign = inner_is_flat ? target : moved;
   const Vector3 direction(std::copysign(across.x() / X, sign.x()) / half_axes_.x(),
                           std::copysign(across.y() / Y, sign.y()) / half_axes_.y(), 0);
-  if (!outer_is_flat) return width * direction + Vector3(0, 0, moved.z());
 
   outer_gauge_.gradient(section.value, std::abs(gauge_point.z()), meridian);
   // Going up, the point comes nearer to the middle of its section, which has grown.
@@ -237,7 +236,9 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
                                              section.dy * std::abs(gauge_point.y()) * taper_y_ / (Y * Y))
                                           : 0;
   const double along = std::copysign(meridian.dy, gauge_point.z()) - meridian.dx * growth;
-  return meridian.dx * direction + Vector3(0, 0, along / half_axes_.z());
+  const Vector3 through_point = meridian.dx * direction + Vector3(0, 0, along / half_axes_.z());
+  const bool is_farther = moved.z() * along > 0 && meridian.dx * std::abs(moved.z()) > width * std::abs(through_point.z());
+  return outer_is_flat || is_farther ? through_point : width * direction + Vector3(0, 0, moved.z());
 }
 
 }  // namespace supernormal

@@ -69,6 +69,9 @@ bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
   return true;
 }
 
+/// Whether there may be flat faces that are not across the axes of the body's frame.
+bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && shape.as_superellipsoid() == nullptr; }
+
 /// Of at least one piece; before curvature.
 double lowest_rise(std::span<const Piece> pieces, const Vector2& u) {
   double lowest = std::numeric_limits<double>::infinity();
@@ -85,6 +88,7 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
       tolerance_(tolerance),
       rolling_radius_(gap.rolling_radius()),
       has_flat_faces_(gap.has_curvature() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())),
+      may_be_tilted_(may_be_tilted(gap.shape1()) || may_be_tilted(gap.shape2())),
       has_kinks_(gap.shape2().has_kinks()),
       known_(gap),
       to_come_(gap, tolerance) {}
@@ -286,8 +290,10 @@ double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
   return along_slope + turn;
 }
 
-// The boundary point is a function of the normal's components over their sizes: where these hardly change, both steps are the same.
+// Of a body with flat faces across its axes the boundary point is a function of the normal's components over their sizes: where
+// these hardly change, both steps are the same.
 bool Ascent::is_slight(const LocalModel& local, const Vector2& newton) const {
+  if (may_be_tilted_) return false;
   const auto is_less = [](const Vector3& turn, const Vector3& normal) {
     return (turn.array().abs() <= kSlightTurn * normal.array().abs()).all();
   };

@@ -101,6 +101,7 @@ class Ascent {
   const double tolerance_;       // m
   const double rolling_radius_;  // m; of the difference of the bodies
   const bool has_flat_faces_;
+  const bool may_be_tilted_;  // the flat faces
   const bool has_kinks_;
   SecantCurvature secant_;
   KnownCorners known_;

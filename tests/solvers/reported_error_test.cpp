@@ -15,6 +15,7 @@
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 #include "supernormal/solvers/solve.hpp"
 #include "z_axis_to.hpp"
@@ -582,4 +583,17 @@ TEST_CASE("a vertex of flat cross-section 1.3e-4 m beside a rim, 0.03 m apart: t
   settings.tolerance = 1e-9;
   const Vector3 first(0, -3.1225022567582522e-17, -1), higher = Vector3(9.5121223673043051e-4, 0, -1).normalized();
   check_covers(body1, cylinder, pose2, higher, settings, &first);
+}
+
+// Its normals are no less oblique on the flat flank than beside it: a turn by 2e-4 radians is slight, but not what it leaves.
+TEST_CASE("the flat flank of a wedge, 1e-3 m deep: a slight turn leaves a flat face that is tilted") {
+  const Superovoid body1(Vector3(1.1232843154375776, 1.0737125999467814, 1.3603350229379723), 96.789101125327065,
+                         51.108946132402053, -0.86192709793125488, -0.86192709793125488);
+  const Superellipsoid body2(Vector3(1.2844175381082685, 1.306028872199287, 0.83400576432826423), 194.759665910069,
+                             165.9256888675242);
+  const Pose pose2{Vector3(-3.3102648273279733, 0, -0.44601633155738651), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-3;
+  const Vector3 higher = Vector3(-0.83708036827081067, 0, 0.5470799366231629).normalized();
+  check_covers(body1, body2, pose2, higher, settings);
 }
