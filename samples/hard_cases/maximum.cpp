@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -19,7 +20,7 @@ constexpr int kRandomDirections = 50;
 // A valley is looked for at so many normals, and is one if it is so many times as deep as s is seen to jitter between normals that
 // differ by rounding.
 constexpr int kFineSteps = 64;
-constexpr double kJitters = 16;
+constexpr double kJitters = 4;
 constexpr double kRoundingAngle = 1e-15;
 
 /// The box with the half-extents and the octahedron inscribed in it.
@@ -120,7 +121,7 @@ class Probe {
   double jitter(const Vector3& n) {
     const Vector3 tangent1 = n.unitOrthogonal(), tangent2 = n.cross(tangent1);
     const double s = value(n);
-    double most = 0;
+    double most = std::numeric_limits<double>::epsilon() * gap_.length_unit();
     for (const Vector3& tangent : {tangent1, tangent2}) {
       for (const double sign : {-1., 1.}) most = std::max(most, std::abs(value(n + sign * kRoundingAngle * tangent) - s));
     }

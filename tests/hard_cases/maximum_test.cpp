@@ -54,3 +54,26 @@ TEST_CASE("a higher normal beyond a shallow valley is another maximum") {
   CHECK(check_maximum(one, settings, answer).empty());
   CHECK_FALSE(check_maximum(one, settings, beside(one, answer, 1e-4)).empty());
 }
+
+// In extended precision the best way to the higher maximum, at (-9.5e-4, 0, -1), leads through a valley that is 3.7e-15 m deep.
+TEST_CASE("nor need a valley be deeper than the cold answer is exact, if s does not jitter as much") {
+  Pose pose2{Vector3(0.22385214070544279, 1.1057767157012071, -1.7466884145786477), Matrix3::Identity()};
+  pose2.rotation << -0.78102248067361946, -0.18791655061990364, -0.59555961472009078,  //
+      -0.19164098188548162, -0.8355228298294024, 0.51495177919474744,                  //
+      -0.59437161670489802, 0.516322545350273, 0.61654960093947109;
+  const HardCase one = pair("", "",
+                            superellipsoid(Vector3(0.72741415512879237, 0.94970188447682291, 0.95011405855510633),
+                                           3.7401182166858731, 1.3294011485345418),
+                            polytope({{-0.086715633476586992, 1.3772566295119755, 0.055023349351227636},
+                                      {-0.25931263253313253, -1.2256632599208348, -0.24402547104472544},
+                                      {0.18370982536308836, -0.87664944787251287, 0.62658464790755075},
+                                      {-0.46632042194546874, -0.7854544965018283, 0.40098997228068101},
+                                      {-0.62300498670625148, 0.55438816035763472, 0.09935026695520946}}),
+                            pose2);
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Proximity answer = find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, settings);
+  CHECK_FALSE(answer.is_global);
+  CHECK(check_maximum(one, settings, answer).empty());
+  CHECK_FALSE(check_maximum(one, settings, beside(one, answer, 1e-3)).empty());
+}
