@@ -136,6 +136,21 @@ TEST_CASE("a needle's end on a flat body's edge, 2e-7 m apart: vertices are not 
   CHECK(answer.gap > 0);
 }
 
+// Another hill, 1.2e-4 m deep, is no deeper than the bodies are round, as far as the radii of tips can be estimated.
+TEST_CASE("a needle's side at a sharp needle's end, 6e-9 m apart: no overlap of tips is believed before it is proved") {
+  const Superellipsoid body1(Vector3(0.06209891743239853, 2.135555967510081, 0.11885766610329596), 1.4079099170978948,
+                             2.0383562546709681);
+  const Superellipsoid body2(Vector3(0.12909933262663925, 0.34113374452979756, 3.6375920199343734), 3.4502209842093361,
+                             1.1193644033663821);
+  Pose pose2{Vector3(-0.62653784173429927, 4.1165213219548988, -2.9858588562257826), Matrix3::Identity()};
+  pose2.rotation << 0.97609593142321882, 0.13257654200135516, -0.17222134934438837,  //
+      0.20649711843932411, -0.81287131283282843, 0.54460918909773226,                //
+      -0.067791391306674678, -0.56715402606734333, -0.82081705512270431;
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(answer.gap > 0);
+}
+
 TEST_CASE("no radius of curvature is smaller than the rolling radius") {
   for (const Superellipsoid& shape : superellipsoids(2, 200)) {
     for (const Vector3& n : random_normals(40, 6)) {
