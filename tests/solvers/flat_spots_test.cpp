@@ -24,7 +24,8 @@ std::vector<Vector3> ways_at(const Shape& shape1, const Shape& shape2, const Vec
   gap.evaluate(n.normalized(), Order::Curvature, jet);
   const LocalModel local = LocalModel::of(gap, jet);
   std::vector<Vector3> ways;
-  for (const Vector2& way : WaysAcrossFlatSpots(gap, local, distance).ways()) {
+  const WaysAcrossFlatSpots across(gap, local, distance);
+  for (const Vector2& way : across.ways()) {
     CHECK(std::abs(way.norm() - 1) <= 1e-15);
     ways.push_back(local.plane1.lift(way));
   }
