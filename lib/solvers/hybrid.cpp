@@ -46,19 +46,18 @@ GlobalProof::Goal search_goal(const GapFunction& gap, const Settings& settings, 
   const bool may_have_tips = gap.shape1().rolling_radius() == 0 || gap.shape2().rolling_radius() == 0 || gap.shape2().has_kinks();
   const bool may_have_others = may_have_other_maxima(radius1, radius2, depth, gap.length_unit(), may_have_tips);
   const int most_for_overlap = std::min(limit, gap.evaluations() + kManyEvaluations);
+  const double worth = branch == Branch::OfStart ? std::max(kBranchWorth * depth, tolerance) : tolerance;
   if (!may_have_others && gap.evaluations() <= kEasyClimb) {
     if (!may_have_tips) return {};
     // Of tips the radii are estimates: not that there are no others is proved then, but that the bodies overlap at all.
-    return {depth, gap.evaluations(), most_for_overlap, tolerance, 0};
+    return {depth, gap.evaluations(), most_for_overlap, worth, 0};
   }
   const bool is_sharp = gap.shape2().has_kinks() || radius1 + radius2 == 0;
   const bool is_shallow = depth < kShallowDepth * gap.length_unit();
   const int affordable = is_shallow ? (is_sharp ? kShallowSharpEvaluations : kShallowEvaluations) : kManyEvaluations;
   const int most = std::min(limit, gap.evaluations() + affordable);
-  if (branch == Branch::OfStart) {
-    return {std::max(kBranchWidth * depth, tolerance), most, most_for_overlap, std::max(kBranchWorth * depth, tolerance), 0};
-  }
-  return {std::max(kHighestWidth * depth, tolerance), most, most_for_overlap, tolerance, kHighestNear * depth};
+  if (branch == Branch::OfStart) return {std::max(kBranchWidth * depth, tolerance), most, most_for_overlap, worth, 0};
+  return {std::max(kHighestWidth * depth, tolerance), most, most_for_overlap, worth, kHighestNear * depth};
 }
 
 /// The answer after a search for higher maxima than `best`, in which that is put.
