@@ -18,7 +18,7 @@ constexpr int kSteps = 25;  // to an angle of about 1
 constexpr int kRandomDirections = 50;
 
 // A valley is looked for at so many normals, and is one if it is so many times as deep as s is seen to jitter between normals that
-// differ by rounding.
+// differ by rounding, at each end. A jitter of 0 is chance, and counts as one unit in the last place.
 constexpr int kFineSteps = 64;
 constexpr double kJitters = 4;
 constexpr double kRoundingAngle = 1e-15;

@@ -35,6 +35,13 @@ double smallest_radius(const Shape& shape, const Vector3& n) {
   return 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
 }
 
+/// Body 1 is at the origin.
+void check_apart(const Shape& body1, const Shape& body2, const Pose& pose2) {
+  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
+  CHECK(answer.is_global);
+  CHECK(answer.gap > 0);
+}
+
 }  // namespace
 
 TEST_CASE("with certify_depth the global maximum of every reference pair is found and proved") {
@@ -116,9 +123,7 @@ TEST_CASE("the edges of two flat needles at one another's ends, 2e-10 m apart: n
   const Vector3 turn(1.03658376e-7, -3.37618822e-8, 1.18135856e-7);  // radians
   const Pose pose2{Vector3(3.0025404397791209e-07, -5.5507419937433768, -1.8510334563316457),
                    Matrix3(Eigen::AngleAxisd(turn.norm(), turn.normalized()))};
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
-  CHECK(answer.is_global);
-  CHECK(answer.gap > 0);
+  check_apart(body1, body2, pose2);
 }
 
 // Another hill, 5e-4 m deep, ends at the vertex of exponent 1.5 of the second body, beside which it is rather round.
@@ -131,9 +136,7 @@ TEST_CASE("a needle's end on a flat body's edge, 2e-7 m apart: vertices are not 
   pose2.rotation << -0.42350580931167703, 0.103487019160247, -0.89996292498335062,  //
       -0.58454385565023337, -0.79017338989960284, 0.18421317736831186,              //
       -0.69206308260217175, 0.60408314887927195, 0.39513572217566306;
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
-  CHECK(answer.is_global);
-  CHECK(answer.gap > 0);
+  check_apart(body1, body2, pose2);
 }
 
 // Another hill, 1.2e-4 m deep, is no deeper than the bodies are round, as far as the radii of tips can be estimated.
@@ -146,9 +149,7 @@ TEST_CASE("a needle's side at a sharp needle's end, 6e-9 m apart: no overlap of 
   pose2.rotation << 0.97609593142321882, 0.13257654200135516, -0.17222134934438837,  //
       0.20649711843932411, -0.81287131283282843, 0.54460918909773226,                //
       -0.067791391306674678, -0.56715402606734333, -0.82081705512270431;
-  const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
-  CHECK(answer.is_global);
-  CHECK(answer.gap > 0);
+  check_apart(body1, body2, pose2);
 }
 
 TEST_CASE("no radius of curvature is smaller than the rolling radius") {
