@@ -112,8 +112,8 @@ double GainToCome::learn(const Promise& now, double radius) {
   last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
 
   const double error = kSafety * gains * now.gain;
-  // What is below rounding is believed to be the last, but not where the model has just been found wrong.
-  const bool is_last = is_rounding && !is_held_back;
+  // What is below rounding is believed to be the last, but not where the model has just been found wrong, nor far away.
+  const bool is_last = is_rounding && now.step < kAsymptoticStep && !is_held_back;
   const bool is_at_tip = (is_slow || is_fading || gains == kMost) && !is_last && has_tips(gap_);
   return (is_at_tip || is_unknown) && error <= tolerance_ ? kTipSafety * error : error;
 }

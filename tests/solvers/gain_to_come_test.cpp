@@ -130,7 +130,7 @@ TEST_CASE("towards a sharp tip no fast contraction is believed while the curvatu
   CHECK(learn_of_curvature({1, 0, 1 / 2.5}) == relative(10 * 2.5 * sum));
 }
 
-TEST_CASE("towards a sharp tip a gain below rounding is not the last one where the trust region holds the step back") {
+TEST_CASE("towards a sharp tip a gain below rounding is not the last one of a step held back or a long one") {
   const Superellipsoid tip(Vector3(1, 1, 1), 1.1, 1.1);
   const GapFunction gap(tip, {}, kBall, {Vector3(1.9, 0, 0), Matrix3::Identity()});
   const double gain = 0.1 * gap.rounding();
@@ -139,6 +139,8 @@ TEST_CASE("towards a sharp tip a gain below rounding is not the last one where t
   CHECK(to_come.learn({gain, 1e-6, kUnit}, 1e-5) == relative(kMost * gain));
   to_come.restart();
   CHECK(to_come.learn({gain, 1e-5, kUnit}, 1e-5) == relative(10 * kMost * gain));
+  to_come.restart();
+  CHECK(to_come.learn({gain, 2e-3, kUnit}, kRadius) == relative(10 * kMost * gain));
 }
 
 TEST_CASE("steps that grow, and slow steps in a row, are told") {
