@@ -23,6 +23,8 @@ constexpr double kMostTrace = 1e150;
 // m; shares of a smaller slope might underflow.
 constexpr double kNoSlope = 1e-290;
 
+double without_underflow(double slope) { return std::abs(slope) < kNoSlope ? 0 : slope; }
+
 // Where s is level as far as it goes, its slope may go on for a quarter turn (radians).
 constexpr double kQuarterTurn = 1.6;
 
@@ -36,10 +38,10 @@ double find_largest_gain(const Vector2& g, const Eigen2& e, double rounding) {
 }
 
 Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
-  const double low = e.low_vector.dot(g);
-  const double high = e.high_vector.dot(g);
+  const double low = without_underflow(e.low_vector.dot(g));
+  const double high = without_underflow(e.high_vector.dot(g));
   const double slope = std::hypot(low, high);  // may be too small to square
-  if (slope < kNoSlope && !(e.low < 0)) return Vector2::Zero();
+  if (slope == 0 && !(e.low < 0)) return Vector2::Zero();
   // Asked before dividing, which might overflow. Where s is level one way, with no slope that way, there is nothing to gain by it.
   if (e.low >= 0 && std::abs(low) <= radius * e.low && std::abs(high) <= radius * e.high) {
     const Vector2 newton(e.low > 0 ? low / e.low : 0, high / e.high);

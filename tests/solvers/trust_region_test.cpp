@@ -133,6 +133,15 @@ TEST_CASE("a denormal slope without curvature is none") {
   CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
 }
 
+TEST_CASE("a denormal slope without curvature beside one with next to none: the latter's step") {
+  const QuadraticModel model{{-3.6357697429871883e-283, -3.3005054434138124e-314}, {1.9871563776991301e-165, 0, 0}};
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const Vector2 u = model.maximize(1);
+  CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
+  CHECK(u.x() == model.g.x() / model.A.xx);
+  CHECK(u.y() == 0);
+}
+
 TEST_CASE("level one way, and next to no slope the other way: the step is the one there") {
   std::feclearexcept(FE_ALL_EXCEPT);
   CHECK(QuadraticModel{{0, 1e-196}, {0, 0, 2e-20}}.maximize(1) == Vector2(0, 1e-196 / 2e-20));
