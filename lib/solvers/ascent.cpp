@@ -50,6 +50,9 @@ constexpr double kQuarterTurnChord = 1.4142135623730951;
 // without bending. A cut of there reaches from 0.6 to more than 2 times as far.
 constexpr double kProbe = 2;
 
+// A second look for a rise across a flat spot is so many times as far away, where s may gain the square of it as much.
+constexpr double kFartherLook = 8;
+
 // Share of a corner in the point of a face or an edge below which it is rounding.
 constexpr double kNoWeight = 1e-12;
 
@@ -57,8 +60,12 @@ constexpr double kNoWeight = 1e-12;
 constexpr std::size_t kMaxTied = 24;
 
 /// Of the solutions u1, u2 that the two bodies propose, each counted by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2).
+/// As what the rounder body changes of the flatter one's, which counts alone where the sum is that of an edge, singular.
 Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
-  return (A1 + A2).solve(A1 * u1 + A2 * u2);
+  const bool is_first_flatter = A1.trace() > A2.trace();
+  const Vector2& flat = is_first_flatter ? u1 : u2;
+  const Vector2 pull = is_first_flatter ? A2 * (u2 - u1) : A1 * (u1 - u2);
+  return pull == Vector2::Zero() ? flat : Vector2(flat + (A1 + A2).solve(pull));
 }
 
 /// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal, or grazes the plane.
@@ -105,8 +112,8 @@ Status Ascent::climb(const Vector3& start, double worth) {
     if (finished(worth, status)) {
       if (status == Status::Converged && leave_flat_spot()) continue;
       if (status == Status::Stalled) error_ *= kStalledSafety;
-      // What was asked for is not reached: nothing is claimed of it.
-      if (status != Status::Converged) error_ = std::max(error_, turn_gain());
+      // What was asked for is not reached: no curvature that was seen on the way is believed to hold the normal.
+      if (status != Status::Converged) error_ = std::max(error_, turn_gain(kQuarterTurnChord));
       return status;
     }
     evaluate(step.normal.normalized(), trial(), corners_[1 - now_]);
@@ -160,12 +167,14 @@ Ascent::Step Ascent::choose_step() {
 }
 
 void Ascent::cut_step(const LocalModel& local, Step& step) {
+  // Newer ones may have taken its place.
+  if (std::ranges::find(cuts_.points(), current().d) == cuts_.points().end()) cuts_.add(current().d);
   const CuttingPlanes::Maximum top = cuts_.maximize(local.plane1, radius_);
   step = {current().n + local.plane1.lift(top.u), top.u.norm(), std::max(top.value - current().s, 0.0)};
   // The cuts bound s over the whole plane where their maximum is not on the rim.
   if (!top.is_interior) return;
   const double error = GainToCome::kSafety * step.gain + top.uncertainty;
-  const double turn = turn_gain();
+  const double turn = turn_gain(secant_.reach());
   if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
     error_ = std::min(error_, error + turn);
   } else {
@@ -272,9 +281,9 @@ bool Ascent::curvature_holds() const { return gap_.has_curvature() && !to_come_.
 // Two vertices that overlap come nearer whichever way the normal turns: as far as no curvature has been seen to hold it back, or
 // where that is about to end. Only a ball as large as the overlap that rolls inside the bodies holds it for certain. Radii that
 // were sampled or estimated do not: below an exponent of 2 they vanish at the vertices, and are rather large beside them.
-double Ascent::turn_gain() const {
+double Ascent::turn_gain(double reach) const {
   if (curvature_holds() || -current().s <= rolling_radius_) return 0;
-  const double turn = std::min(secant_.reach(), kQuarterTurnChord);
+  const double turn = std::min(reach, kQuarterTurnChord);
   return -0.5 * turn * turn * current().s;
 }
 
@@ -285,7 +294,7 @@ double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
   is_open_ = false;
   if (curvature_holds() && !to_come_.steps_grow()) return 0;
   const double along_slope = slope.norm();
-  const double turn = is_held_by_curvature ? turn_gain() : 0;
+  const double turn = is_held_by_curvature ? turn_gain(secant_.reach()) : 0;
   is_open_ = along_slope <= tolerance_ && turn > tolerance_;
   return along_slope + turn;
 }
@@ -355,19 +364,21 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
   return FlatStep::Taken;
 }
 
-// One look at the distance that matters tells whether a flat spot holds the normal, unless a cut does.
+// A look at the distance that matters tells whether a flat spot holds the normal, and one farther on, since just beyond the spot s
+// may be level; unless a cut does.
 bool Ascent::leave_flat_spot() {
   if (!has_flat_faces_ || -current().s <= std::max(rolling_radius_, tolerance_)) return false;
   const LocalModel local = local_model();
-  const double distance = distance_that_matters();
-  const WaysAcrossFlatSpots across(gap_, local, distance);
-  const auto rises_along = [&](const Vector2& way) {
+  const double nearest = distance_that_matters();
+  const WaysAcrossFlatSpots across(gap_, local, nearest);
+  const auto rises_at = [&](double distance, const Vector2& way) {
     const Vector2 u = std::copysign(distance, local.model.g.dot(way)) * way;
     const Vector3 normal = (current().n + local.plane1.lift(u)).normalized();
     if (cuts_.upper_bound(normal) <= current().s || gap_.evaluations() >= settings_.max_evaluations) return false;
     evaluate(normal, trial(), corners_[1 - now_]);
     return trial().s > current().s + gap_.rounding();
   };
+  const auto rises_along = [&](const Vector2& way) { return rises_at(nearest, way) || rises_at(kFartherLook * nearest, way); };
   if (!std::ranges::any_of(across.ways(), rises_along)) return false;
   now_ = 1 - now_;
   forget_steps();

@@ -66,8 +66,8 @@ class Ascent {
   Step kinked_step(const LocalModel& local);
   /// Whether the curvature here is known, and does not end nearby.
   bool curvature_holds() const;
-  /// m; what s may gain by a turn of which no slope tells.
-  double turn_gain() const;
+  /// m; what s may gain by a turn of which no slope tells, as far as this (radians).
+  double turn_gain(double reach) const;
   double unseen_gain(const Vector2& slope, bool is_held_by_curvature);
   enum class FlatStep {
     Taken,

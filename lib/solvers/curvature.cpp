@@ -1,12 +1,13 @@
 #include "solvers/curvature.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
 namespace supernormal {
 namespace {
 
-// The cosine of the angle from which on two turns are across one another.
+// The cosine of the angle between their axes from which on two turns are across one another.
 constexpr double kAcross = 0.95;
 
 }  // namespace
@@ -15,7 +16,7 @@ void SecantCurvature::restart(const GapJet& jet) {
   const double size = std::abs(jet.jet1.h + jet.jet2.h);
   H_ = Matrix3::Identity() * size;
   rounding_ = std::numeric_limits<double>::epsilon() * size;
-  along_.setZero();
+  axis_.setZero();
   reach_along_ = reach_across_ = std::numeric_limits<double>::infinity();
 }
 
@@ -27,12 +28,12 @@ void SecantCurvature::update(const GapJet& from, const GapJet& to) {
   const double predicted_slope = predicted.dot(dn);
   // Rounding can make a vanishing slope negative, or the update larger than the estimate is good for, or all that was seen: skip it
   // then.
-  const double length = dn.norm();
-  const double least = std::max(std::numeric_limits<double>::epsilon() * predicted_slope, rounding_ * length);
+  const double least = std::max(std::numeric_limits<double>::epsilon() * predicted_slope, rounding_ * dn.norm());
   if (!(slope > least) || !(predicted_slope > 0)) return;
-  if (std::abs(along_.dot(dn)) < kAcross * length) reach_across_ = reach_along_;
-  along_ = dn / length;
-  reach_along_ = length;
+  const Vector3 axis = from.n.cross(dn).normalized();
+  if (std::abs(axis_.dot(axis)) < kAcross) reach_across_ = reach_along_;
+  axis_ = axis;
+  reach_along_ = dn.norm();
   H_ += change * (change / slope).transpose() - predicted * (predicted / predicted_slope).transpose();
 }
 

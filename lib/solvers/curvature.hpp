@@ -27,8 +27,8 @@ class SecantCurvature {
 
  private:
   Matrix3 H_ = Matrix3::Identity();
-  double rounding_ = 0;              // m; of a boundary point
-  Vector3 along_ = Vector3::Zero();  // unit; the way of the last update
+  double rounding_ = 0;             // m; of a boundary point
+  Vector3 axis_ = Vector3::Zero();  // unit; of the turn of the last update
   double reach_along_ = std::numeric_limits<double>::infinity();
   double reach_across_ = std::numeric_limits<double>::infinity();
 };

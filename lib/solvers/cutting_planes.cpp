@@ -17,6 +17,9 @@ constexpr double kTie = 1e-13;
 // As the square of a length over another.
 constexpr double kShort = 0.01;
 
+// Between ways this near each other (radians) none is looked for: it may be open by rounding only.
+constexpr double kNarrow = 1e-3;
+
 /// One cut over the tangent plane: value + slope.u
 struct Cut {
   double value;
@@ -123,25 +126,45 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
 }
 
 // At u the unit normal is shorter than n + u, and so is its s: s > level there is a cut above level sqrt(1 + u^2), which is at
-// least level (1 + u^2/2).
+// least level (1 + u^2/2). So each cut closes a disc; a way is open between two neighbours of the tangents to the discs, or it is
+// not.
 CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vector2& u, double level, double least) const {
   constexpr int kWays = 8;
+  Cuts cuts;
+  std::array<double, kWays + 2 * kCapacity> angles;
+  std::size_t ways = 0;
+  for (; ways < kWays; ++ways) angles[ways] = 2 * std::numbers::pi * static_cast<double>(ways) / kWays;
+  const auto count = static_cast<std::size_t>(size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const double height = plane.n.dot(d_[k]) + plane.project(d_[k]).dot(u) - level * (1 + 0.5 * u.squaredNorm());
+    cuts[k] = {std::max(height, 0.0), plane.project(d_[k]) - level * u};
+    // Along p, a unit vector, it closes what is between the roots of height + slope.p t - level t^2/2.
+    const double least_slope = std::sqrt(-2 * level * cuts[k].value), steepest = cuts[k].slope.norm();
+    if (!(least_slope < steepest)) continue;
+    const double middle = std::atan2(-cuts[k].slope.y(), -cuts[k].slope.x());
+    const double half = std::acos(least_slope / steepest);
+    for (const double turn : {-half, half}) {
+      angles[ways++] = std::remainder(middle + turn - std::numbers::pi, 2 * std::numbers::pi) + std::numbers::pi;
+    }
+  }
+  std::sort(angles.begin(), angles.begin() + ways);
   Reach farthest;
-  for (int way = 0; way < kWays; ++way) {
-    const double angle = 2 * std::numbers::pi * way / kWays;
+  const auto walk = [&](double angle) {
     const Vector2 p(std::cos(angle), std::sin(angle));
     double stop = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < size(); ++k) {
-      const Vector3& d = d_[static_cast<std::size_t>(k)];
-      // height + slope t - level t^2/2 is below zero between its roots; the larger is (root - slope) / -level.
-      const double height = std::max(plane.n.dot(d) + plane.project(d).dot(u) - level * (1 + 0.5 * u.squaredNorm()), 0.0);
-      const double slope = plane.project(d).dot(p) - level * u.dot(p);
-      const double discriminant = slope * slope + 2 * level * height;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double slope = cuts[k].slope.dot(p);
+      const double discriminant = slope * slope + 2 * level * cuts[k].value;
       if (!(slope < 0 && discriminant > 0)) continue;
       const double sum = std::sqrt(discriminant) - slope;
-      if (sum > -level * least) stop = std::min(stop, 2 * height / sum);
+      if (sum > -level * least) stop = std::min(stop, 2 * cuts[k].value / sum);
     }
     if (stop > farthest.distance) farthest = {p, stop};
+  };
+  for (std::size_t way = 0; way < kWays; ++way) walk(2 * std::numbers::pi * static_cast<double>(way) / kWays);
+  for (std::size_t way = 0; way < ways; ++way) {
+    const double next = way + 1 < ways ? angles[way + 1] : angles[0] + 2 * std::numbers::pi;
+    if (next - angles[way] > kNarrow) walk(0.5 * (angles[way] + next));
   }
   return farthest;
 }

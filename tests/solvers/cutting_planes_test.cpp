@@ -158,3 +158,29 @@ TEST_CASE("one level cut has its maximum where it stands") {
   CHECK(top.value == 3);
   CHECK(top.u == Vector2::Zero());
 }
+
+TEST_CASE("a way that is open between two cuts is found, however they are turned") {
+  constexpr double kLevel = -0.7, kLeast = 1e-3;
+  const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
+  const auto side = [&](double angle, double slope) -> Vector3 {
+    return kLevel * plane.n + slope * plane.lift({-std::sin(angle), std::cos(angle)});
+  };
+  for (double turn = 0; turn < 2 * std::numbers::pi; turn += 0.05) {
+    for (const double sector : {0.5, 0.1, 0.01}) {
+      CuttingPlanes cuts;
+      cuts.add(kLevel * plane.n);
+      cuts.add(side(turn, 1.3));
+      cuts.add(side(turn + sector, -0.4));
+      const CuttingPlanes::Reach open = cuts.reach(plane, Vector2::Zero(), kLevel, kLeast);
+      CHECK(open.distance == std::numeric_limits<double>::infinity());
+      const double way = std::remainder(std::atan2(open.way.y(), open.way.x()) - turn, 2 * std::numbers::pi);
+      CHECK(way >= 0);
+      CHECK(way <= sector);
+      // One that closes a disc across the sector.
+      cuts.add((kLevel + 0.1) * plane.n - 0.5 * plane.lift({std::cos(turn), std::sin(turn)}));
+      const double stop = cuts.reach(plane, Vector2::Zero(), kLevel, kLeast).distance;
+      CHECK(stop > 0.2);
+      CHECK(stop < 0.3);
+    }
+  }
+}

@@ -1,0 +1,204 @@
+// Climbs that ended beside a normal which is higher than they reported: cases that the soak program found.
+#include <doctest/doctest.h>
+
+#include <memory>
+
+#include "shapes/without_hessian.hpp"
+#include "solvers/covers.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+using namespace supernormal;
+using supernormal::test::check_covers;
+using supernormal::test::without_hessian;
+
+// The ridge along which the tip keeps to the rim begins at the normal of the face, and is too narrow to be found from there.
+TEST_CASE("an octahedron's tip 1e-13 m beside the rim of a cylinder's face, as exactly as can be: stalled, it claims less") {
+  const Superellipsoid tip(Vector3(0.99177535343395917, 0.6734340285826611, 0.63517434717434995), 1.0635460553378775,
+                           1.0501094799923516);
+  const Cylinder cylinder(0.62322465858321741, 0.53309284841699722);
+  Pose pose2{Vector3(-0.12861393808765478, -0.46556061492126743, 1.2979780352034169), Matrix3::Identity()};
+  pose2.rotation << -0.27555679152977963, -0.95466164277940357, 0.11264813557065266,  //
+      0.94615240182235938, -0.24863945927753317, 0.20730183746401432,                 //
+      -0.16989434118767549, 0.1637057332407954, 0.97176969788962819;
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Vector3 along_the_ridge(0.0018890292406196988, -0.12258626522473433, 0.99245606408887399);
+  check_covers(tip, cylinder, pose2, along_the_ridge, settings);
+}
+
+// The model promises a fifth of what it promised a step before, but its curvature is less than half of what it was.
+TEST_CASE("an octahedron's tip in another's, 5e-5 m deep: a curvature that has just halved goes on fading") {
+  const Superellipsoid body1(Vector3(0.91855717191001063, 1.3217171393909011, 1.1310303975172471), 1.0300559655732762,
+                             1.2974700621527924);
+  const Superellipsoid body2(Vector3(0.622859106567343, 1.0872184036498354, 0.65620711217128369), 1.1469974323738119,
+                             1.0424575813281118);
+  Pose pose2{Vector3(0.15863829289317419, 0.3088316963572888, -1.68781275982544), Matrix3::Identity()};
+  pose2.rotation << -0.11036972297795322, -0.96404102904540079, 0.24175073643497932,  //
+      -0.85549105740384157, 0.21596197031427722, 0.47063306097216806,                 //
+      -0.50591854576782136, -0.15487195257715358, -0.84856414215609721;
+  const Vector3 higher(0.026188684787260982, -0.0038348958641832766, -0.99964966181298953);
+  check_covers(body1, body2, pose2, higher);
+}
+
+// The model promises a fifth of what it promised a step before, of a curvature that has grown fourfold across its larger one.
+TEST_CASE("the tips of two needles, 1e-3 m apart: a curvature that changes where it is small goes on changing") {
+  const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
+  Pose pose2{Vector3(1.1836744101086172, 0.081632935277476476, -0.97959202487887065), Matrix3::Identity()};
+  pose2.rotation << 0.1837839537266481, -0.65285537721130771, -0.7348491782664538,  //
+      0.080714889249705463, -0.73503534204003285, 0.6732073622632927,               //
+      -0.97964716352675107, -0.18303798075364971, -0.082392551821251311;
+  Settings settings;
+  settings.tolerance = 1e-3;
+  const Vector3 higher(0.00076949776623643211, 0.99820503945868144, 0.059960258561240709);
+  check_covers(needle, needle, pose2, higher, settings);
+}
+
+// The climb starts at the normal of both vertices, where s is level and nothing shows a curvature. Below an exponent of 2 the
+// radius of curvature vanishes there, though a few degrees beside it is as large as the overlap.
+TEST_CASE("a vertex deep in another's, one without a Hessian: no ball rolls there that would hold the normal") {
+  const CallbackShape body1 = without_hessian(std::make_shared<Superellipsoid>(Vector3(1.4, 0.6, 0.7), 1.45, 1.35));
+  const Superellipsoid body2(Vector3(0.65, 0.65, 0.65), 1.85, 1.8);
+  const Pose pose2{Vector3(0, 0, 1.08), Matrix3::Identity()};  // 0.27 m deep
+  Settings settings;
+  settings.tolerance = 1e-6;
+  const Vector3 higher = Vector3(0, 4e-3, 1).normalized();
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// Steps and curvature halve towards a shelf of s, beyond which it rises 4e-9 m farther.
+TEST_CASE("an octahedron's tip in another's, 1e-6 m deep: where the curvature is about to end, s may rise on") {
+  const Superellipsoid body1(Vector3(0.56749216029451766, 0.65252412836825313, 1.0201018585264015), 1.1060605934645005,
+                             1.1584072967469143);
+  const Superellipsoid body2(Vector3(0.80102906096941917, 0.83995622940094428, 1.3256164648197444), 1.0926718750416728,
+                             1.1225894973559909);
+  Pose pose2{Vector3(-0.27482087727222648, 1.8876698889875803, 0.39515110932644842), Matrix3::Identity()};
+  pose2.rotation << 0.27594973644575649, -0.93854781889435079, 0.20731554356626114,  //
+      -0.23663711153651806, -0.27539009682028381, -0.93175274188862367,              //
+      0.93158715126346114, 0.20805837215063339, -0.29808906953938696;
+  const Vector3 higher = Vector3(-0.11966945393755965, 0.99272824452624409, -0.013032816814794776).normalized();
+  check_covers(body1, body2, pose2, higher);
+}
+
+// On the plane of symmetry, which the climb never leaves, the radius of curvature across is infinite: it holds the normal for 1e-5
+// radians, with a valley 4e-14 m deep.
+TEST_CASE("a vertex in another's, both aligned: a flat spot of exponent 2.3 holds no normal for as far as matters") {
+  const Superellipsoid body1(Vector3(0.68110536473488115, 0.72987765699106344, 1.1571889241910578), 2.2772102576920141,
+                             1.3239459675164147);
+  const Superellipsoid body2(Vector3(1.3578682070477115, 0.51462979531380537, 1.0175208230541066), 2.1587757296700878,
+                             1.3244589589248879);
+  const Pose pose2{Vector3(1.7203305966049489e-245, 0, -2.1388302183892409), Matrix3::Identity()};
+  const Vector3 higher = Vector3(0.11064053130300258, -0.00026959619485366823, -0.99386045310706868).normalized();
+  check_covers(body1, body2, pose2, higher);
+}
+
+TEST_CASE("a vertex in another's with an aligned plane: nor does a flat spot of exponent 2.03, which does not even look flat") {
+  const Superellipsoid body1(Vector3(1.1839660575572710, 0.86145032376977526, 1.2536389550690261), 1.696455721666096,
+                             3.0301289565502225);
+  const Superellipsoid body2(Vector3(0.59437843469356066, 0.84535615134282127, 0.9057917618317004), 2.0333247847664837,
+                             1.4338876670117855);
+  const Pose pose2{Vector3(0.59200751351479552, 0, -1.8542009286189103), Matrix3::Identity()};
+  const Vector3 higher = Vector3(0.33562441923301023, 0.00026959619485366807, -0.94199584740719344).normalized();
+  check_covers(body1, body2, pose2, higher);
+}
+
+// On the body's plane of symmetry through the vertex the curvature is infinite: the cross-section is flat there. But a turn about
+// the vertex, however far, does not bring its point to the rim.
+TEST_CASE("a vertex of flat cross-section 1.3e-4 m beside a rim, 0.03 m apart: the turn that brings it there is the sharp norm's") {
+  const Superellipsoid body1(Vector3(1.3444236321789771, 1.2687551262821948, 0.75405833063231809), 4.1731844300678489,
+                             1.6727896210524513);
+  const Cylinder cylinder(0.55835664257566964, 1.4455460299454355);
+  const Pose pose2{Vector3(0.5584875288002276, 0, -2.229637531232395), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-9;
+  const Vector3 first(0, -3.1225022567582522e-17, -1), higher = Vector3(9.5121223673043051e-4, 0, -1).normalized();
+  check_covers(body1, cylinder, pose2, higher, settings, &first);
+}
+
+// Its normals are no less oblique on the flat flank than beside it: a turn by 2e-4 radians is slight, but not what it leaves.
+TEST_CASE("the flat flank of a wedge, 1e-3 m deep: a slight turn leaves a flat face that is tilted") {
+  const Superovoid body1(Vector3(1.1232843154375776, 1.0737125999467814, 1.3603350229379723), 96.789101125327065,
+                         51.108946132402053, -0.86192709793125488, -0.86192709793125488);
+  const Superellipsoid body2(Vector3(1.2844175381082685, 1.306028872199287, 0.83400576432826423), 194.759665910069,
+                             165.9256888675242);
+  const Pose pose2{Vector3(-3.3102648273279733, 0, -0.44601633155738651), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-3;
+  const Vector3 higher = Vector3(-0.83708036827081067, 0, 0.5470799366231629).normalized();
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// One corner of the face alone leaves a quarter of the turns open; of that the curvature of body 2 leaves a sector of 13 degrees.
+TEST_CASE("a box's face in a rounded box, a corner on the point of deepest overlap: s rises in the sector that it leaves open") {
+  const Box box(Vector3(1.1660950384963529, 0.72469453895462166, 0.73200031560061518));
+  const Superellipsoid body2(Vector3(0.62279166333149438, 1.1619196180367359, 0.95281948862489751), 13.003417479094304,
+                             13.200392857275245);
+  Pose pose2{Vector3(0.77430913997328865, -1.3809558138809053, 0.075666024650725805), Matrix3::Identity()};
+  pose2.rotation << 0.99642066774186167, -0.083052674190769615, 0.015751387450774222,  //
+      0.082607833392310842, 0.9962148244576462, 0.027054932878300166,                  //
+      -0.017938750209832037, -0.025656906294075792, 0.99950984207276627;
+  check_covers(box, body2, pose2, Vector3(0.025443651949511002, -0.99967625788325709, 0));
+}
+
+// Body 1 has a Hessian so small, and body 2 one of so thin an edge, that together they are singular: the step through the boundary
+// points is body 2's.
+TEST_CASE("an edge 1e-10 m beside a sharp edge, roughly: a curvature that drowns does not hold the normal") {
+  const Superellipsoid body1(Vector3(0.21666307587024122, 3.6158533257603551, 0.11532860785825504), 40.062935138090054,
+                             1.0792247408227613);
+  const Superellipsoid body2(Vector3(0.19253172420533454, 0.058907870595482748, 2.7634213402497263), 1.1271104401069829,
+                             21.152693960353741);
+  const Pose pose2{Vector3(-0.072210820061288775, 1.8844153238752522e-96, 2.8787499481517842), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-6;
+  check_covers(body1, body2, pose2, Vector3(-3.4058259826811749e-12, 2.2756156744483055e-12, 1).normalized(), settings);
+}
+
+// A normal 1e-6 beside the plane of symmetry, a vertex beside a corner: the flat spot holds it for as far as matters for this
+// tolerance, and is level there.
+TEST_CASE("a corner in a vertex, as exactly as can be: s rises beyond a flat spot that is just as wide as what matters") {
+  const Superellipsoid body1(Vector3(0.52554206102025414, 0.83316697474825452, 0.78785238828638682), 3.4703594224672014,
+                             1.8464279827519052);
+  const std::vector<Vector3> corners{{-0.54408017368739625, -0.36252818257541258, 0.54490908100436164},
+                                     {-0.24351223576300035, 0.46439424406273994, -0.76527789844398875},
+                                     {-0.53563804370789536, 0.85613227427299365, 0.30437629946436739},
+                                     {-0.07285769327911723, 0.24518860226374653, -0.84523119649012446},
+                                     {0.39488090161396705, 1.2142738789418013, -0.047077986536997261},
+                                     {0.48329130127324865, 1.0198191935809111, -0.23233668034519162},
+                                     {0.054345315270567837, -1.3278005926221204, 0.32325675064725645},
+                                     {-0.37878573179238245, -1.0008266874730412, 0.43499430644776049},
+                                     {0.59058060138856427, -0.86869234533482997, -0.03806605888752309}};
+  Pose pose2{Vector3(0.60205893002055633, 0.33784090103628367, -1.8963280040565076), Matrix3::Identity()};
+  pose2.rotation << -0.53502026478923392, 0.58087693147475083, 0.61346174024574307,  //
+      -0.72473216621283987, 0.057615062234709358, -0.686617646044824,                //
+      -0.43418498767380559, -0.8119498106928581, 0.39015497099810115;
+  Settings settings;
+  settings.tolerance = 1e-15;
+  check_covers(body1, Polytope(corners), pose2, Vector3(-0.00024668335069741776, 0, -0.99999996957366177).normalized(), settings);
+}
+
+// On a plane of symmetry, which a climb without Hessians never leaves, s has an edge across its maximum; the higher normals are
+// beside the plane.
+TEST_CASE("a tip in another's, one without a Hessian, as exactly as can be: stalled, no curvature is believed") {
+  const Superellipsoid body1(Vector3(1.1976799266823006, 1.4678420773793968, 1.1317300192116135), 1.099513568331888,
+                             1.0891374371824021);
+  const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(0.71069922106741223, 0.8550989526781152, 0.76620464401737687), 1.1075104548092869, 1.0839127766190946));
+  const Pose pose2{Vector3(-1.4870757940284762e-05, 0, -1.8977714545552284), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Vector3 higher = Vector3(-0.36945406351785925, -0.017251487790557775, -0.92908884457793051).normalized();
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// The climb stays on a plane of symmetry, but turns by a radian on it: the ways before and after are not across one another.
+TEST_CASE("a tip 4e-3 m in another's, one without a Hessian: a long turn on a plane says nothing of the way out of it") {
+  const CallbackShape body1 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(0.81757743587363507, 0.68871264031956192, 1.4692079216437368), 1.2514406145657626, 1.2499679480491082));
+  const Superellipsoid body2(Vector3(1.1290488587151037, 1.177097030217231, 0.72951507342204369), 1.2123675543641061,
+                             1.1443616755496395);
+  const Pose pose2{Vector3(-1.9426633332601377, 9.0687214274906894e-05, 0), Matrix3::Identity()};
+  check_covers(body1, body2, pose2, Vector3(-0.9827693063605325, 0.1741329996797667, 0.06198539261926516).normalized());
+}
