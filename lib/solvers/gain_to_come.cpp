@@ -93,7 +93,6 @@ double GainToCome::learn(const Promise& now, double radius) {
   double gains = kMost;
   bool is_unknown = false;
   bool is_fading = false;
-  may_be_shelf_ = false;
   if (last_.gain > 0) {
     const Eigen2 before(last_.curvature);
     const Eigen2 curvature(now.curvature);
@@ -108,6 +107,8 @@ double GainToCome::learn(const Promise& now, double radius) {
       is_unknown = (change == kMost && now.step > kSpacing) || of_steps > kSlowSteps;
       gains = is_unknown ? kMost : std::min((is_rounding ? 1 : change) / (1 - contraction), kMost);
     }
+  } else if (is_rounding) {
+    may_be_shelf_ = false;
   }
   last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
 

@@ -179,3 +179,21 @@ TEST_CASE("a slope that falls like the square of the distance to a shelf is told
   CHECK_FALSE(is_shelf_after(0.25, 0.5, 1e-2));
   CHECK_FALSE(is_shelf_after(0.5, 0.5, 1e-2));
 }
+
+TEST_CASE("a shelf is still suspected after a step that did not rise, but not of a gain below rounding") {
+  GainToCome to_come(kGap, kTolerance);
+  const auto is_suspected_after = [&](double gain) {
+    to_come.restart();
+    to_come.learn({1e-6, 1e-2, {1, 0, 0.5}}, kRadius);
+    to_come.learn({1e-7, 0.5e-2, {0.25, 0, 1}}, kRadius);
+    CHECK(to_come.may_be_shelf());
+    to_come.forget();
+    to_come.learn({gain, 0.5e-2, {0.25, 0, 1}}, kRadius);
+    return to_come.may_be_shelf();
+  };
+  CHECK(is_suspected_after(1e-7));
+  CHECK_FALSE(is_suspected_after(0.1 * kGap.rounding()));
+  to_come.restart();
+  to_come.learn({1e-7, 0.5e-2, {0.25, 0, 1}}, kRadius);
+  CHECK_FALSE(to_come.may_be_shelf());
+}

@@ -202,3 +202,16 @@ TEST_CASE("a tip 4e-3 m in another's, one without a Hessian: a long turn on a pl
   const Pose pose2{Vector3(-1.9426633332601377, 9.0687214274906894e-05, 0), Matrix3::Identity()};
   check_covers(body1, body2, pose2, Vector3(-0.9827693063605325, 0.1741329996797667, 0.06198539261926516).normalized());
 }
+
+// The curvature is about to end when a step beyond does not rise; that it is does not change by it.
+TEST_CASE("tips 7e-7 m in one another: a step that does not rise does not restore a curvature that fades") {
+  const Superellipsoid body1(Vector3(0.50326613865884384, 1.0568669013476841, 0.51857686814809989), 1.1727767667760731,
+                             1.2095160897887847);
+  const Superellipsoid body2(Vector3(0.83732890384385839, 0.91107346864219874, 0.62580652304072482), 1.0653498347159143,
+                             1.1008722365792472);
+  Pose pose2{Vector3(-0.058312369954986558, -1.9248125166005612, -0.27078365350588579), Matrix3::Identity()};
+  pose2.rotation << -0.077923840745364403, 0.06400408408976721, -0.9949026848206417,  //
+      -0.2921443038375427, 0.95266331368320256, 0.084168381815367496,                 //
+      0.95319440870095784, 0.29721387582340425, -0.055536755750236422;
+  check_covers(body1, body2, pose2, Vector3(-0.12109870914216911, -0.99237659019579172, 0.022886805707089085).normalized());
+}
