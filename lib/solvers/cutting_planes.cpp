@@ -17,6 +17,11 @@ constexpr double kTie = 1e-13;
 // As the square of a length over another.
 constexpr double kShort = 0.01;
 
+constexpr double kFullTurn = 2 * std::numbers::pi;
+
+// Ways that are walked whatever the cuts.
+constexpr int kWays = 8;
+
 // Between ways this near each other (radians) none is looked for: it may be open by rounding only.
 constexpr double kNarrow = 1e-3;
 
@@ -66,6 +71,51 @@ double distance_to_circle(const Vector2& u, const Vector2& p, double radius) {
   const double rest = std::max(0.0, radius * radius - u.squaredNorm());
   return -along + std::sqrt(along * along + rest);
 }
+
+/// The distance from u = 0 along `way` (unit) to where a cut, value + slope.u, is below level u^2/2 next; not to where it is for
+/// less than `least`.
+double distance_to_discs(std::span<const Cut> cuts, const Vector2& way, double level, double least) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Cut& cut : cuts) {
+    const double slope = cut.slope.dot(way);
+    const double discriminant = slope * slope + 2 * level * cut.value;
+    if (!(slope < 0 && discriminant > 0)) continue;
+    // Between the roots; the larger is sum / -level.
+    const double sum = std::sqrt(discriminant) - slope;
+    if (sum > -level * least) nearest = std::min(nearest, 2 * cut.value / sum);
+  }
+  return nearest;
+}
+
+/// Ways around u = 0, radians.
+class Angles {
+ public:
+  void add(double angle) { angles_[count_++] = angle; }
+
+  /// Those between which the cut is below level u^2/2 somewhere.
+  void add_tangents(const Cut& cut, double level) {
+    const double least_slope = std::sqrt(-2 * level * cut.value), steepest = cut.slope.norm();
+    if (!(least_slope < steepest)) return;
+    const double middle = std::atan2(-cut.slope.y(), -cut.slope.x());
+    const double half = std::acos(least_slope / steepest);
+    for (const double angle : {middle - half, middle + half}) add(std::remainder(angle, kFullTurn));
+  }
+
+  /// Halfway between neighbours that are not too near each other.
+  template <typename Function>
+  void for_each_middle(const Function& function) {
+    const std::span<double> sorted(angles_.data(), count_);
+    std::ranges::sort(sorted);
+    for (std::size_t k = 0; k < count_; ++k) {
+      const double next = k + 1 < count_ ? sorted[k + 1] : sorted[0] + kFullTurn;
+      if (next - sorted[k] > kNarrow) function(0.5 * (sorted[k] + next));
+    }
+  }
+
+ private:
+  std::array<double, kWays + 2 * CuttingPlanes::kCapacity> angles_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -126,46 +176,26 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
 }
 
 // At u the unit normal is shorter than n + u, and so is its s: s > level there is a cut above level sqrt(1 + u^2), which is at
-// least level (1 + u^2/2). So each cut closes a disc; a way is open between two neighbours of the tangents to the discs, or it is
-// not.
+// least level (1 + u^2/2). So each cut closes a disc, and what is open between discs is open between two neighbours of their
+// tangents.
 CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vector2& u, double level, double least) const {
-  constexpr int kWays = 8;
-  Cuts cuts;
-  std::array<double, kWays + 2 * kCapacity> angles;
-  std::size_t ways = 0;
-  for (; ways < kWays; ++ways) angles[ways] = 2 * std::numbers::pi * static_cast<double>(ways) / kWays;
-  const auto count = static_cast<std::size_t>(size());
-  for (std::size_t k = 0; k < count; ++k) {
+  Cuts around;
+  Angles angles;
+  for (int way = 0; way < kWays; ++way) angles.add(std::remainder(kFullTurn * way / kWays, kFullTurn));
+  const std::span<const Cut> cuts(around.data(), static_cast<std::size_t>(size()));
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
     const double height = plane.n.dot(d_[k]) + plane.project(d_[k]).dot(u) - level * (1 + 0.5 * u.squaredNorm());
-    cuts[k] = {std::max(height, 0.0), plane.project(d_[k]) - level * u};
-    // Along p, a unit vector, it closes what is between the roots of height + slope.p t - level t^2/2.
-    const double least_slope = std::sqrt(-2 * level * cuts[k].value), steepest = cuts[k].slope.norm();
-    if (!(least_slope < steepest)) continue;
-    const double middle = std::atan2(-cuts[k].slope.y(), -cuts[k].slope.x());
-    const double half = std::acos(least_slope / steepest);
-    for (const double turn : {-half, half}) {
-      angles[ways++] = std::remainder(middle + turn - std::numbers::pi, 2 * std::numbers::pi) + std::numbers::pi;
-    }
+    around[k] = {std::max(height, 0.0), plane.project(d_[k]) - level * u};
+    angles.add_tangents(around[k], level);
   }
-  std::sort(angles.begin(), angles.begin() + ways);
   Reach farthest;
   const auto walk = [&](double angle) {
-    const Vector2 p(std::cos(angle), std::sin(angle));
-    double stop = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < count; ++k) {
-      const double slope = cuts[k].slope.dot(p);
-      const double discriminant = slope * slope + 2 * level * cuts[k].value;
-      if (!(slope < 0 && discriminant > 0)) continue;
-      const double sum = std::sqrt(discriminant) - slope;
-      if (sum > -level * least) stop = std::min(stop, 2 * cuts[k].value / sum);
-    }
-    if (stop > farthest.distance) farthest = {p, stop};
+    const Vector2 way(std::cos(angle), std::sin(angle));
+    const double distance = distance_to_discs(cuts, way, level, least);
+    if (distance > farthest.distance) farthest = {way, distance};
   };
-  for (std::size_t way = 0; way < kWays; ++way) walk(2 * std::numbers::pi * static_cast<double>(way) / kWays);
-  for (std::size_t way = 0; way < ways; ++way) {
-    const double next = way + 1 < ways ? angles[way + 1] : angles[0] + 2 * std::numbers::pi;
-    if (next - angles[way] > kNarrow) walk(0.5 * (angles[way] + next));
-  }
+  for (int way = 0; way < kWays; ++way) walk(kFullTurn * way / kWays);
+  angles.for_each_middle(walk);
   return farthest;
 }
 

@@ -37,9 +37,9 @@ class CuttingPlanes {
   /// model from u = 0: finite, because it moves from ridge to ridge. At least one cut is needed.
   Maximum maximize(const TangentPlane& plane, double radius) const;
 
-  /// How far from u, going eight ways, the cuts allow unit normals with s > level, for a level < 0: the way on which it is farthest
-  /// (unit), and the distance; infinite where no cut stops it. A cut that allows them again before the distance `least` does not:
-  /// as one at the level, but for the rounding of its slope.
+  /// How far from u the cuts allow unit normals with s > level, for a level < 0: the way on which it is farthest (unit), of eight
+  /// and of those between the cuts, and the distance; infinite where no cut stops it. A cut that allows them again before the
+  /// distance `least` does not: as one at the level, but for the rounding of its slope.
   struct Reach {
     Vector2 way = Vector2::UnitX();
     double distance = 0;
