@@ -51,7 +51,7 @@ constexpr double kQuarterTurnChord = 1.4142135623730951;
 constexpr double kProbe = 2;
 
 // A second look for a rise across a flat spot is so many times as far away, where s may gain the square of it as much.
-constexpr double kFartherLook = 8;
+constexpr double kFartherLook = 4;
 
 // Share of a corner in the point of a face or an edge below which it is rounding.
 constexpr double kNoWeight = 1e-12;

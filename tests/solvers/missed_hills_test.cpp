@@ -179,6 +179,17 @@ TEST_CASE("a corner in a vertex, as exactly as can be: s rises beyond a flat spo
   check_covers(body1, Polytope(corners), pose2, Vector3(-0.00024668335069741776, 0, -0.99999996957366177).normalized(), settings);
 }
 
+TEST_CASE("a vertex in another's, both aligned, as exactly as can be: s rises by rounding only for as far as matters") {
+  const Superellipsoid body1(Vector3(0.57203485562414891, 0.76277235741676308, 0.92616675512158864), 2.6668881112077267,
+                             1.3610710001802806);
+  const Superellipsoid body2(Vector3(1.127045154361791, 0.64816896238249311, 1.4366196281302175), 2.5332381855400752,
+                             1.5172853770292629);
+  const Pose pose2{Vector3(4.8030307629651573e-78, 0, 2.3627514571166595), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-15;
+  check_covers(body1, body2, pose2, Vector3(0, 1.3e-4, 1).normalized(), settings);
+}
+
 // On a plane of symmetry, which a climb without Hessians never leaves, s has an edge across its maximum; the higher normals are
 // beside the plane.
 TEST_CASE("a tip in another's, one without a Hessian, as exactly as can be: stalled, no curvature is believed") {
