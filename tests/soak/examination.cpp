@@ -28,7 +28,7 @@ class Examiner {
  public:
   Examiner(const Sample& sample, Random random) : sample_(sample), random_(random), rounding_(samples::rounding_of(sample.pair)) {}
 
-  Finding examine(bool thorough) {
+  Finding examine(Care care) {
     const HardCase& pair = sample_.pair;
     const Vector3* const start = pair.first_normal ? &*pair.first_normal : nullptr;
     first_ = solve("cold", pair.shape1, pair.pose1, pair.shape2, pair.pose2, sample_.settings, start);
@@ -44,10 +44,10 @@ class Examiner {
     ask_swapped();
     ask_warm();
     ask_whether_apart();
-    if (thorough || random_.chance(kMaximumShare)) {
+    if (care != Care::Usual || random_.chance(kMaximumShare)) {
       append("", samples::check_maximum(pair, sample_.settings, first_, random_.next()));
     }
-    if (thorough || random_.chance(kInvarianceShare)) {
+    if (care == Care::All || random_.chance(kInvarianceShare)) {
       finding_.queries += kInvarianceQueries;
       append("", samples::check_invariance(pair, sample_.settings, first_));
     }
@@ -176,6 +176,6 @@ class Examiner {
 
 }  // namespace
 
-Finding examine(const Sample& sample, Random random, bool thorough) { return Examiner(sample, random).examine(thorough); }
+Finding examine(const Sample& sample, Random random, Care care) { return Examiner(sample, random).examine(care); }
 
 }  // namespace supernormal::soak

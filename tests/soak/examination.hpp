@@ -20,10 +20,17 @@ struct Finding {
   bool is_converged = true;       ///< all
 };
 
+/// How dear the checks may be.
+enum class Care {
+  Usual,          ///< the dear ones of some samples only
+  Neighbourhood,  ///< every answer's is searched for a higher normal
+  All,
+};
+
 /// Asks the sample in several ways: cold, with the bodies swapped, from a first normal, for separation only; some samples in all
 /// the ways that the catalogue knows. Sees to it that every answer is sound in itself (samples::check_answer), that no direction of
 /// a handful separates better than the answer says is possible, that answers agree with one another and with the placed gap, and
-/// that no query raises a floating-point exception. `thorough`: all the ways, and more directions, whatever the sample.
-Finding examine(const Sample& sample, Random random, bool thorough = false);
+/// that no query raises a floating-point exception.
+Finding examine(const Sample& sample, Random random, Care care = Care::Usual);
 
 }  // namespace supernormal::soak

@@ -30,7 +30,7 @@ Sample balls() {
   return sample;
 }
 
-Finding examine_thoroughly(const Sample& sample) { return examine(sample, Random(1, 1), true); }
+Finding examine_thoroughly(const Sample& sample) { return examine(sample, Random(1, 1), Care::All); }
 
 bool is_told(const Finding& finding, const std::string& what) {
   return std::ranges::any_of(finding.violations, [&](const std::string& text) { return text.find(what) != std::string::npos; });

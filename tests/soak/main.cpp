@@ -2,6 +2,7 @@
 //
 //     soak --queries 1e9 --seed 1 --resume soak.txt     in pieces: Ctrl-C, and the same command again
 //     soak --seed 1 --only 4711                         one sample, in full
+//     soak --queries 1e8 --seed 1 --sharp               looks for faults where they have been found most often, and longer
 //
 // Exit code 0: no violation; 1: some, each with the command that shows it again; 2: a mistake in the command; 130: interrupted.
 #include <CLI/CLI.hpp>
@@ -41,6 +42,9 @@ struct Options {
   std::string state_file;
   std::int64_t only = -1;
   bool trap = false;
+  bool sharp = false;
+
+  Care care() const { return sharp ? Care::Neighbourhood : Care::Usual; }
 };
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -81,23 +85,23 @@ int examine_only(const SampleSource& source, const Options& options) {
 #endif
   samples::Violations ignored;
   print(samples::solve(sample.pair, sample.settings, ignored));
-  const Finding finding = examine(sample, source.random_of_checks(index));
+  const Finding finding = examine(sample, source.random_of_checks(index), options.care());
   for (const std::string& violation : finding.violations) std::printf("VIOLATED: %s\n", violation.c_str());
   return finding.violations.empty() ? 0 : 1;
 }
 
 /// The samples first … end - 1, by all threads.
-Tally run_round(const SampleSource& source, std::uint64_t first, std::uint64_t end, unsigned threads) {
+Tally run_round(const SampleSource& source, const Options& options, std::uint64_t first, std::uint64_t end) {
   std::atomic<std::uint64_t> next{first};
-  std::vector<Tally> tallies(threads);
-  std::vector<std::exception_ptr> failures(threads);
+  std::vector<Tally> tallies(options.threads);
+  std::vector<std::exception_ptr> failures(options.threads);
   const auto work = [&](unsigned k) {
     try {
       Sample sample;
       for (std::uint64_t from = next.fetch_add(kBlock); from < end; from = next.fetch_add(kBlock)) {
         for (std::uint64_t index = from; index < std::min(from + kBlock, end); ++index) {
           source.draw(index, sample);
-          tallies[k].add(index, examine(sample, source.random_of_checks(index)));
+          tallies[k].add(index, examine(sample, source.random_of_checks(index), options.care()));
         }
       }
     } catch (...) {
@@ -105,7 +109,7 @@ Tally run_round(const SampleSource& source, std::uint64_t first, std::uint64_t e
     }
   };
   std::vector<std::thread> team;
-  for (unsigned k = 1; k < threads; ++k) team.emplace_back(work, k);
+  for (unsigned k = 1; k < options.threads; ++k) team.emplace_back(work, k);
   work(0);
   for (std::thread& thread : team) thread.join();
   for (const std::exception_ptr& failure : failures) {
@@ -136,10 +140,11 @@ void print_violations(const Tally& tally, const SampleSource& source, const Opti
   Sample sample;
   for (const std::uint64_t index : tally.violated) {
     source.draw(index, sample);
-    const Finding finding = examine(sample, source.random_of_checks(index));
-    std::printf("VIOLATED: %s: %s\n  soak --seed %llu --only %llu\n", sample.pair.name.c_str(),
+    const Finding finding = examine(sample, source.random_of_checks(index), options.care());
+    std::printf("VIOLATED: %s: %s\n  soak --seed %llu --only %llu%s\n", sample.pair.name.c_str(),
                 finding.violations.empty() ? "not again" : finding.violations.front().c_str(),
-                static_cast<unsigned long long>(options.seed), static_cast<unsigned long long>(index));
+                static_cast<unsigned long long>(options.seed), static_cast<unsigned long long>(index),
+                options.sharp ? " --sharp" : "");
   }
 }
 
@@ -165,7 +170,7 @@ int run(const SampleSource& source, const Options& options) {
   while (static_cast<double>(tally.queries) < options.queries && !is_interrupted) {
     const double missing = (options.queries - static_cast<double>(tally.queries)) / kQueriesPerSample;
     const auto size = std::min(kMostPerRound, static_cast<std::uint64_t>(std::ceil(missing)));
-    tally.add(run_round(source, tally.samples, tally.samples + size, options.threads));
+    tally.add(run_round(source, options, tally.samples, tally.samples + size));
     const double elapsed = seconds_since(start);
     tally.seconds = seconds_before + elapsed;
     if (elapsed - last_report < kReportInterval) continue;
@@ -193,9 +198,12 @@ int run_program(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", options.seed, "another seed: other samples")->capture_default_str();
   app.add_option("--threads", options.threads)->check(CLI::Range(1U, 1024U))->capture_default_str();
-  app.add_option("--resume", options.state_file, "continues what this file keeps, and keeps it up to date");
+  CLI::Option* const resume =
+      app.add_option("--resume", options.state_file, "continues what this file keeps, and keeps it up to date");
   app.add_option("--only", options.only, "this sample alone, in full")->check(CLI::NonNegativeNumber);
   app.add_flag("--trap", options.trap, "with --only: floating-point exceptions end the program, for a debugger");
+  app.add_flag("--sharp", options.sharp, "random pairs of the sharp classes only, each answer's neighbourhood searched")
+      ->excludes(resume);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -203,7 +211,7 @@ int run_program(int argc, char** argv) {
   }
   std::signal(SIGINT, [](int) { is_interrupted = true; });
   std::signal(SIGTERM, [](int) { is_interrupted = true; });
-  const SampleSource source(options.seed);
+  const SampleSource source(options.seed, options.sharp ? Mix::Sharp : Mix::Everything);
   return options.only >= 0 ? examine_only(source, options) : run(source, options);
 }
 

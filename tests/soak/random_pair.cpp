@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "solvers/superellipsoid_classes.hpp"
 #include "supernormal/solvers/gap_function.hpp"
 
 namespace supernormal::soak {
@@ -13,7 +12,6 @@ namespace {
 
 using samples::Body;
 using samples::HardCase;
-using test::kSuperellipsoidClasses;
 using test::SuperellipsoidClass;
 
 Vector3 draw_axes(Random& random, const SuperellipsoidClass& kind) {
@@ -111,8 +109,8 @@ void move_frame(HardCase& pair, Random& random) {
 
 }  // namespace
 
-void draw_random_pair(Random& random, Sample& sample) {
-  const SuperellipsoidClass& kind = kSuperellipsoidClasses[random.below(std::size(kSuperellipsoidClasses))];
+void draw_random_pair(Random& random, std::span<const SuperellipsoidClass> classes, Sample& sample) {
+  const SuperellipsoidClass& kind = classes[random.below(classes.size())];
   HardCase& pair = sample.pair;
   pair.name = std::string("random: ") + kind.name;
   pair.first_normal.reset();

@@ -55,15 +55,19 @@ Settings draw_settings(Random& random) {
 
 }  // namespace
 
-SampleSource::SampleSource(std::uint64_t seed) : seed_(seed), catalogue_(samples::hard_cases()) {}
+SampleSource::SampleSource(std::uint64_t seed, Mix mix) : seed_(seed), mix_(mix), catalogue_(samples::hard_cases()) {
+  for (const test::SuperellipsoidClass& one : test::kSuperellipsoidClasses) {
+    if (mix == Mix::Everything || one.least_exponent < 2) classes_.push_back(one);
+  }
+}
 
 void SampleSource::draw(std::uint64_t index, Sample& sample) const {
   Random random(seed_, index);
   sample.settings = draw_settings(random);
-  if (random.chance(0.5)) {
+  if (mix_ == Mix::Everything && random.chance(0.5)) {
     draw_from_catalogue(random, sample);
   } else {
-    draw_random_pair(random, sample);
+    draw_random_pair(random, classes_, sample);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "catalogue.hpp"
 #include "random.hpp"
+#include "solvers/superellipsoid_classes.hpp"
 #include "supernormal/solvers/proximity.hpp"
 
 namespace supernormal::soak {
@@ -19,11 +20,17 @@ struct Sample {
   std::optional<double> placed_gap;
 };
 
-/// Draws samples: half from the catalogue of hard cases, slightly or not so slightly changed, half random pairs of bodies of a
-/// class (those of tests/data/superellipsoid_pairs.csv, and the other shapes), from apart to one within the other.
+/// What is drawn from.
+enum class Mix {
+  Everything,
+  Sharp,  ///< random pairs of the classes with sharp edges or vertices alone: where faults have been found most often
+};
+
+/// Draws samples: of everything, half from the catalogue of hard cases, slightly or not so slightly changed, half random pairs of
+/// bodies of a class (those of tests/data/superellipsoid_pairs.csv, and the other shapes), from apart to one within the other.
 class SampleSource {
  public:
-  explicit SampleSource(std::uint64_t seed);
+  explicit SampleSource(std::uint64_t seed, Mix mix = Mix::Everything);
 
   /// Sample number `index`: of a seed, always the same.
   void draw(std::uint64_t index, Sample& sample) const;
@@ -35,7 +42,9 @@ class SampleSource {
   void draw_from_catalogue(Random& random, Sample& sample) const;
 
   std::uint64_t seed_;
+  Mix mix_;
   std::vector<samples::HardCase> catalogue_;
+  std::vector<test::SuperellipsoidClass> classes_;  // of random pairs
 };
 
 }  // namespace supernormal::soak

@@ -58,3 +58,14 @@ TEST_CASE("samples cover the catalogue and the random classes, from apart to one
   CHECK(names.contains("random: extreme_boxy"));
   for (const int count : {apart, touching, shallow, deep}) CHECK(count > 100);
 }
+
+TEST_CASE("the sharp mix has random pairs of classes with exponents below 2 alone") {
+  const SampleSource source(7, Mix::Sharp);
+  std::set<std::string> names;
+  Sample sample;
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    source.draw(k, sample);
+    names.insert(sample.pair.name);
+  }
+  CHECK(names == std::set<std::string>{"random: mixed", "random: moderate", "random: needle_mixed", "random: octahedral"});
+}

@@ -25,6 +25,7 @@ grep -q '^answer: gap ' "$work/log" || fail "--only does not show the answer"
 expect 2 "$program" --queries 8000 --seed 4 --resume "$work/pieces"
 grep -q 'it is of seed 3, not 4' "$work/log" || fail "another seed is not refused: $(cat "$work/log")"
 expect 2 "$program" --queries 0
+expect 2 "$program" --sharp --resume "$work/sharp"
 expect 2 "$program" --querys 100
 expect 0 "$program" --help
 
