@@ -20,7 +20,7 @@ template <typename E>
 constexpr EffectIndex index_of() {
   EffectIndex index = 0;
   [&]<std::size_t... kIs>(std::index_sequence<kIs...>) {
-    ((std::is_same_v<E, std::variant_alternative_t<kIs, Effect>> ? (index = kIs, true) : false) || ...);
+    ((index = std::is_same_v<E, std::variant_alternative_t<kIs, Effect>> ? kIs : index), ...);
   }
   (std::make_index_sequence<std::variant_size_v<Effect>>());
   return index;

@@ -26,7 +26,7 @@ std::vector<double> rows_along_z(const Terrain& terrain) {
 }  // namespace
 
 Walls::Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits) : space_(space) {
-  std::visit([this](const auto& kind) { add(kind); }, container);
+  std::visit([this](const auto& kind) { this->add(kind); }, container);
   for (dGeomID geom : geoms_) {
     dGeomSetCategoryBits(geom, category_bits);
     dGeomSetCollideBits(geom, collide_bits);
