@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/sharp_section.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -134,13 +135,18 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
       result.z() = scaled.z();
     }
   }
+  Vector3 sign_xy = target;
   if (inner_is_flat) {
     result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);
   } else {
-    const double norm = inner_potential_.value(scaled.x(), scaled.y());
-    result.head<2>() = norm > 0 ? Eigen::Vector2d(scaled.head<2>() * (outer.dx / norm)) : Eigen::Vector2d(Eigen::Vector2d::Zero());
+    const auto across = [&](const Vector3& covector) -> Eigen::Vector2d {
+      return covector.cwiseProduct(half_axes_).head<2>() / jet.h;
+    };
+    const auto over_axes = [&](const Vector3& point) -> Eigen::Vector2d { return point.cwiseQuotient(half_axes_).head<2>(); };
+    const SectionTurn turn{across(n), across(dn), over_axes(jet.r), over_axes(target), outer.dx};
+    sign_xy.head<2>() = turn.direction(inner_potential_);
+    result.head<2>() = outer.dx * sign_xy.head<2>().cwiseAbs();
   }
-  const Vector3& sign_xy = inner_is_flat ? target : moved;
   const Vector3& sign_z = outer_is_flat ? target : moved;
   return Vector3(std::copysign(result.x(), sign_xy.x()), std::copysign(result.y(), sign_xy.y()),
                  std::copysign(result.z(), sign_z.z()))

@@ -123,3 +123,19 @@ TEST_CASE("flat cross-sections, sharp at the pole: a step across the plane of sy
     CHECK(std::abs(reached.y()) <= 1e-15);
   }
 }
+
+TEST_CASE("a flat face with sharp sections: a turn across the edge, which the point does not follow, does not take it elsewhere") {
+  const Superellipsoid superellipsoid({1.03, 0.39, 1.14}, 1.06, 35);
+  const Superovoid superovoid({1.03, 0.39, 1.14}, 1.06, 35, 0.01, 0.01);
+  for (const Shape* shape : {static_cast<const Shape*>(&superellipsoid), static_cast<const Shape*>(&superovoid)}) {
+    const Vector3 n(1e-15, 0, -1);
+    const Jet jet = shape->jet(n);
+    // 10 000 times n.x; where the point goes the normal is ten times longer than the turn.
+    const Vector3 dn(0.13 / jet.H(0, 0), 1e-11, 0);
+    const Vector3 target = jet.r + jet.H * dn;
+    CHECK(target.y() == doctest::Approx(0));
+    const Vector3 advanced = shape->advance_normal(n, jet, dn).normalized();
+    CHECK(advanced.y() == doctest::Approx(1e-11).epsilon(1e-3));
+    CHECK((shape->point(advanced) - target).norm() <= 1e-3);
+  }
+}

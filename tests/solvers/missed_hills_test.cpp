@@ -226,3 +226,20 @@ TEST_CASE("tips 7e-7 m in one another: a step that does not rise does not restor
       0.95319440870095784, 0.29721387582340425, -0.055536755750236422;
   check_covers(body1, body2, pose2, Vector3(-0.12109870914216911, -0.99237659019579172, 0.022886805707089085).normalized());
 }
+
+// On the edge that runs across a flat face the other body alone holds the normal one way: by 1e4 times its part along the edge, but
+// that grows as many times while the point moves.
+TEST_CASE("a vertex on the flat face of a body with sharp sections, 8e-6 m deep: the face does not let go of the normal") {
+  const Superellipsoid body1(Vector3(1.030940572922143, 0.38535300024164493, 1.1378309966684093), 1.0593776794536642,
+                             34.741461447676919);
+  const Superellipsoid body2(Vector3(0.071474949631092466, 0.48221039359232187, 1.1589073745573089), 25.705595144452086,
+                             33.378091905101051);
+  Pose pose2{Vector3(-0.08147749049243419, -0.57554311779767175, -2.0616662747530721), Matrix3::Identity()};
+  pose2.rotation << -0.85014306083360847, -0.091352506938197686, -0.51856677062126677,  //
+      0.37870617758095831, 0.57816718550504276, -0.72270625890966034,                   //
+      0.36583931879786058, -0.81078815055554665, -0.4569290620438069;
+  Settings settings;
+  settings.tolerance = 1e-12;
+  const Vector3 higher(2.5898606379237307e-11, 3.5753877485270148e-15, -1);
+  check_covers(body1, body2, pose2, higher, settings);
+}
