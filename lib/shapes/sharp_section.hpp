@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 #include "supernormal/shapes/power_norm.hpp"
@@ -24,13 +25,17 @@ struct SectionTurn {
   ///
   /// Along a sharp section the boundary point is a high power of the normal's direction, so the normal goes its own way: by an
   /// angle, since what holds it is a curvature in proportion to its length. But a turn that the section does not hold, as on one of
-  /// its edges, which the point does not leave, comes from the other body: it is no longer where the normal is longer.
+  /// its edges, which the point does not leave, comes from the other body: it is no longer where the normal is longer, and what is
+  /// longer yet leads past the corner, where it is held. Across the middle of the face lies the opposite edge, with the opposite
+  /// normal.
   Eigen::Vector2d direction(const PowerNorm& dual) const {
     const auto size = [&dual](const Eigen::Vector2d& v) { return dual.value(std::abs(v.x()), std::abs(v.y())); };
     Eigen::Vector2d moved = normal + turn;
+    const double side = point.dot(target) < 0 ? -1 : 1;
     const double before = size(normal);
-    const bool is_held = !are_far_apart(normal, moved) || are_far_apart(point, target);
-    if (!is_held && before > 0 && before < length) moved = normal / before * length + turn;
+    const bool is_held = !are_far_apart(side * normal, moved) || are_far_apart(side * point, target);
+    if (!is_held && before > 0 && before < length)
+      moved = normal / before * (side * length) + turn * std::min(1.0, length / size(turn));
     const double after = size(moved);
     return after > 0 ? Eigen::Vector2d(moved / after) : Eigen::Vector2d(Eigen::Vector2d::Zero());
   }

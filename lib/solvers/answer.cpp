@@ -31,7 +31,7 @@ Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet&
   const bool is_touching = jet.s >= -tolerance;
   out.is_global = jet.s > 0 || (status != Status::Diverged && (is_concave || is_touching));
   // Where s need not be concave the model proves nothing, however little it promises: no more is claimed than was asked for.
-  if (!out.is_global) model_error = std::max(model_error, tolerance);
+  if (!(jet.s > 0 || is_concave)) model_error = std::max(model_error, tolerance);
   const double excess = largest_excess(jet, gap.rolling_radius());
   out.error = std::min(model_error, excess) + gap.rounding();
   out.global_error = out.is_global ? std::max(out.error, tolerance + gap.rounding()) : excess + gap.rounding();

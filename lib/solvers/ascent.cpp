@@ -50,8 +50,15 @@ constexpr double kQuarterTurnChord = 1.4142135623730951;
 // without bending. A cut of there reaches from 0.6 to more than 2 times as far.
 constexpr double kProbe = 2;
 
-// A second look for a rise across a flat spot is so many times as far away, where s may gain the square of it as much.
-constexpr double kFartherLook = 4;
+// The next look for a rise across a flat spot is so many times as far away, where s may gain the square of it as much; none is
+// farther than this (gnomonic).
+constexpr double kFartherLook = 2;
+constexpr double kFarthestLook = 1;
+
+// Without Hessians, a curvature that is less than so many times the depth, and so small a share of the pair's length, as at sharp
+// tips, may be less than the depth just beyond where it was seen.
+constexpr double kWeakCurvature = 4;
+constexpr double kTipRadius = 0.01;
 
 // Share of a corner in the point of a face or an edge below which it is rounding.
 constexpr double kNoWeight = 1e-12;
@@ -65,7 +72,8 @@ Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, con
   const bool is_first_flatter = A1.trace() > A2.trace();
   const Vector2& flat = is_first_flatter ? u1 : u2;
   const Vector2 pull = is_first_flatter ? A2 * (u2 - u1) : A1 * (u1 - u2);
-  return pull == Vector2::Zero() ? flat : Vector2(flat + (A1 + A2).solve(pull));
+  const Vector2 change = (A1 + A2).solve(pull);
+  return all_finite(change) ? Vector2(flat + change) : flat;
 }
 
 /// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal, or grazes the plane.
@@ -174,7 +182,7 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   // The cuts bound s over the whole plane where their maximum is not on the rim.
   if (!top.is_interior) return;
   const double error = GainToCome::kSafety * step.gain + top.uncertainty;
-  const double turn = turn_gain(secant_.reach());
+  const double turn = turn_gain(unseen_turn(local));
   if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
     error_ = std::min(error_, error + turn);
   } else {
@@ -201,7 +209,7 @@ double Ascent::distance_that_matters() const { return kProbe * std::sqrt(toleran
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const auto [newton, whole_gain] = local.model.peak(radius_, gap_.rounding());
   error_ = to_come_.learn({whole_gain, newton.norm(), local.model.A}, radius_);
-  error_ = std::max(error_, unseen_gain(local.model.g, true));
+  error_ = std::max(error_, unseen_gain(local, local.model.g, true));
   Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && !is_slight(local, newton) &&
       flat_step(local, {0, local.model.g, newton, nullptr, {}}, step) == FlatStep::LeavesFace) {
@@ -234,7 +242,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
     target.slope += peak.weight[i] * pieces[peak.active[i]].slope;
     if (peak.count > 1) cuts_.add(known_.difference(current(), peak.active[i]));
   }
-  error_ = std::max(error_, unseen_gain(target.slope, peak.count == 1));
+  error_ = std::max(error_, unseen_gain(local, target.slope, peak.count == 1));
   if (local.A1.trace() > kFlatRadius * gap_.length_unit()) {
     // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
     const Vector2 way = target.slope - local.A2 * peak.u - current().s * peak.u;
@@ -287,14 +295,19 @@ double Ascent::turn_gain(double reach) const {
   return -0.5 * turn * turn * current().s;
 }
 
+double Ascent::unseen_turn(const LocalModel& local) const {
+  const bool is_weak = Eigen2(local.model.A).low < std::min(kWeakCurvature * -current().s, kTipRadius * gap_.length_unit());
+  return is_weak ? kQuarterTurnChord : secant_.reach();
+}
+
 // Along the slope, where the model does not tell how far it goes on: of bodies without Hessians, and where the steps grow, as along
 // the normals of a sharp tip, or where the curvature is about to end. However far, s gains no more than slope sin(turn) by it. And
 // with the turn itself.
-double Ascent::unseen_gain(const Vector2& slope, bool is_held_by_curvature) {
+double Ascent::unseen_gain(const LocalModel& local, const Vector2& slope, bool is_held_by_curvature) {
   is_open_ = false;
   if (curvature_holds() && !to_come_.steps_grow()) return 0;
   const double along_slope = slope.norm();
-  const double turn = is_held_by_curvature ? turn_gain(secant_.reach()) : 0;
+  const double turn = is_held_by_curvature ? turn_gain(unseen_turn(local)) : 0;
   is_open_ = along_slope <= tolerance_ && turn > tolerance_;
   return along_slope + turn;
 }
@@ -364,8 +377,8 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
   return FlatStep::Taken;
 }
 
-// A look at the distance that matters tells whether a flat spot holds the normal, and one farther on, since just beyond the spot s
-// may be level; unless a cut does.
+// A look at the distance that matters tells whether a flat spot holds the normal, and those farther on, since just beyond the spot
+// s may be level; unless a cut does.
 bool Ascent::leave_flat_spot() {
   if (!has_flat_faces_ || -current().s <= std::max(rolling_radius_, tolerance_)) return false;
   const LocalModel local = local_model();
@@ -378,7 +391,11 @@ bool Ascent::leave_flat_spot() {
     evaluate(normal, trial(), corners_[1 - now_]);
     return trial().s > current().s + gap_.rounding();
   };
-  const auto rises_along = [&](const Vector2& way) { return rises_at(nearest, way) || rises_at(kFartherLook * nearest, way); };
+  const auto rises_along = [&](const Vector2& way) {
+    double distance = nearest;
+    while (distance <= kFarthestLook && !rises_at(distance, way)) distance *= kFartherLook;
+    return distance <= kFarthestLook;
+  };
   if (!std::ranges::any_of(across.ways(), rises_along)) return false;
   now_ = 1 - now_;
   forget_steps();

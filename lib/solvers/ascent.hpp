@@ -68,7 +68,9 @@ class Ascent {
   bool curvature_holds() const;
   /// m; what s may gain by a turn of which no slope tells, as far as this (radians).
   double turn_gain(double reach) const;
-  double unseen_gain(const Vector2& slope, bool is_held_by_curvature);
+  /// Radians; how far the normal may turn for nothing that has been seen to hold it.
+  double unseen_turn(const LocalModel& local) const;
+  double unseen_gain(const LocalModel& local, const Vector2& slope, bool is_held_by_curvature);
   enum class FlatStep {
     Taken,
     None,        ///< the bodies' proposals do not agree on one

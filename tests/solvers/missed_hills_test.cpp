@@ -243,3 +243,72 @@ TEST_CASE("a vertex on the flat face of a body with sharp sections, 8e-6 m deep:
   const Vector3 higher(2.5898606379237307e-11, 3.5753877485270148e-15, -1);
   check_covers(body1, body2, pose2, higher, settings);
 }
+
+// Last seen within 8e-6 radians, where it is twice the depth; 0.02 radians beyond s is higher by 7e-9 m.
+TEST_CASE(
+    "two vertices 6e-5 m deep, one without a Hessian: a curvature hardly larger than the depth may end where it was seen last") {
+  const Superellipsoid body1(Vector3(3.6481008700558961, 0.96722482379045194, 1.6659483633181225), 1.0206295723104579,
+                             1.1956914668550584);
+  const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
+      Vector3(3.0001153728424068, 1.1355572910356881, 0.4782677563915374), 6.5218037073853559, 1.0917067125451516));
+  Pose pose2{Vector3(0, -1.141392209335566e-83, 2.1441574564401087), Matrix3::Identity()};
+  const Vector3 higher(0.022255175878533217, 0.01725211919830108, 0.99960345714177246);
+  check_covers(body1, body2, pose2, higher);
+}
+
+// The boundary point is to go to the other side, where the normal is 1e9 times longer than the turn along the edge.
+TEST_CASE("a flat face with sharp sections on the edge of a box, 0.02 m deep: the step leads across the middle of the face") {
+  const Box body1(Vector3(0.47784297674797016, 0.65302903466481943, 0.22920610074731182));
+  const Superellipsoid body2(Vector3(0.11336965305275699, 0.079491480016105079, 0.32449042002615075), 1.0233096024762385,
+                             24.139544178189325);
+  Pose pose2{Vector3(-0.47131072778774796, 0.7040171837470226, 0.53332971930557793), Matrix3::Identity()};
+  pose2.rotation << 1, -6.2118231113173759e-15, 1.1068064658725494e-14,  //
+      6.2118231113173759e-15, 1, 5.7905581527147752e-14,                 //
+      -1.1068064658725494e-14, -5.7905581527147752e-14, 1;
+  Settings settings;
+  settings.tolerance = 1e-06;
+  const Vector3 higher(1.5777218104420236e-30, 0.00014091724309110162, 0.99999999007116525);
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// The rise is too slight at 6e-3 radians, and over at four times as much.
+TEST_CASE("two vertices 8e-10 m deep in a plane of symmetry: beyond a flat spot s may be level for long") {
+  const Superellipsoid body1(Vector3(0.71296597701132092, 1.0984066824783172, 1.2564937760469683), 2.1866296579336773,
+                             1.1656328954301227);
+  const Superellipsoid body2(Vector3(0.8643055585049727, 0.63328599533611518, 0.64187401040155534), 5.8091326116798934,
+                             1.0242328952401158);
+  Pose pose2{Vector3(-1.1627542430364399e-293, -1.8495011756912983e-44, 1.8983677856457835), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Vector3 higher(0.017251487790557775, -0.014999836257381292, 0.99973866139169798);
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// The vertex has no curvature, and the sum overflows.
+TEST_CASE("a vertex on the edge of a flat body, 3 mm apart: where the sum of the curvatures is singular, the flatter body's step") {
+  const Superellipsoid body1(Vector3(1.1178312846124669, 0.51561299252521375, 0.51937387119980405), 1.0652712251839331,
+                             1.0215371823428434);
+  const Superellipsoid body2(Vector3(0.71620011118264004, 1.1120671328332621, 0.70715741219632777), 1.1103482903243858,
+                             27.762210538656923);
+  Pose pose2{Vector3(-1.8372468168903395, 1.1378993825478028e-09, 0.34220721523305458), Matrix3::Identity()};
+  pose2.rotation << 1, -6.1993818575992063e-11, -3.7097851271000378e-09,  //
+      6.1993818575992063e-11, 1, 3.4549223408892584e-09,                  //
+      3.7097851271000378e-09, -3.4549223408892584e-09, 1;
+  Settings settings;
+  settings.tolerance = 0.001;
+  const Vector3 higher(-1, -5.8060051358934491e-11, -3.7089860453520994e-09);
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// Not 3e-12 m, which the model promises: in a plane of symmetry, across which s rises by 1e-11 m.
+TEST_CASE("two vertices 7e-5 m deep, which is touching at a tolerance of 1e-3: no more is claimed than was asked for") {
+  const Superellipsoid body1(Vector3(0.11645783548106431, 2.4097850836256174, 3.7581784826603002), 6.9791411274972592,
+                             1.4020841648050002);
+  const Superellipsoid body2(Vector3(0.18130680519995129, 0.35383931455754919, 2.7654579675288851), 3.1730775455599707,
+                             1.3633620187714195);
+  Pose pose2{Vector3(0, -2.249389875078415e-175, -6.5235634541623426), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 0.001;
+  const Vector3 higher(0.00091420995426320527, -0.0013422656972313872, -0.9999986812706092);
+  check_covers(body1, body2, pose2, higher, settings);
+}
