@@ -112,7 +112,7 @@ void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet&
 
 Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
   // Each of the two norms goes its own way: a flat one (exponent above 2) through the boundary point, a sharp one through the
-  // normal.
+  // normal, unless the section's turns far.
   Vector3 moved = n + dn;
   const bool inner_is_flat = delta_ > 2;
   const bool outer_is_flat = epsilon_ > 2;
@@ -135,18 +135,15 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
       result.z() = scaled.z();
     }
   }
-  Vector3 sign_xy = target;
-  if (inner_is_flat) {
+  const bool goes_with_point =
+      inner_is_flat || turns_far(half_axes_.cwiseProduct(n).head<2>(), half_axes_.cwiseProduct(moved).head<2>());
+  if (goes_with_point) {
     result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);
   } else {
-    const auto across = [&](const Vector3& covector) -> Eigen::Vector2d {
-      return covector.cwiseProduct(half_axes_).head<2>() / jet.h;
-    };
-    const auto over_axes = [&](const Vector3& point) -> Eigen::Vector2d { return point.cwiseQuotient(half_axes_).head<2>(); };
-    const SectionTurn turn{across(n), across(dn), over_axes(jet.r), over_axes(target), outer.dx};
-    sign_xy.head<2>() = turn.direction(inner_potential_);
-    result.head<2>() = outer.dx * sign_xy.head<2>().cwiseAbs();
+    const double norm = inner_potential_.value(scaled.x(), scaled.y());
+    result.head<2>() = norm > 0 ? Eigen::Vector2d(scaled.head<2>() * (outer.dx / norm)) : Eigen::Vector2d(Eigen::Vector2d::Zero());
   }
+  const Vector3& sign_xy = goes_with_point ? target : moved;
   const Vector3& sign_z = outer_is_flat ? target : moved;
   return Vector3(std::copysign(result.x(), sign_xy.x()), std::copysign(result.y(), sign_xy.y()),
                  std::copysign(result.z(), sign_z.z()))

@@ -221,21 +221,18 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   const double X = 1 + taper_x_ * s, Y = 1 + taper_y_ * s;
   PowerNormJet section, meridian;
   inner_gauge_.gradient(std::abs(gauge_point.x()) / X, std::abs(gauge_point.y()) / Y, section);
-  outer_gauge_.gradient(section.value, std::abs(gauge_point.z()), meridian);
 
   // The normal's part in the section, scaled to a dual norm of 1, and its signs.
   const Eigen::Vector2d axes(X * half_axes_.x(), Y * half_axes_.y());
   const Eigen::Vector2d scaled = axes.cwiseProduct(moved.head<2>());
   const double width = inner_potential_.value(std::abs(scaled.x()), std::abs(scaled.y()));
-  Eigen::Vector2d across(section.dx, section.dy), sign = target.head<2>();
-  if (!inner_is_flat) {
-    const SectionTurn turn{axes.cwiseProduct(n.head<2>()) / jet.h, axes.cwiseProduct(dn.head<2>()) / jet.h,
-                           jet.r.head<2>().cwiseQuotient(axes), target.head<2>().cwiseQuotient(axes), meridian.dx};
-    sign = turn.direction(inner_potential_);
-    across = sign.cwiseAbs();
-  }
+  const bool goes_with_point = inner_is_flat || turns_far(axes.cwiseProduct(n.head<2>()), scaled);
+  Eigen::Vector2d across(section.dx, section.dy);
+  if (!goes_with_point) across = width > 0 ? Eigen::Vector2d(scaled.cwiseAbs() / width) : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  const Vector3& sign = goes_with_point ? target : moved;
   const Vector3 direction(std::copysign(across.x(), sign.x()) / axes.x(), std::copysign(across.y(), sign.y()) / axes.y(), 0);
 
+  outer_gauge_.gradient(section.value, std::abs(gauge_point.z()), meridian);
   // Going up, the point comes nearer to the middle of its section, which has grown.
   const double growth = section.value > 0 ? (section.dx * std::abs(gauge_point.x()) * taper_x_ / (X * X) +
                                              section.dy * std::abs(gauge_point.y()) * taper_y_ / (Y * Y))

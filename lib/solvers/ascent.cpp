@@ -55,6 +55,9 @@ constexpr double kProbe = 2;
 constexpr double kFartherLook = 2;
 constexpr double kFarthestLook = 1;
 
+// From there the ridge is this share of the way off, at most.
+constexpr double kRidgeReach = 0.5;
+
 // Without Hessians, a curvature that is less than so many times the depth, and so small a share of the pair's length, as at sharp
 // tips, may be less than the depth just beyond where it was seen.
 constexpr double kWeakCurvature = 4;
@@ -157,12 +160,12 @@ bool Ascent::finished(double worth, Status& status) const {
   return true;
 }
 
-LocalModel Ascent::local_model() const {
-  return gap_.has_curvature() ? LocalModel::of(gap_, current()) : LocalModel::of(gap_, current(), secant_.matrix());
+LocalModel Ascent::local_model(const GapJet& jet) const {
+  return gap_.has_curvature() ? LocalModel::of(gap_, jet) : LocalModel::of(gap_, jet, secant_.matrix());
 }
 
 Ascent::Step Ascent::choose_step() {
-  const LocalModel local = local_model();
+  const LocalModel local = local_model(current());
   Step step = has_kinks_ ? kinked_step(local) : smooth_step(local);
   // Where the steps zigzag across a ridge the model sees no further than they go; the cuts of both sides do.
   cuts_lead_ = cuts_lead_ || to_come_.may_zigzag();
@@ -381,26 +384,37 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
 // s may be level; unless a cut does.
 bool Ascent::leave_flat_spot() {
   if (!has_flat_faces_ || -current().s <= std::max(rolling_radius_, tolerance_)) return false;
-  const LocalModel local = local_model();
+  const LocalModel local = local_model(current());
   const double nearest = distance_that_matters();
   const WaysAcrossFlatSpots across(gap_, local, nearest);
-  const auto rises_at = [&](double distance, const Vector2& way) {
-    const Vector2 u = std::copysign(distance, local.model.g.dot(way)) * way;
-    const Vector3 normal = (current().n + local.plane1.lift(u)).normalized();
-    if (cuts_.upper_bound(normal) <= current().s || gap_.evaluations() >= settings_.max_evaluations) return false;
-    evaluate(normal, trial(), corners_[1 - now_]);
-    return trial().s > current().s + gap_.rounding();
-  };
   const auto rises_along = [&](const Vector2& way) {
-    double distance = nearest;
-    while (distance <= kFarthestLook && !rises_at(distance, way)) distance *= kFartherLook;
-    return distance <= kFarthestLook;
+    double distance = std::copysign(nearest, local.model.g.dot(way));
+    while (std::abs(distance) <= kFarthestLook && !rises_beyond(local, distance * way)) distance *= kFartherLook;
+    return std::abs(distance) <= kFarthestLook;
   };
   if (!std::ranges::any_of(across.ways(), rises_along)) return false;
   now_ = 1 - now_;
   forget_steps();
   return true;
 }
+
+// The ridge of the hill that s may climb there need not lie where it is looked for: a step of the model there leads to it.
+bool Ascent::rises_beyond(const LocalModel& local, const Vector2& u) {
+  if (!can_rise(current().n + local.plane1.lift(u))) return false;
+  if (is_higher(trial().s)) return true;
+  const LocalModel there = local_model(trial());
+  const Vector2 step = there.model.maximize(kRidgeReach * u.norm());
+  return is_higher(trial().s + there.model.gain(step)) && can_rise(trial().n + there.plane1.lift(step)) && is_higher(trial().s);
+}
+
+bool Ascent::can_rise(const Vector3& direction) {
+  const Vector3 normal = direction.normalized();
+  if (cuts_.upper_bound(normal) <= current().s || gap_.evaluations() >= settings_.max_evaluations) return false;
+  evaluate(normal, trial(), corners_[1 - now_]);
+  return true;
+}
+
+bool Ascent::is_higher(double s) const { return s > current().s + gap_.rounding(); }
 
 bool Ascent::ruled_out(const Step& step) const {
   return cuts_.upper_bound(step.normal) <= (current().s + kPoorShare * step.gain) * step.normal.norm();

@@ -60,7 +60,7 @@ class Ascent {
   GapJet& trial() { return jets_[1 - now_]; }
   /// The next step is as good as the first of a climb.
   void forget_steps();
-  LocalModel local_model() const;
+  LocalModel local_model(const GapJet& jet) const;
   Step choose_step();
   Step smooth_step(const LocalModel& local);
   Step kinked_step(const LocalModel& local);
@@ -80,6 +80,11 @@ class Ascent {
   bool is_slight(const LocalModel& local, const Vector2& newton) const;
   /// Goes on from beside the normal of a flat spot that does not hold it; false if there is none.
   bool leave_flat_spot();
+  bool rises_beyond(const LocalModel& local, const Vector2& u);
+  /// Tries a direction that no cut rules out.
+  bool can_rise(const Vector3& direction);
+  /// Than the current one, beyond rounding.
+  bool is_higher(double s) const;
   void leave_face(const LocalModel& local, Step& step);
   void cut_step(const LocalModel& local, Step& step);
   /// Of bodies that overlap, gnomonic: a normal that is turned so far gains about the tolerance, if nothing holds it.

@@ -312,3 +312,30 @@ TEST_CASE("two vertices 7e-5 m deep, which is touching at a tolerance of 1e-3: n
   const Vector3 higher(0.00091420995426320527, -0.0013422656972313872, -0.9999986812706092);
   check_covers(body1, body2, pose2, higher, settings);
 }
+
+// Away from the plane the normal must turn within it as well.
+TEST_CASE("two vertices 4e-11 m deep in a plane of symmetry: the hill across it lies beside the way that is looked along") {
+  const Superellipsoid body1(Vector3(0.083500117213317529, 0.27034240319537822, 0.33815383651540687), 6.4896649402147784,
+                             1.1200456333232491);
+  const Superellipsoid body2(Vector3(0.5822860238970049, 0.61871970214654037, 2.3773906283478077), 2.4810988125375477,
+                             1.0388081242131137);
+  Pose pose2{Vector3(0, 0, -2.7155444648244416), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 1e-15;
+  const Vector3 higher(-0.068846383593012608, -0.045488133276259619, -0.99658968748287025);
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// Where the point goes the normal is 1e7 times longer, and another side's.
+TEST_CASE("a vertex on the flat face of a body with sharp sections, 4e-7 m apart: the face's normal is 1e-16 away") {
+  const Superellipsoid body1(Vector3(1.0968711739033943, 1.2205116845305606, 0.61068835487633155), 1.6718304010667231,
+                             1.2267469604494341);
+  const Superellipsoid body2(Vector3(1.0892623070016809, 0.63655134727433182, 0.54121846194456191), 1.0830174080538395,
+                             27.712594570880636);
+  Pose pose2{Vector3(0.18593709788279633, 0.21301592457420146, 1.1519072546254689), Matrix3::Identity()};
+  pose2.rotation << 1, -9.5158382905507688e-10, -1.499019689158299e-09,  //
+      9.5158382905507688e-10, 1, -2.7125396802693259e-09,                //
+      1.499019689158299e-09, 2.7125396802693259e-09, 1;
+  const Vector3 higher(-1.4987088000765559e-09, -2.7115639284149797e-09, 1);
+  check_covers(body1, body2, pose2, higher);
+}
