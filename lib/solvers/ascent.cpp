@@ -40,6 +40,11 @@ constexpr double kCreep = 1e-2;
 // A corner or an edge adds no curvature to that of a flat face: the step that rises to it may be so many times too short.
 constexpr double kCornerSafety = 3;
 
+// Steps through the boundary point that do not shrink to this share may be much too short: where the other body is an edge that
+// turns, as a rim, it turns less and less as the normal leaves the face.
+constexpr double kSlowFlatSteps = 0.5;
+constexpr double kSlowFlatSafety = 20;
+
 // Directions closer than this (radians) to the plane of another have no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-15;
 
@@ -142,6 +147,7 @@ Status Ascent::climb(const Vector3& start, double worth) {
 
 void Ascent::forget_steps() {
   radius_ = kFirstRadius;
+  flat_length_ = std::numeric_limits<double>::infinity();
   cuts_lead_ = false;
   to_come_.restart();
 }
@@ -368,8 +374,11 @@ Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target
   double rise = target.value + target.slope.dot(u);
   if (!(rise > 0)) return FlatStep::None;
   // s is concave where it matters: it gains at most the slope times the step, however flat the face.
-  error_ = std::max(error_, target.peak != nullptr ? kCornerSafety * rise : rise);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
+  const double safety =
+      (target.peak != nullptr ? kCornerSafety : 1) * (length < kSlowFlatSteps * flat_length_ ? 1 : kSlowFlatSafety);
+  error_ = std::max(error_, safety * rise);
+  flat_length_ = length;
   const double reach = kFlatStepReach * radius_;
   const double shrink = length > reach ? reach / length : 1;
   if (length < kCreep * newton.norm() && rise < kPoorShare * step.gain) return FlatStep::Taken;

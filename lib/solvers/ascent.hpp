@@ -117,6 +117,7 @@ class Ascent {
   std::array<Corners, 2> corners_;  // theirs
   std::size_t now_ = 0;
   double radius_ = 0;       // of the trust region, gnomonic
+  double flat_length_ = 0;  // of the last step through the boundary point, gnomonic; infinite before
   bool cuts_lead_ = false;  // whether the steps zigzag, and those to the maximum of the cuts have not led up yet
   bool is_open_ = false;    // whether nothing is left but what a turn may gain that has not been seen
   double error_ = 0;        // m

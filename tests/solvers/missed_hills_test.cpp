@@ -1,6 +1,7 @@
 // Climbs that ended beside a normal which is higher than they reported: cases that the soak program found.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <memory>
 
 #include "shapes/without_hessian.hpp"
@@ -337,5 +338,34 @@ TEST_CASE("a vertex on the flat face of a body with sharp sections, 4e-7 m apart
       9.5158382905507688e-10, 1, -2.7125396802693259e-09,                //
       1.499019689158299e-09, 2.7125396802693259e-09, 1;
   const Vector3 higher(-1.4987088000765559e-09, -2.7115639284149797e-09, 1);
+  check_covers(body1, body2, pose2, higher);
+}
+
+// The rim turns with the normal, fifty times less where the maximum is.
+TEST_CASE("a flat face over the rim of a cylinder's, 0.45 m deep: steps that do not shrink may be much too short") {
+  const Cylinder body1(1.0979394073019821, 0.71983868197042333);
+  const Superellipsoid body2(Vector3(0.86260385789933769, 1.2021586798719865, 0.65618464877373561), 3.5958757029430406,
+                             24.681786908287489);
+  Pose pose2{Vector3(3.086631071982804e-05, 1.7690162354891643, 0.92934154071868524), Matrix3::Identity()};
+  pose2.rotation << 1, -3.9998084524971387e-12, 7.7515228887151997e-13,  //
+      3.9998084524971387e-12, 1, 3.3162752699290716e-12,                 //
+      -7.7515228887151997e-13, -3.3162752699290716e-12, 1;
+  const Vector3 higher(2.6355589508012911e-09, 1.6874129755854321e-08, 1);
+  check_covers(body1, body2, pose2, higher);
+}
+
+// Stationary normals that overlap by x prove that the bodies are apart by x at most: an error of 2 x.
+TEST_CASE("a hull's vertex on an octahedron's, 8e-12 m apart: not touching by a normal that overlaps by nearly the tolerance") {
+  const Superellipsoid body1(Vector3(0.74453053912027789, 0.072705323041119041, 0.54749995190721934), 1.0260603913822577,
+                             1.1912751495901868);
+  const std::array<Vector3, 6> points = {Vector3(1.4200568409671477, 0.24163743461210851, 0.62289541211636779),
+                                         Vector3(3.2223119914719804, 0.10747778089537707, 0.51692730814796817),
+                                         Vector3(-3.015213236572412, 0.27445764032582692, 0.35138200777010009),
+                                         Vector3(2.5160850941496462, -0.29336602399189854, -0.42056752358315025),
+                                         Vector3(1.9244694962840889, 0.085965760966722149, 0.69497330136611379),
+                                         Vector3(-1.6475957483028896, -0.083351436831516981, -0.71724302559514252)};
+  const Polytope body2(points);
+  Pose pose2{Vector3(3.7597437756014189, -0.27445764027461134, -0.35138200777010009), Matrix3::Identity()};
+  const Vector3 higher(0.41988718925872698, 0.90757568476404937, -0.0010605288646612805);
   check_covers(body1, body2, pose2, higher);
 }
