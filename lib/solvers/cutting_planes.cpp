@@ -92,9 +92,11 @@ class Angles {
  public:
   void add(double angle) { angles_[count_++] = angle; }
 
-  /// Those between which the cut is below level u^2/2 somewhere.
-  void add_tangents(const Cut& cut, double level) {
-    const double least_slope = std::sqrt(-2 * level * cut.value), steepest = cut.slope.norm();
+  /// Those between which the cut is below level u^2/2 somewhere beyond `least`: they touch that disc, or meet its rim at `least`.
+  void add_tangents(const Cut& cut, double level, double least) {
+    const double touching = std::sqrt(-2 * level * cut.value), beyond = -level * least;
+    const double least_slope = touching < beyond ? 0.5 * (beyond + touching * (touching / beyond)) : touching;
+    const double steepest = cut.slope.norm();
     if (!(least_slope < steepest)) return;
     const double middle = std::atan2(-cut.slope.y(), -cut.slope.x());
     const double half = std::acos(least_slope / steepest);
@@ -177,7 +179,7 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
 
 // At u the unit normal is shorter than n + u, and so is its s: s > level there is a cut above level sqrt(1 + u^2), which is at
 // least level (1 + u^2/2). So each cut closes a disc, and what is open between discs is open between two neighbours of their
-// tangents.
+// tangents; but what a disc closes nearer than `least` does not count.
 CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vector2& u, double level, double least) const {
   Cuts around;
   Angles angles;
@@ -186,7 +188,7 @@ CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vecto
   for (std::size_t k = 0; k < cuts.size(); ++k) {
     const double height = plane.n.dot(d_[k]) + plane.project(d_[k]).dot(u) - level * (1 + 0.5 * u.squaredNorm());
     around[k] = {std::max(height, 0.0), plane.project(d_[k]) - level * u};
-    angles.add_tangents(around[k], level);
+    angles.add_tangents(around[k], level, least);
   }
   Reach farthest;
   const auto walk = [&](double angle) {

@@ -185,3 +185,18 @@ TEST_CASE("a way that is open between two cuts is found, however they are turned
     }
   }
 }
+
+TEST_CASE("a way beside the edge of a closed disc is open, where the disc is narrower than what counts") {
+  constexpr double kLevel = -2e-10, kLeast = 0.01;
+  const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
+  CuttingPlanes cuts;
+  cuts.add(kLevel * plane.n);
+  cuts.add(kLevel * plane.n + plane.lift({0, 1}));       // closes u.y < 0
+  cuts.add(kLevel * plane.n + plane.lift({4, -0.04}));   // closes u.x < 0.01 u.y
+  cuts.add(kLevel * plane.n + plane.lift({-1e-11, 0}));  // closes a disc that touches the line u.x = 0, as far as 0.1
+  const CuttingPlanes::Reach open = cuts.reach(plane, Vector2::Zero(), kLevel, kLeast);
+  CHECK(open.distance == std::numeric_limits<double>::infinity());
+  CHECK(open.way.y() > 0);
+  CHECK(open.way.x() > 0.01);
+  CHECK(open.way.x() < kLeast / 0.1);
+}
