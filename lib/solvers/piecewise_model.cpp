@@ -22,6 +22,12 @@ constexpr double kLeastShare = 1e-2;
 // A piece that lies lower than the maximum by less than this share of the values is no lower.
 constexpr double kRounding = 1e-15;
 
+// Where pieces meet farther away than about this (gnomonic), they are parallel but for rounding.
+constexpr double kFarthest = 1e100;
+
+/// Asked before dividing, which might overflow.
+bool is_moderate(double numerator, double denominator) { return std::abs(numerator) < kFarthest * std::abs(denominator); }
+
 double inverse(double length) { return length > 0 ? 1 / length : std::numeric_limits<double>::infinity(); }
 
 /// The maxima of one, two or three pieces alone, kept where they are equal.
@@ -67,9 +73,12 @@ class Candidates {
     const double squared = difference.squaredNorm();
     const Vector2 line(-difference.y(), difference.x());
     const double curvature = line.dot(model_.A * line);
-    if (squared == 0 || curvature == 0) return;
-    const Vector2 foot = (piece(i).value - piece(j).value) / squared * difference;
-    const Vector2 u = foot + line.dot(piece(i).slope - model_.A * foot) / curvature * line;
+    const double height = piece(i).value - piece(j).value;
+    if (!is_moderate(height, squared)) return;
+    const Vector2 foot = height / squared * difference;
+    const double slope = line.dot(piece(i).slope - model_.A * foot);
+    if (!is_moderate(slope, curvature)) return;
+    const Vector2 u = foot + slope / curvature * line;
     const double share = difference.dot(model_.A * u - piece(i).slope) / squared;
     if (!(share >= 0 && share <= 1)) return;
     offer({u, 0, {i, j, 0}, {1 - share, share, 0}, 2});
@@ -79,10 +88,11 @@ class Candidates {
     const Vector2 a = piece(j).slope - piece(i).slope;
     const Vector2 b = piece(k).slope - piece(i).slope;
     const double determinant = a.x() * b.y() - a.y() * b.x();
-    if (determinant == 0) return;
     const double ra = piece(i).value - piece(j).value;
     const double rb = piece(i).value - piece(k).value;
-    const Vector2 u = Vector2(ra * b.y() - rb * a.y(), a.x() * rb - b.x() * ra) / determinant;
+    const Vector2 meeting(ra * b.y() - rb * a.y(), a.x() * rb - b.x() * ra);
+    if (!is_moderate(meeting.x(), determinant) || !is_moderate(meeting.y(), determinant)) return;
+    const Vector2 u = meeting / determinant;
     const Vector2 rest = model_.A * u - piece(i).slope;
     const double wj = (rest.x() * b.y() - rest.y() * b.x()) / determinant;
     const double wk = (a.x() * rest.y() - a.y() * rest.x()) / determinant;

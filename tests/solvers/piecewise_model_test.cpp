@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -126,4 +127,13 @@ TEST_CASE("pieces that repeat or are parallel, and no curvature at all, divide b
   const std::vector<Piece> level = {{0, {0, 0}}};
   const PiecewiseModel::Peak rest = PiecewiseModel{level, {0, 0, 0}}.maximize(1);
   CHECK(rest.u.allFinite());
+}
+
+TEST_CASE("pieces that are parallel but for rounding meet nowhere, and raise no floating-point exception") {
+  const std::vector<Piece> pieces = {{0, {0, 0}}, {-1, {1, 0}}, {-3, {2, 1e-210}}};
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const PiecewiseModel::Peak peak = PiecewiseModel{pieces, {1e54, 0, 1e-13}}.maximize();
+  CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
+  CHECK(peak.u.allFinite());
+  CHECK(peak.gain == test::relative(-3));
 }
