@@ -95,6 +95,11 @@ bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
 /// Whether there may be flat faces that are not across the axes of the body's frame.
 bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && shape.as_superellipsoid() == nullptr; }
 
+/// What the model says of the step u.
+GainToCome::Promise promise(const LocalModel& local, double gain, const Vector2& u) {
+  return {gain, u.norm(), local.model.A, local.plane1.lift(u).normalized(), local.model.A.lift(local.plane1)};
+}
+
 /// Of at least one piece; before curvature.
 double lowest_rise(std::span<const Piece> pieces, const Vector2& u) {
   double lowest = std::numeric_limits<double>::infinity();
@@ -217,7 +222,7 @@ double Ascent::distance_that_matters() const { return kProbe * std::sqrt(toleran
 
 Ascent::Step Ascent::smooth_step(const LocalModel& local) {
   const auto [newton, whole_gain] = local.model.peak(radius_, gap_.rounding());
-  error_ = to_come_.learn({whole_gain, newton.norm(), local.model.A}, radius_);
+  error_ = to_come_.learn(promise(local, whole_gain, newton), radius_);
   error_ = std::max(error_, unseen_gain(local, local.model.g, true));
   Step step{current().n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0)};
   if (has_flat_faces_ && !is_slight(local, newton) &&
@@ -243,7 +248,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
   const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius_) peak = model.maximize(radius_);
-  error_ = to_come_.learn({whole_gain, peak.u.norm(), local.model.A}, radius_);
+  error_ = to_come_.learn(promise(local, whole_gain, peak.u), radius_);
 
   Target target{0, Vector2::Zero(), peak.u, &peak, pieces};
   for (std::size_t i = 0; i < peak.count; ++i) {

@@ -96,7 +96,10 @@ double GainToCome::learn(const Promise& now, double radius) {
   if (last_.gain > 0) {
     const Eigen2 before(last_.curvature);
     const Eigen2 curvature(now.curvature);
-    is_fading = fades(before, curvature);
+    // The step's way need not be that of the least curvature, which may have been another's.
+    const double along_before = now.way.dot(last_.curvature_in_space * now.way);
+    const double along = now.way.dot(now.curvature_in_space * now.way);
+    is_fading = fades(before, curvature) || along < kFading * along_before;
     may_be_shelf_ = ends_soon(before.low, curvature.low, last_.step, now.step);
     const bool is_far = is_held_back || now.step >= kAsymptoticStep || (last_.step > kFarStep && has_tips(gap_));
     if (!is_far) {
@@ -104,13 +107,15 @@ double GainToCome::learn(const Promise& now, double radius) {
       const double of_steps = is_rounding ? 0 : contraction_of(last_.step, now.step);
       const double contraction = std::max(contraction_of(last_.gain, now.gain), of_steps);
       const double change = change_of(before, curvature);
-      is_unknown = (change == kMost && now.step > kSpacing) || of_steps > kSlowSteps;
+      is_unknown = (change == kMost && now.step > kSpacing) || of_steps > kSlowSteps ||
+                   (!is_rounding && ends_soon(along_before, along, last_.step, now.step));
       gains = is_unknown ? kMost : std::min((is_rounding ? 1 : change) / (1 - contraction), kMost);
     }
   } else if (is_rounding) {
     may_be_shelf_ = false;
   }
-  last_ = {std::isfinite(now.gain) ? now.gain : 0, now.step, now.curvature};
+  last_ = now;
+  if (!std::isfinite(now.gain)) last_.gain = 0;
 
   const double error = kSafety * gains * now.gain;
   // What is below rounding is believed to be the last, but not where the model has just been found wrong, nor far away.

@@ -8,8 +8,9 @@ namespace supernormal {
 
 /// Sums the gains to come as a geometric series. Its contraction is that of the gains, or of the steps where these shrink more
 /// slowly, as the last two steps show it, times the factor by which the curvature has changed in between, the way that it has
-/// changed most: where it grows or falls to infinity or nothing, the model knows as little. Where nothing has been shown, or not
-/// near enough to the maximum, or where the steps hardly shrink, the slowest contraction that is believed is assumed.
+/// changed most, or that of the step: where it grows or falls to infinity or nothing, the model knows as little. Where nothing has
+/// been shown, or not near enough to the maximum, or where the steps hardly shrink, the slowest contraction that is believed is
+/// assumed.
 class GainToCome {
  public:
   /// Where s rises like a power of the distance from the maximum, however high, the gain to come is less than twice that of the
@@ -18,9 +19,11 @@ class GainToCome {
 
   /// What the model says at a normal.
   struct Promise {
-    double gain;           ///< m; to its maximum; infinite if it has none
-    double step;           ///< gnomonic; the length of the step that it takes
-    Symmetric2 curvature;  ///< m
+    double gain;                                                   ///< m; to its maximum; infinite if it has none
+    double step;                                                   ///< gnomonic; the length of the step that it takes
+    Symmetric2 curvature;                                          ///< m
+    Eigen::Vector3d way = Eigen::Vector3d::Zero();                 ///< unit; of the step
+    Eigen::Matrix3d curvature_in_space = Eigen::Matrix3d::Zero();  ///< m; the same matrix, as one of vectors like `way`
   };
 
   /// Keeps a reference. `tolerance`: m

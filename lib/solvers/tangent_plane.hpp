@@ -42,6 +42,11 @@ struct Symmetric2 {
     return {plane.t1.dot(H1), plane.t2.dot(H1), plane.t2.dot(H * plane.t2)};
   }
 
+  /// As a matrix of vectors in space, of which it takes those of the plane.
+  Eigen::Matrix3d lift(const TangentPlane& plane) const {
+    return plane.t1 * (xx * plane.t1 + xy * plane.t2).transpose() + plane.t2 * (xy * plane.t1 + yy * plane.t2).transpose();
+  }
+
   Vector2 operator*(const Vector2& u) const { return {xx * u.x() + xy * u.y(), xy * u.x() + yy * u.y()}; }
   double trace() const { return xx + yy; }
   bool operator==(const Symmetric2&) const = default;

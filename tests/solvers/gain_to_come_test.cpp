@@ -197,3 +197,18 @@ TEST_CASE("a shelf is still suspected after a step that did not rise, but not of
   to_come.learn({1e-7, 0.5e-2, {0.25, 0, 1}}, kRadius);
   CHECK_FALSE(to_come.may_be_shelf());
 }
+
+TEST_CASE("a curvature that ends soon along the step is not believed, though another was the least before") {
+  const auto promised = [](double gain, double step, double along, double across) {
+    const Eigen::Matrix3d in_space = Vector3(along, across, 0).asDiagonal();
+    return GainToCome::Promise{gain, step, {along, 0, across}, Vector3::UnitX(), in_space};
+  };
+  const auto learned = [&](double along, double across) {
+    GainToCome to_come(kGap, kTolerance);
+    to_come.restart();
+    to_come.learn(promised(1e-8, 1e-4, 0.9, 0.7), kRadius);
+    return to_come.learn(promised(1e-10, 0.5e-4, along, across), kRadius);
+  };
+  CHECK(learned(0.9, 0.5) == relative(GainToCome::kSafety * 2 * (0.7 / 0.5) * 1e-10));  // across
+  CHECK(learned(0.5, 0.7) == relative(kMost * 1e-10));
+}
