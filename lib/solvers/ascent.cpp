@@ -196,12 +196,19 @@ void Ascent::cut_step(const LocalModel& local, Step& step) {
   // The cuts bound s over the whole plane where their maximum is not on the rim.
   if (!top.is_interior) return;
   const double error = GainToCome::kSafety * step.gain + top.uncertainty;
-  const double turn = turn_gain(unseen_turn(local));
+  const double turn = turn_gain(unseen_turn(local)) + turn_to_come(local);
   if (current().s >= 0 || (Eigen2(local.model.A).low > 0 && turn <= tolerance_)) {
     error_ = std::min(error_, error + turn);
   } else {
     probe_step(local, top, error, step);
   }
+}
+
+// The cuts bound s times the length of n + u, which tells nothing of what s gains by the turn alone, as far as the model's maximum.
+double Ascent::turn_to_come(const LocalModel& local) const {
+  if (has_kinks_ || current().s >= 0) return 0;
+  const Vector2 newton = local.model.A.solve(local.model.g);
+  return all_finite(newton) ? -0.5 * current().s * std::min(newton.squaredNorm(), kMaxRadius * kMaxRadius) : 0;
 }
 
 // Overlapping bodies come nearer as the normal turns away, unless they bend. Where they do not, as two vertices, the cuts must come

@@ -87,6 +87,7 @@ class Ascent {
   bool is_higher(double s) const;
   void leave_face(const LocalModel& local, Step& step);
   void cut_step(const LocalModel& local, Step& step);
+  double turn_to_come(const LocalModel& local) const;
   /// Of bodies that overlap, gnomonic: a normal that is turned so far gains about the tolerance, if nothing holds it.
   double distance_that_matters() const;
   void probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step);

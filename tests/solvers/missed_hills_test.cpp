@@ -9,6 +9,7 @@
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
@@ -367,5 +368,20 @@ TEST_CASE("a hull's vertex on an octahedron's, 8e-12 m apart: not touching by a 
   const Polytope body2(points);
   Pose pose2{Vector3(3.7597437756014189, -0.27445764027461134, -0.35138200777010009), Matrix3::Identity()};
   const Vector3 higher(0.41988718925872698, 0.90757568476404937, -0.0010605288646612805);
+  check_covers(body1, body2, pose2, higher);
+}
+
+// Along the edge that both have there, 3e-4 radians off, where the cuts are as level as the edges.
+TEST_CASE("two vertices 0.3 m deep, one rounded by more: the cuts do not tell what the turn to the model's maximum gains") {
+  const Superellipsoid body1(Vector3(0.75020885837032969, 0.56126955248933097, 0.79438063826842731), 14.367008308971478,
+                             1.0296390914127906);
+  const Rounded body2(std::make_shared<Superellipsoid>(Vector3(0.97093659407752342, 0.77314113588424216, 0.82905632006157925),
+                                                       38.275814949299004, 1.0294709613500304),
+                      0.32642319486154348);
+  Pose pose2{Vector3(-0.21819029114406707, 1.7405965759783339, 0.23933930873252007), Matrix3::Identity()};
+  pose2.rotation << -0.69154123213076168, 0.58013661176606768, -0.43036291191464787,  //
+      0.60098447274173938, 0.79262666883092137, 0.10276491318212946,                  //
+      0.4007348098011973, -0.1875752530228437, -0.89678711892344576;
+  const Vector3 higher(0, 1, 0);
   check_covers(body1, body2, pose2, higher);
 }
