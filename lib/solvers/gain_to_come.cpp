@@ -35,7 +35,7 @@ constexpr int kManySlowSteps = 4;
 constexpr double kAsymptoticStep = 1e-3;
 
 // A step that came this far (radians) to the normals of a sharp tip says nothing of the contraction there.
-constexpr double kFarStep = 0.3;
+constexpr double kFarStep = 0.03;
 
 // A step of this share of the trust radius is held back by it: the model beyond has just been found wrong.
 constexpr double kAtRim = 0.98;

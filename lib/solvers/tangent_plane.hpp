@@ -54,25 +54,34 @@ struct Symmetric2 {
   Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
 
   /// The vector that this matrix maps to b; infinite when the matrix is singular or as good as that: when the vector would be
-  /// beyond kLongest. Scaled first, since radii of curvature go up to 1e120.
+  /// beyond kLongest. By elimination with the largest pivot: radii of curvature go up to 1e120 beside others of 1e-270, whose
+  /// products would underflow.
   Vector2 solve(const Vector2& b) const {
-    const Vector2 singular = Vector2::Constant(std::numeric_limits<double>::infinity());
-    const double size = std::abs(xx) + std::abs(yy);
-    const double length = std::abs(b.x()) + std::abs(b.y());
-    // Asked before dividing: overflow would raise a floating-point exception.
-    if (!(size > kSmallest && length < kLongest * size)) return singular;
-    const double scale = 1 / size;
-    const double sxx = xx * scale, sxy = xy * scale, syy = yy * scale;
-    const Vector2 sb = b * scale;
-    const double determinant = sxx * syy - sxy * sxy;
-    const Vector2 adjugate(syy * sb.x() - sxy * sb.y(), sxx * sb.y() - sxy * sb.x());
-    if (!(std::abs(adjugate.x()) + std::abs(adjugate.y()) < kLongest * std::abs(determinant))) return singular;
-    return adjugate / determinant;
+    const double x_size = std::abs(xx), y_size = std::abs(yy);
+    double x = 0, y = 0;
+    bool is_regular = false;
+    if (std::abs(xy) > std::max(x_size, y_size)) {
+      const double rate = yy / xy;
+      is_regular = divide(b.y() - rate * b.x(), xy - rate * xx, x) && divide(b.x() - xx * x, xy, y);
+    } else if (x_size >= y_size) {
+      const double rate = x_size > 0 ? xy / xx : 0;
+      is_regular = divide(b.y() - rate * b.x(), yy - rate * xy, y) && divide(b.x() - xy * y, xx, x);
+    } else {
+      const double rate = xy / yy;
+      is_regular = divide(b.x() - rate * b.y(), xx - rate * xy, x) && divide(b.y() - xy * x, yy, y);
+    }
+    return is_regular ? Vector2(x, y) : Vector2(Vector2::Constant(std::numeric_limits<double>::infinity()));
   }
 
  private:
   static constexpr double kLongest = 1e150;
-  static constexpr double kSmallest = 1e-300;  // its inverse is finite
+
+  /// False, without a division that might overflow, where the quotient would be beyond kLongest.
+  static bool divide(double numerator, double denominator, double& quotient) {
+    if (!(std::abs(numerator) < kLongest * std::abs(denominator))) return false;
+    quotient = numerator / denominator;
+    return true;
+  }
 };
 
 /// Eigenvalues and vectors of a symmetric 2 x 2 matrix, low <= high.

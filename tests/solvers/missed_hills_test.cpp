@@ -7,6 +7,7 @@
 #include "shapes/without_hessian.hpp"
 #include "solvers/covers.hpp"
 #include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
@@ -384,4 +385,32 @@ TEST_CASE("two vertices 0.3 m deep, one rounded by more: the cuts do not tell wh
       0.4007348098011973, -0.1875752530228437, -0.89678711892344576;
   const Vector3 higher(0, 1, 0);
   check_covers(body1, body2, pose2, higher);
+}
+
+// The product of the two underflows.
+TEST_CASE("a capsule beside the middle of a straight edge, 4e-10 m deep: a radius of 1e25 m along the edge, and none across") {
+  const Capsule body1(1.039566531540991, 0.60582679202828615);
+  const Superellipsoid body2(Vector3(0.7961136857396045, 1.0449256329504066, 0.69308873942693749), 1.1795511311578175,
+                             6.2669868485077007);
+  Pose pose2{Vector3(1.8325450754306534, 0, 1.0124673911576891), Matrix3::Identity()};
+  Settings settings;
+  settings.tolerance = 0.001;
+  const Vector3 higher(0.99923211927039435, 0, 0.039181268718564581);
+  check_covers(body1, body2, pose2, higher, settings);
+}
+
+// It came 0.1 radians far, and where it ends the curvature is another.
+TEST_CASE("an octahedron's edge on a box's corner, touching: after a long step the contraction says nothing") {
+  const Superellipsoid body1(Vector3(0.87373635023403262, 0.6062102633550237, 0.8297598022203857), 1.0257828759412819,
+                             16.85941093358095);
+  const Superellipsoid body2(Vector3(0.6811536568308767, 0.92634438046295964, 0.68402914136415371), 29.825528743207627,
+                             35.541626221006688);
+  Pose pose2{Vector3(0.11107877809261585, -0.6066997250575441, -2.1132357158728103), Matrix3::Identity()};
+  pose2.rotation << -0.61420523592985932, -0.6452863244335143, 0.45426587771417626,  //
+      -0.60033504821249895, 0.0084469368904593889, -0.79970399470358089,             //
+      0.51220089617653164, -0.76389410833979721, -0.39257614955534925;
+  Settings settings;
+  settings.tolerance = 0.001;
+  const Vector3 higher(-0.0034127411937361243, -0.034269906843272843, -0.99940678739064903);
+  check_covers(body1, body2, pose2, higher, settings);
 }

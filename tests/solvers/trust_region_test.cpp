@@ -168,3 +168,19 @@ TEST_CASE("eigenvalues and vectors") {
   CHECK(zero.high == 0);
   CHECK(zero.high_vector.norm() == 1);
 }
+
+TEST_CASE("solved whatever the sizes of the radii, or singular") {
+  const auto check = [](const Symmetric2& A, const Vector2& x) {
+    const Vector2 solved = A.solve(A * x);
+    CHECK((solved - x).cwiseAbs().cwiseQuotient(x.cwiseAbs()).maxCoeff() <= 1e-12);
+  };
+  check({1e25, 0, 1e-273}, {1e-25, 1});
+  check({1e-273, 0, 1e25}, {1, 1e-25});
+  check({1e120, 1e-60, 1e-150}, {1e-60, 1e40});
+  check({1e-20, 3, -1e-30}, {2, -1});
+  check({0, 1, 0}, {2, -1});
+  CHECK(Symmetric2{1e25, 0, 1e-273}.solve({0.4, 0}) == Vector2(0.4 / 1e25, 0));
+  for (const Symmetric2& singular : {Symmetric2{0, 0, 0}, Symmetric2{1, 0, 0}, Symmetric2{0, 0, 1}, Symmetric2{1, 1, 1}}) {
+    CHECK_FALSE(singular.solve({1, 2}).allFinite());
+  }
+}
