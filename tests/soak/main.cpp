@@ -202,7 +202,8 @@ int run_program(int argc, char** argv) {
       app.add_option("--resume", options.state_file, "continues what this file keeps, and keeps it up to date");
   app.add_option("--only", options.only, "this sample alone, in full")->check(CLI::NonNegativeNumber);
   app.add_flag("--trap", options.trap, "with --only: floating-point exceptions end the program, for a debugger");
-  app.add_flag("--sharp", options.sharp, "random pairs of the sharp classes only, each answer's neighbourhood searched")
+  app.add_flag("--sharp", options.sharp,
+               "random pairs of any exponents only, sharp beside flat, each answer's neighbourhood searched")
       ->excludes(resume);
   try {
     app.parse(argc, argv);

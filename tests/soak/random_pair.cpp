@@ -19,11 +19,24 @@ Vector3 draw_axes(Random& random, const SuperellipsoidClass& kind) {
   return Vector3{axis(), axis(), axis()};
 }
 
-Body draw_superellipsoid(Random& random, const SuperellipsoidClass& kind) {
-  const Vector3 axes = draw_axes(random, kind);
-  if (kind.least_exponent == kind.largest_exponent) return samples::ellipsoid(axes);
-  const double delta = random.log_uniform(kind.least_exponent, kind.largest_exponent);
-  return samples::superellipsoid(axes, delta, random.log_uniform(kind.least_exponent, kind.largest_exponent));
+/// What bodies are drawn from.
+struct Kind {
+  SuperellipsoidClass sizes;
+  std::span<const SuperellipsoidClass> exponents;  // each exponent from any of them
+};
+
+double draw_exponent(Random& random, const Kind& kind) {
+  const SuperellipsoidClass& one =
+      kind.exponents.size() == 1 ? kind.exponents[0] : kind.exponents[random.below(kind.exponents.size())];
+  return random.log_uniform(one.least_exponent, one.largest_exponent);
+}
+
+Body draw_superellipsoid(Random& random, const Kind& kind) {
+  const Vector3 axes = draw_axes(random, kind.sizes);
+  const bool are_ellipsoids = kind.exponents.size() == 1 && kind.sizes.least_exponent == kind.sizes.largest_exponent;
+  if (are_ellipsoids) return samples::ellipsoid(axes);
+  const double delta = draw_exponent(random, kind);
+  return samples::superellipsoid(axes, delta, draw_exponent(random, kind));
 }
 
 Body draw_polytope(Random& random, const Vector3& axes) {
@@ -33,8 +46,8 @@ Body draw_polytope(Random& random, const Vector3& axes) {
 }
 
 /// Anything but a plain superellipsoid.
-Body draw_other(Random& random, const SuperellipsoidClass& kind) {
-  const Vector3 axes = draw_axes(random, kind);
+Body draw_other(Random& random, const Kind& kind) {
+  const Vector3 axes = draw_axes(random, kind.sizes);
   switch (random.below(8)) {
     case 0:
       return samples::box(axes);
@@ -109,10 +122,11 @@ void move_frame(HardCase& pair, Random& random) {
 
 }  // namespace
 
-void draw_random_pair(Random& random, std::span<const SuperellipsoidClass> classes, Sample& sample) {
-  const SuperellipsoidClass& kind = classes[random.below(classes.size())];
+void draw_random_pair(Random& random, std::span<const SuperellipsoidClass> classes, bool mixes_exponents, Sample& sample) {
+  const SuperellipsoidClass& one = classes[random.below(classes.size())];
+  const Kind kind{one, mixes_exponents ? classes : std::span(&one, 1)};
   HardCase& pair = sample.pair;
-  pair.name = std::string("random: ") + kind.name;
+  pair.name = mixes_exponents ? "random: of any exponents" : std::string("random: ") + one.name;
   pair.first_normal.reset();
   pair.gap.reset();
   pair.body1 = draw_superellipsoid(random, kind);

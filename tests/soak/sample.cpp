@@ -57,7 +57,7 @@ Settings draw_settings(Random& random) {
 
 SampleSource::SampleSource(std::uint64_t seed, Mix mix) : seed_(seed), mix_(mix), catalogue_(samples::hard_cases()) {
   for (const test::SuperellipsoidClass& one : test::kSuperellipsoidClasses) {
-    if (mix == Mix::Everything || one.least_exponent < 2) classes_.push_back(one);
+    if (mix == Mix::Everything || one.least_exponent < one.largest_exponent) classes_.push_back(one);
   }
 }
 
@@ -67,7 +67,7 @@ void SampleSource::draw(std::uint64_t index, Sample& sample) const {
   if (mix_ == Mix::Everything && random.chance(0.5)) {
     draw_from_catalogue(random, sample);
   } else {
-    draw_random_pair(random, classes_, sample);
+    draw_random_pair(random, classes_, mix_ == Mix::Sharp, sample);
   }
 }
 

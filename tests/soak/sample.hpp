@@ -23,7 +23,7 @@ struct Sample {
 /// What is drawn from.
 enum class Mix {
   Everything,
-  Sharp,  ///< random pairs of the classes with sharp edges or vertices alone: where faults have been found most often
+  Sharp,  ///< random pairs with exponents of any classes alone, sharp beside flat: where faults have been found most often
 };
 
 /// Draws samples: of everything, half from the catalogue of hard cases, slightly or not so slightly changed, half random pairs of
