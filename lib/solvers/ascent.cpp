@@ -1,13 +1,13 @@
 #include "solvers/ascent.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "shapes/finite.hpp"
 #include "solvers/answer.hpp"
 #include "solvers/flat_spots.hpp"
+#include "solvers/kink_hold.hpp"
 
 namespace supernormal {
 namespace {
@@ -67,12 +67,6 @@ constexpr double kRidgeReach = 0.5;
 // tips, may be less than the depth just beyond where it was seen.
 constexpr double kWeakCurvature = 4;
 constexpr double kTipRadius = 0.01;
-
-// Share of a corner in the point of a face or an edge below which it is rounding.
-constexpr double kNoWeight = 1e-12;
-
-// Corners that share a normal; more than this are coplanar, and any three of them know the normal.
-constexpr std::size_t kMaxTied = 24;
 
 /// Of the solutions u1, u2 that the two bodies propose, each counted by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2).
 /// As what the rounder body changes of the flatter one's, which counts alone where the sum is that of an edge, singular.
@@ -241,12 +235,14 @@ Ascent::Step Ascent::smooth_step(const LocalModel& local) {
 
 Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const std::span<const Piece> pieces = known_.pieces(current(), corners_[now_], local.plane1);
-  PiecewiseModel model{pieces, curvature_that_counts(local.model.A, pieces)};
+  const double least_slope = current().s < 0 ? -0.5 * current().s * distance_that_matters() : 0;
+  const KinkHold hold(least_slope, gap_.rounding(), gap_.length_unit());
+  PiecewiseModel model{pieces, hold.curvature_that_counts(local.model.A, pieces)};
   bool is_concave = Eigen2(model.A).low > 0;
   PiecewiseModel::Peak peak;
   if (is_concave) {
     peak = model.maximize();
-    if (model.A != local.model.A && !is_held(peak, pieces, local.model.A)) {
+    if (model.A != local.model.A && !hold.is_held(peak, pieces, local.model.A)) {
       model.A = local.model.A;
       is_concave = false;
     }
@@ -273,7 +269,7 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
   const Vector3 normal = known_.shared_normal(peak, current().n + local.plane1.lift(peak.u));
   Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0)};
   // Corners around the peak hold the normal whatever the curvature, which on a flat face says nothing a little farther on.
-  const bool is_at_face = peak.count == 3 && is_held(peak, pieces, {});
+  const bool is_at_face = peak.count == 3 && hold.is_held(peak, pieces, {});
   if (has_flat_faces_ && !is_at_face && flat_step(local, target, step) != FlatStep::Taken) {
     target.newton = peak.u;
     if (flat_step(local, target, step) != FlatStep::Taken) leave_face(local, step);
@@ -283,26 +279,6 @@ Ascent::Step Ascent::kinked_step(const LocalModel& local) {
     step.normal = -(gap_.rotation() * face);
   }
   return step;
-}
-
-// Across an edge the kink holds the normal, and on a face both ways: curvature matters only along what is free.
-Symmetric2 Ascent::curvature_that_counts(const Symmetric2& A, std::span<const Piece> pieces) const {
-  if (Eigen2(A).low > 0) return A;
-  std::array<Piece, kMaxTied> tied;
-  std::size_t count = 0;
-  for (const Piece& piece : pieces) {
-    if (piece.value <= gap_.rounding() && count < tied.size()) tied[count++] = {0, piece.slope};
-  }
-  const PiecewiseModel::Peak rest = holding({tied.data(), count});
-  const double size = std::max(std::abs(A.xx) + std::abs(A.yy), gap_.length_unit());
-  if (rest.count == 3) return {size, 0, size};
-  if (rest.count == 1) return A;
-  const Vector2 across = (tied[rest.active[1]].slope - tied[rest.active[0]].slope).normalized();
-  const Vector2 along(-across.y(), across.x());
-  const double curvature = along.dot(A * along);
-  return {curvature * along.x() * along.x() + size * across.x() * across.x(),
-          curvature * along.x() * along.y() + size * across.x() * across.y(),
-          curvature * along.y() * along.y() + size * across.y() * across.y()};
 }
 
 bool Ascent::curvature_holds() const { return gap_.has_curvature() && !to_come_.may_be_shelf(); }
@@ -347,25 +323,6 @@ bool Ascent::is_slight(const LocalModel& local, const Vector2& newton) const {
 void Ascent::leave_face(const LocalModel& local, Step& step) {
   error_ = std::numeric_limits<double>::infinity();
   cut_step(local, step);
-}
-
-// Where the point of body 1 is beside a corner, or on an edge of the face, the others do not hold the normal.
-// Nor where they hold it for less than the distance that matters: the turn itself gains more beyond.
-PiecewiseModel::Peak Ascent::holding(std::span<const Piece> tied) const {
-  auto rest = PiecewiseModel{tied, {1, 0, 1}}.maximize();
-  const double least_slope = current().s < 0 ? -0.5 * current().s * distance_that_matters() : 0;
-  for (std::size_t i = rest.count; i-- > 0;) {
-    if (rest.weight[i] > kNoWeight && rest.weight[i] * tied[rest.active[i]].slope.norm() >= least_slope) continue;
-    rest.active[i] = rest.active[--rest.count];
-  }
-  return rest;
-}
-
-// What holds the normal here need not do so at the peak: on the way along an edge the curvature turns the slopes as well.
-bool Ascent::is_held(const PiecewiseModel::Peak& peak, std::span<const Piece> pieces, const Symmetric2& A) const {
-  std::array<Piece, 3> tied;
-  for (std::size_t i = 0; i < peak.count; ++i) tied[i] = {0, pieces[peak.active[i]].slope - A * peak.u};
-  return holding({tied.data(), peak.count}).count == peak.count;
 }
 
 Ascent::FlatStep Ascent::flat_step(const LocalModel& local, const Target& target, Step& step) {

@@ -91,10 +91,6 @@ class Ascent {
   /// Of bodies that overlap, gnomonic: a normal that is turned so far gains about the tolerance, if nothing holds it.
   double distance_that_matters() const;
   void probe_step(const LocalModel& local, const CuttingPlanes::Maximum& top, double error, Step& step);
-  /// Of pieces that meet, those that hold the normal.
-  PiecewiseModel::Peak holding(std::span<const Piece> tied) const;
-  bool is_held(const PiecewiseModel::Peak& peak, std::span<const Piece> pieces, const Symmetric2& A) const;
-  Symmetric2 curvature_that_counts(const Symmetric2& A, std::span<const Piece> pieces) const;
   bool ruled_out(const Step& step) const;
   /// Near the maximum s is level to rounding while its slope still tells the way.
   bool is_level_but_flatter(double actual_gain) const;

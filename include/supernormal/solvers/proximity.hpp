@@ -48,9 +48,9 @@ struct Proximity {
   Status status = Status::InvalidInput;
   /// Whether it is proved that no other normal has a larger gap: `gap` is then the largest value of the gap function, to within
   /// `error` or the tolerance, whichever is larger, and of overlapping bodies `-gap` the shortest translation that separates them.
-  /// Always true of bodies apart or touching, of closed forms (a plane), and after Settings::certify_depth unless the evaluations
-  /// ran out; without that, of overlapping bodies it is true when the depth is within the proved smallest radii of curvature of
-  /// both (Shape::rolling_radius).
+  /// Always true of bodies apart or touching (overlapping by half of the tolerance at most), of closed forms (a plane), and after
+  /// Settings::certify_depth unless the evaluations ran out; without that, of overlapping bodies it is true when the depth is
+  /// within the proved smallest radii of curvature of both (Shape::rolling_radius).
   bool is_global = false;
   /// m; proved bound on how much larger than `gap` the largest value of the gap function can be: when is_global the
   /// larger of `error` and the tolerance. Where the hybrid has looked for other maxima, 1 % of the depth (more where a shallow
