@@ -28,4 +28,9 @@ bool all_within(const Eigen::MatrixBase<Derived>& matrix, double limit) {
   return true;
 }
 
+/// Whether |numerator / denominator| is less than `limit`, without the division, which might overflow; not where both are zero.
+inline bool is_quotient_within(double numerator, double denominator, double limit) {
+  return std::abs(numerator) < limit * std::abs(denominator);
+}
+
 }  // namespace supernormal

@@ -6,8 +6,8 @@
 
 namespace supernormal {
 
-/// Whether a normal, of which these are the parts across an axis over those of the section's dual, turns about the axis by more
-/// than 45 degrees.
+/// Whether a normal turns about an axis by more than 45 degrees. Of it, these are the parts across the axis, scaled by the
+/// half-axes of the section.
 ///
 /// Along a sharp section the boundary point is a high power of the normal's direction, so the normal goes its own way there, and
 /// the point tells it less well. But near the axis, as on a flat face, where that part of the normal may be as small as can be, a

@@ -27,7 +27,7 @@ Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet&
   const double tolerance = absolute_tolerance(gap, settings);
   // Without the balls that roll inside them the bodies are apart, and s is concave on the cone of the normals that separate them.
   // And s = -x at any of its stationary points bounds the gap by x, if the bodies are apart: s extended to all vectors is concave.
-  const bool is_concave = jet.s > 0 || jet.s + gap.rolling_radius() > 0;
+  const bool is_concave = jet.s + gap.rolling_radius() > 0;
   const bool is_touching = 2 * jet.s >= -tolerance;
   out.is_global = jet.s > 0 || (status != Status::Diverged && (is_concave || is_touching));
   // Where s need not be concave the model proves nothing, however little it promises: no more is claimed than was asked for.

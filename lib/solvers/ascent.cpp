@@ -91,7 +91,7 @@ bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && shape.
 
 /// What the model says of the step u.
 GainToCome::Promise promise(const LocalModel& local, double gain, const Vector2& u) {
-  return {gain, u.norm(), local.model.A, local.plane1.lift(u).normalized(), local.model.A.lift(local.plane1)};
+  return {gain, u.norm(), local.model.A, local.plane1, u};
 }
 
 /// Of at least one piece; before curvature.

@@ -97,8 +97,10 @@ double GainToCome::learn(const Promise& now, double radius) {
     const Eigen2 before(last_.curvature);
     const Eigen2 curvature(now.curvature);
     // The step's way need not be that of the least curvature, which may have been another's.
-    const double along_before = now.way.dot(last_.curvature_in_space * now.way);
-    const double along = now.way.dot(now.curvature_in_space * now.way);
+    const Vector2 way = now.way.normalized();
+    const Vector2 way_before = last_.plane.project(now.plane.lift(way));
+    const double along_before = way_before.dot(last_.curvature * way_before);
+    const double along = way.dot(now.curvature * way);
     is_fading = fades(before, curvature) || along < kFading * along_before;
     may_be_shelf_ = ends_soon(before.low, curvature.low, last_.step, now.step);
     const bool is_far = is_held_back || now.step >= kAsymptoticStep || (last_.step > kFarStep && has_tips(gap_));

@@ -19,11 +19,11 @@ class GainToCome {
 
   /// What the model says at a normal.
   struct Promise {
-    double gain;                                                   ///< m; to its maximum; infinite if it has none
-    double step;                                                   ///< gnomonic; the length of the step that it takes
-    Symmetric2 curvature;                                          ///< m
-    Eigen::Vector3d way = Eigen::Vector3d::Zero();                 ///< unit; of the step
-    Eigen::Matrix3d curvature_in_space = Eigen::Matrix3d::Zero();  ///< m; the same matrix, as one of vectors like `way`
+    double gain;                                                             ///< m; to its maximum; infinite if it has none
+    double step;                                                             ///< gnomonic; the length of the step that it takes
+    Symmetric2 curvature;                                                    ///< m
+    TangentPlane plane{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()};  ///< of the curvature
+    Vector2 way = Vector2::Zero();                                           ///< of the step, of any length
   };
 
   /// Keeps a reference. `tolerance`: m

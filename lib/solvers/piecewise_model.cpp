@@ -25,8 +25,7 @@ constexpr double kRounding = 1e-15;
 // Where pieces meet farther away than about this (gnomonic), they are parallel but for rounding.
 constexpr double kFarthest = 1e100;
 
-/// Asked before dividing, which might overflow.
-bool is_moderate(double numerator, double denominator) { return std::abs(numerator) < kFarthest * std::abs(denominator); }
+bool is_moderate(double numerator, double denominator) { return is_quotient_within(numerator, denominator, kFarthest); }
 
 double inverse(double length) { return length > 0 ? 1 / length : std::numeric_limits<double>::infinity(); }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shapes/finite.hpp"
+
 namespace supernormal {
 
 using Vector2 = Eigen::Vector2d;
@@ -42,11 +44,6 @@ struct Symmetric2 {
     return {plane.t1.dot(H1), plane.t2.dot(H1), plane.t2.dot(H * plane.t2)};
   }
 
-  /// As a matrix of vectors in space, of which it takes those of the plane.
-  Eigen::Matrix3d lift(const TangentPlane& plane) const {
-    return plane.t1 * (xx * plane.t1 + xy * plane.t2).transpose() + plane.t2 * (xy * plane.t1 + yy * plane.t2).transpose();
-  }
-
   Vector2 operator*(const Vector2& u) const { return {xx * u.x() + xy * u.y(), xy * u.x() + yy * u.y()}; }
   double trace() const { return xx + yy; }
   bool operator==(const Symmetric2&) const = default;
@@ -76,9 +73,9 @@ struct Symmetric2 {
  private:
   static constexpr double kLongest = 1e150;
 
-  /// False, without a division that might overflow, where the quotient would be beyond kLongest.
+  /// False where the quotient would be beyond kLongest.
   static bool divide(double numerator, double denominator, double& quotient) {
-    if (!(std::abs(numerator) < kLongest * std::abs(denominator))) return false;
+    if (!is_quotient_within(numerator, denominator, kLongest)) return false;
     quotient = numerator / denominator;
     return true;
   }

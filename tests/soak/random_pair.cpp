@@ -26,6 +26,7 @@ struct Kind {
 };
 
 double draw_exponent(Random& random, const Kind& kind) {
+  // One class takes no draw: the whole mix keeps its samples.
   const SuperellipsoidClass& one =
       kind.exponents.size() == 1 ? kind.exponents[0] : kind.exponents[random.below(kind.exponents.size())];
   return random.log_uniform(one.least_exponent, one.largest_exponent);
@@ -33,8 +34,7 @@ double draw_exponent(Random& random, const Kind& kind) {
 
 Body draw_superellipsoid(Random& random, const Kind& kind) {
   const Vector3 axes = draw_axes(random, kind.sizes);
-  const bool are_ellipsoids = kind.exponents.size() == 1 && kind.sizes.least_exponent == kind.sizes.largest_exponent;
-  if (are_ellipsoids) return samples::ellipsoid(axes);
+  if (kind.sizes.least_exponent == kind.sizes.largest_exponent) return samples::ellipsoid(axes);
   const double delta = draw_exponent(random, kind);
   return samples::superellipsoid(axes, delta, draw_exponent(random, kind));
 }

@@ -200,8 +200,8 @@ TEST_CASE("a shelf is still suspected after a step that did not rise, but not of
 
 TEST_CASE("a curvature that ends soon along the step is not believed, though another was the least before") {
   const auto promised = [](double gain, double step, double along, double across) {
-    const Eigen::Matrix3d in_space = Vector3(along, across, 0).asDiagonal();
-    return GainToCome::Promise{gain, step, {along, 0, across}, Vector3::UnitX(), in_space};
+    const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
+    return GainToCome::Promise{gain, step, {along, 0, across}, plane, Vector2::UnitX()};
   };
   const auto learned = [&](double along, double across) {
     GainToCome to_come(kGap, kTolerance);
