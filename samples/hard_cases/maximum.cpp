@@ -18,7 +18,7 @@ constexpr int kSteps = 25;  // to an angle of about 1
 constexpr int kRandomDirections = 50;
 
 // A valley is looked for at so many normals, and is one if it is so many times as deep as s is seen to jitter between normals that
-// differ by rounding, at each end. A jitter of 0 is chance, and counts as one unit in the last place.
+// differ by rounding, at each end. A jitter of 0 is chance, and counts as one unit in the last place. Or if the slopes say so.
 constexpr int kFineSteps = 64;
 constexpr double kJitters = 4;
 constexpr double kRoundingAngle = 1e-15;
@@ -103,8 +103,10 @@ class Probe {
     return jet.s;
   }
 
+  bool crosses_valley(const Vector3& tangent, double angle) { return values_fall(tangent, angle) || slopes_fall(tangent, angle); }
+
   /// Whether s falls on the way, if only by less than its rounding may be at worst: by more than its rounding is.
-  bool crosses_valley(const Vector3& tangent, double angle) {
+  bool values_fall(const Vector3& tangent, double angle) {
     Vector3 bottom = n_;
     double lowest = value(n_);
     const double here = lowest - kJitters * jitter(n_);
@@ -116,6 +118,26 @@ class Probe {
       bottom = m;
     }
     return lowest < here - kJitters * jitter(bottom);
+  }
+
+  /// The same by the sum of the slopes, whose rounding counts by the angle only: on short ways it tells valleys that are far
+  /// shallower than the rounding of s.
+  bool slopes_fall(const Vector3& tangent, double angle) {
+    const double step = angle / kFineSteps;
+    double rise = 0;
+    for (int k = 0; k < kFineSteps; ++k) {
+      const double turn = (k + 0.5) * step;
+      rise += step * slope((n_ + turn * tangent).normalized(), tangent - turn * n_);
+      if (rise < -gap_.rounding() * angle) return true;
+    }
+    return false;
+  }
+
+  /// Of s at the unit normal n, along a way from there.
+  double slope(const Vector3& n, const Vector3& way) {
+    GapJet jet;
+    gap_.evaluate(n, Order::Point, jet);
+    return jet.d.dot(way.normalized());
   }
 
   double jitter(const Vector3& n) {

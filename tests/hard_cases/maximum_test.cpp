@@ -77,3 +77,11 @@ TEST_CASE("a valley of 35 units in the last place is one, where s jitters by a f
                             pose2);
   check_local_maximum(one, 1e-15, 1e-3);
 }
+
+// One maximum on either axis, 3e-7 radians from the pole. The valley between is 3.8e-16 m deep and drowns in the rounding of s; its
+// slopes of -1.6e-8 do not. With an offset 1e4 times as large it is there 1e8 times as deep.
+TEST_CASE("a valley that is shallower than the rounding of s is told by its slopes") {
+  const auto body = [] { return superellipsoid(Vector3(1, 0.8, 0.5), 50, 2); };
+  const Vector3 offset(-5.1523108982969034e-07, -4.827623616318814e-07, -4.6838088834834924e-07);
+  check_local_maximum(pair("", "", body(), body(), at(offset)), 1e-15, 1e-6);
+}
