@@ -152,9 +152,7 @@ std::string exact_text(double value) {
 }
 
 std::string exact_text(const Vector3& v) {
-  std::array<char, 96> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "(%.17g, %.17g, %.17g)", v.x(), v.y(), v.z());
-  return buffer.data();
+  return "(" + exact_text(v.x()) + ", " + exact_text(v.y()) + ", " + exact_text(v.z()) + ")";
 }
 
 }  // namespace supernormal::samples
