@@ -2,7 +2,7 @@
 #pragma once
 
 #include "supernormal/contact_curvature.hpp"
-#include "supernormal/contact_patch.hpp"
+#include "supernormal/contact_manifold.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/capsule.hpp"

@@ -78,16 +78,21 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
 
 }  // namespace
 
-void draw_in_corners(ContactPatch& patch, std::span<const MeshTriangle> triangles) {
-  const Floor floor{-patch.deepest.normal, patch.deepest.point2, -patch.deepest.gap};
+void draw_in_corners(ContactManifold& patch, std::span<const MeshTriangle> triangles) {
+  const Vector3& contact = patch.deepest.contact;
+  const double depth = -patch.deepest.gap;
+  const Floor floor{-patch.deepest.normal, patch.deepest.point2, depth};
   const int found = patch.corner_count;
   patch.corner_count = 0;
   for (int k = 0; k < found; ++k) {
-    const Vector3 corner = patch.corners[static_cast<std::size_t>(k)];
-    const double share = share_on_floor(floor, triangles, corner);
+    ManifoldCorner corner = patch.corners[static_cast<std::size_t>(k)];
+    const double share = share_on_floor(floor, triangles, corner.point);
     if (share < kLeastShare) continue;
-    patch.corners[static_cast<std::size_t>(patch.corner_count++)] =
-        share < 1 ? Vector3(floor.origin + share * (corner - floor.origin)) : corner;
+    if (share < 1) {
+      corner.point = contact + share * (corner.point - contact);
+      corner.depth = depth + share * (corner.depth - depth);
+    }
+    patch.corners[static_cast<std::size_t>(patch.corner_count++)] = corner;
   }
 }
 

@@ -31,7 +31,7 @@ bool is_solid_pair(dGeomID g1, dGeomID g2) {
 
 int Batch::collide(dSpaceID space, int room, const BatchCallbacks& callbacks) {
   room_ = room;
-  room_of_job_ = std::min(room, 1 + ContactPatch::kMaxCorners);
+  room_of_job_ = std::min(room, 1 + ContactManifold::kMaxCorners);
   callbacks_ = &callbacks;
   has_run_out_ = false;
   items_.clear();
@@ -119,7 +119,7 @@ void Batch::solve_job(std::size_t index) {
   const auto [g1, g2] = job.pair.geoms();
   dContactGeom* const first = &job_contacts_[index * static_cast<std::size_t>(room_of_job_)];
   try {
-    const ContactPatch patch = job.pair.solve(job.remembered, room_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
+    const ContactManifold patch = job.pair.solve(job.remembered, room_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
     job.count = write_contacts(patch, {g1, g2, room_of_job_, first, sizeof(dContactGeom)});
   } catch (...) {
     job.is_refused = true;  // a user-defined body: collided once more where the error can be told

@@ -23,7 +23,7 @@ BodyPair::BodyPair(dGeomID g1, dGeomID g2)
 
 PairKey BodyPair::key() const { return PairKey::of_bodies(body1_->serial(), body2_->serial()); }
 
-ContactPatch BodyPair::solve_in_order(const Remembered& remembered, Goal goal, LastNormal& last) const {
+ContactManifold BodyPair::solve_in_order(const Remembered& remembered, Goal goal, LastNormal& last) const {
   const Pose pose1 = pose_of(geom1_);
   const Pose pose2 = pose_of(geom2_);
   last.pose = RelativePose::of(pose1, pose2);
@@ -34,11 +34,11 @@ ContactPatch BodyPair::solve_in_order(const Remembered& remembered, Goal goal, L
   count_query(result, warm);
   last.is_known = result.status != Status::InvalidInput;
   last.normal = pose1.rotation.transpose() * result.normal;
-  return goal == Goal::Contacts ? find_contact_patch(body1_->shape(), pose1, body2_->shape(), pose2, result) : ContactPatch(result);
+  return goal == Goal::Contacts ? find_contact_manifold(body1_->shape(), pose1, body2_->shape(), pose2, result) : ContactManifold(result);
 }
 
-ContactPatch BodyPair::solve(const Remembered& remembered, Goal goal, LastNormal& last) const {
-  ContactPatch patch = solve_in_order(remembered, goal, last);
+ContactManifold BodyPair::solve(const Remembered& remembered, Goal goal, LastNormal& last) const {
+  ContactManifold patch = solve_in_order(remembered, goal, last);
   if (is_swapped_) {
     patch.deepest.normal = -patch.deepest.normal;
     patch.deepest.point1.swap(patch.deepest.point2);

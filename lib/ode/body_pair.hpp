@@ -7,7 +7,7 @@
 
 #include "ode/solver_settings.hpp"
 #include "ode/warm_start.hpp"
-#include "supernormal/contact_patch.hpp"
+#include "supernormal/contact_manifold.hpp"
 
 namespace supernormal::ode {
 
@@ -36,10 +36,10 @@ class BodyPair {
 
   /// The answer as seen from g1. Looks at nothing but the two geoms and touches nothing but this thread's statistics: pairs may be
   /// solved on several threads while no geom moves.
-  ContactPatch solve(const Remembered& remembered, Goal goal, LastNormal& last) const;
+  ContactManifold solve(const Remembered& remembered, Goal goal, LastNormal& last) const;
 
  private:
-  ContactPatch solve_in_order(const Remembered& remembered, Goal goal, LastNormal& last) const;
+  ContactManifold solve_in_order(const Remembered& remembered, Goal goal, LastNormal& last) const;
 
   dGeomID geom1_, geom2_;
   const Body* body1_;

@@ -8,13 +8,13 @@
 #include <string>
 
 #include "ode/solver_settings.hpp"
-#include "supernormal/contact_patch.hpp"
+#include "supernormal/contact_manifold.hpp"
 
 namespace supernormal::ode {
 
 /// The proximity of a geom of ours and a partner, in the world frame, the normal from ours to the partner, and for Goal::Contacts
 /// the corners of the overlap. Counts itself in the statistics. Throws what the core throws.
-using PairQuery = ContactPatch(dGeomID ours, dGeomID partner, Goal goal);
+using PairQuery = ContactManifold(dGeomID ours, dGeomID partner, Goal goal);
 
 PairQuery query_body;  // ours and ours
 PairQuery query_plane;

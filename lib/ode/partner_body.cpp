@@ -4,11 +4,11 @@
 
 namespace supernormal::ode {
 
-ContactPatch query_body(dGeomID ours, dGeomID partner, Goal goal) {
+ContactManifold query_body(dGeomID ours, dGeomID partner, Goal goal) {
   const BodyPair pair(ours, partner);
   const PairKey key = pair.key();
   LastNormal last;
-  ContactPatch patch = pair.solve(reserve_entry(key), goal, last);
+  ContactManifold patch = pair.solve(reserve_entry(key), goal, last);
   last.remember(key);
   return patch;
 }

@@ -7,16 +7,16 @@
 
 namespace supernormal::ode {
 
-ContactPatch query_box(dGeomID ours, dGeomID partner, Goal goal) {
+ContactManifold query_box(dGeomID ours, dGeomID partner, Goal goal) {
   dVector3 lengths;
   dGeomBoxGetLengths(partner, lengths);
   const Box box(0.5 * to_vector(lengths));
   const PartnerShape shape{box, pose_of(partner), partner_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
-  ContactPatch patch = solve_pair(ours, shape, goal);
+  ContactManifold patch = solve_pair(ours, shape, goal);
   // Onto the box, where ODE's own contacts of dSphere and dBox are.
   const Vector3 onto_box = 0.5 * patch.deepest.gap * patch.deepest.normal;
   patch.deepest.contact += onto_box;
-  for (Vector3& corner : patch.corners) corner += onto_box;
+  for (int k = 0; k < patch.corner_count; ++k) patch.corners[static_cast<std::size_t>(k)].point += onto_box;
   return patch;
 }
 

@@ -7,7 +7,7 @@
 
 namespace supernormal::ode {
 
-ContactPatch query_capsule(dGeomID ours, dGeomID partner, Goal goal) {
+ContactManifold query_capsule(dGeomID ours, dGeomID partner, Goal goal) {
   dReal radius = 0;
   dReal length = 0;
   dGeomCapsuleGetParams(partner, &radius, &length);

@@ -23,7 +23,7 @@ Scratch& scratch() {
 
 }  // namespace
 
-ContactPatch query_convex(dGeomID ours, dGeomID partner, Goal goal) {
+ContactManifold query_convex(dGeomID ours, dGeomID partner, Goal goal) {
   ConvexVertices& vertices = scratch().vertices;
   if (!vertices.read(partner)) return {};
   const Polytope hull(vertices.points(), scratch().face_normals.find(vertices.points()));

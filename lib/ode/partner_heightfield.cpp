@@ -65,6 +65,7 @@ struct Scratch {
   HeightfieldPatch patch;
   MeshContacts mesh;
   std::vector<Proximity> contacts;
+  std::vector<LocatedManifold> manifolds;
 };
 
 Scratch& scratch() {
@@ -75,6 +76,15 @@ Scratch& scratch() {
 Proximity to_world(Proximity local, const Pose& frame) {
   local.normal = frame.rotation * local.normal;
   for (Vector3* const point : {&local.point1, &local.point2, &local.contact}) *point = frame.rotation * *point + frame.position;
+  return local;
+}
+
+ContactManifold to_world(ContactManifold local, const Pose& frame) {
+  local.deepest = to_world(local.deepest, frame);
+  for (int k = 0; k < local.corner_count; ++k) {
+    Vector3& point = local.corners[static_cast<std::size_t>(k)].point;
+    point = frame.rotation * point + frame.position;
+  }
   return local;
 }
 
@@ -133,7 +143,7 @@ Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
 
 }  // namespace
 
-ContactPatch query_heightfield(dGeomID ours, dGeomID partner, Goal /*goal*/) {
+ContactManifold query_heightfield(dGeomID ours, dGeomID partner, Goal /*goal*/) {
   const Pose frame = pose_of_heightfield(partner);
   const Visitor visitor(require_body(ours), pose_of(ours), frame);
   if (!visitor.is_finite()) return {};
@@ -153,17 +163,17 @@ int collide_with_heightfield(dGeomID ours, dGeomID partner, int flags, dContactG
     if (!visitor.is_finite() || is_above_all(probe, visitor)) return 0;
     const ContactArray out{ours, partner, flags, contacts, skip};
     const Found found = find_contacts(probe, visitor);
-    int count = 0;
-    for (const Proximity& contact : found.contacts) count = append_contact(to_world(contact, frame), out, count);
+    std::vector<LocatedManifold>& manifolds = scratch().manifolds;
+    manifolds.clear();
     for (const Proximity& contact : found.contacts) {
-      if (count >= out.room()) break;
-      ContactPatch patch = find_plane_contact_patch(visitor.shape, visitor.pose, contact);
-      draw_in_corners(patch, found.triangles);
-      patch.deepest = to_world(contact, frame);
-      for (Vector3& corner : patch.corners) corner = frame.rotation * corner + frame.position;
-      count = append_corners(patch, out, count);
+      ContactManifold manifold = contact;
+      if (out.room() > 1) {
+        manifold = find_plane_contact_manifold(visitor.shape, visitor.pose, contact);
+        draw_in_corners(manifold, found.triangles);
+      }
+      manifolds.push_back({to_world(manifold, frame), -1});
     }
-    return count;
+    return write_contacts(manifolds, out);
   });
 }
 

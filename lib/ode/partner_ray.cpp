@@ -40,7 +40,7 @@ Proximity as_contact(const RayHit& hit) {
 
 }  // namespace
 
-ContactPatch query_ray(dGeomID ours, dGeomID partner, Goal goal) {
+ContactManifold query_ray(dGeomID ours, dGeomID partner, Goal goal) {
   const Body& body = require_body(ours);
   const Ray ray(partner);
   const Settings settings = for_goal(body.settings(), goal);

@@ -9,7 +9,7 @@ namespace supernormal::ode {
 
 // However the sphere is turned, it is as good as turned with the body: so it has the same place as long as it has the same place on
 // the body. And the normals at which s has its maxima do not depend on the radius: any sphere that has come to this place will do.
-ContactPatch query_sphere(dGeomID ours, dGeomID partner, Goal goal) {
+ContactManifold query_sphere(dGeomID ours, dGeomID partner, Goal goal) {
   const Sphere sphere(dGeomSphereGetRadius(partner));
   const Pose pose{to_vector(dGeomGetPosition(partner)), to_rotation(dGeomGetRotation(ours))};
   return solve_pair(ours, {sphere, pose, partner_kind(dSphereClass, {})}, goal);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "contact/body_box.hpp"
 #include "contact/mesh_contacts.hpp"
@@ -23,6 +24,7 @@ namespace {
 struct Scratch {
   MeshCandidates candidates;
   MeshContacts contacts;
+  std::vector<LocatedManifold> manifolds;
 };
 
 Scratch& scratch() {
@@ -110,7 +112,7 @@ MeshContact find_nearest(const Visit& visit) {
 
 // Of several contacts the deepest, as in dCollide. Where there is none, the distance of the nearest triangle from either side. It
 // is negative only for a body that touches the mesh from behind, at the border of a sheet: that makes no contact.
-ContactPatch query_trimesh(dGeomID ours, dGeomID partner, Goal /*goal*/) {
+ContactManifold query_trimesh(dGeomID ours, dGeomID partner, Goal /*goal*/) {
   const Visit visit(ours, partner);
   if (!visit.is_usable()) return {};
   const std::span<const MeshContact> contacts = find_contacts(visit, visit.triangles_within(0));
@@ -127,19 +129,20 @@ int collide_with_trimesh(dGeomID ours, dGeomID partner, int flags, dContactGeom*
     if (!visit.is_usable()) return 0;
     const ContactArray out{ours, partner, flags, contacts, skip};
     const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
-    int count = 0;
-    for (const MeshContact& contact : found) count = append_contact(contact.proximity, out, count, contact.triangle);
+    std::vector<LocatedManifold>& manifolds = scratch().manifolds;
+    manifolds.clear();
     // The deepest contact is the first, and none has a greater margin.
     std::optional<std::span<const MeshTriangle>> near;
     for (const MeshContact& contact : found) {
-      if (count >= out.room()) break;
-      ContactPatch patch = find_plane_contact_patch(visit.body.shape(), visit.pose, contact.proximity);
-      if (patch.corner_count == 0) continue;
-      if (!near) near = visit.triangles_within(patch.margin);
-      draw_in_corners(patch, *near);
-      count = append_corners(patch, out, count, contact.triangle);
+      manifolds.push_back({contact.proximity, contact.triangle});
+      if (out.room() < 2) continue;
+      ContactManifold& manifold = manifolds.back().manifold;
+      manifold = find_plane_contact_manifold(visit.body.shape(), visit.pose, contact.proximity);
+      if (manifold.corner_count == 0) continue;
+      if (!near) near = visit.triangles_within(manifold.margin);
+      draw_in_corners(manifold, *near);
     }
-    return count;
+    return write_contacts(manifolds, out);
   });
 }
 

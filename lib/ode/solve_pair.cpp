@@ -8,7 +8,7 @@
 
 namespace supernormal::ode {
 
-ContactPatch solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
+ContactManifold solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
   const Body& body = require_body(ours);
   const Pose pose = pose_of(ours);
   const RelativePose relative_pose = RelativePose::of(partner.pose, pose);
@@ -23,8 +23,8 @@ ContactPatch solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal) {
   if (result.status != Status::InvalidInput) {
     fill_entry(key, relative_pose, partner.pose.rotation.transpose() * result.normal);
   }
-  return goal == Goal::Contacts ? find_contact_patch(body.shape(), pose, partner.shape, partner.pose, result)
-                                : ContactPatch(result);
+  return goal == Goal::Contacts ? find_contact_manifold(body.shape(), pose, partner.shape, partner.pose, result)
+                                : ContactManifold(result);
 }
 
 }  // namespace supernormal::ode

@@ -24,7 +24,7 @@ struct PartnerShape {
 ///
 /// Of such a partner's normals we remember those in its own frame, under where our body is seen from there: on a floor made of a
 /// dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
-ContactPatch solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal);
+ContactManifold solve_pair(dGeomID ours, const PartnerShape& partner, Goal goal);
 
 /// The dColliderFn that makes contacts of what the query finds.
 template <PairQuery kQuery>

@@ -27,10 +27,10 @@ void add_rectangle(double x0, double y0, double x1, double y1, double z, int col
 }
 
 /// Of a brick of half-axes 0.1, 0.07, 0.05 at rest on z = 0.
-ContactPatch patch_on_plane() {
+ContactManifold patch_on_plane() {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
   const Pose pose{Vector3(0, 0, 0.05 - 1e-5), Matrix3::Identity()};
-  return find_plane_contact_patch(brick, pose, find_plane_proximity(brick, pose, Vector3::UnitZ(), 0));
+  return find_plane_contact_manifold(brick, pose, find_plane_proximity(brick, pose, Vector3::UnitZ(), 0));
 }
 
 }  // namespace
@@ -43,25 +43,26 @@ TEST_CASE("on a floor of triangles in any order all corners stay") {
   std::mt19937_64 random(1);
   for (int repetition = 0; repetition < 20; ++repetition) {
     std::shuffle(floor.begin(), floor.end(), random);
-    const ContactPatch plane = patch_on_plane();
-    ContactPatch patch = plane;
+    const ContactManifold plane = patch_on_plane();
+    ContactManifold patch = plane;
     draw_in_corners(patch, floor);
     REQUIRE(patch.corner_count == 4);
-    for (std::size_t k = 0; k < 4; ++k) CHECK(patch.corners[k] == plane.corners[k]);
+    for (std::size_t k = 0; k < 4; ++k) CHECK(patch.corners[k].point == plane.corners[k].point);
   }
 }
 
 TEST_CASE("what hangs over the border of a table is drawn in to it") {
   std::vector<MeshTriangle> table;
   add_rectangle(-1, -1, 0.03, 1, 0, 7, table);
-  ContactPatch patch = patch_on_plane();
+  ContactManifold patch = patch_on_plane();
   draw_in_corners(patch, table);
   REQUIRE(patch.corner_count == 4);
   double farthest = -1;
-  for (const Vector3& corner : patch.corners) {
-    CHECK(corner.x() <= 0.03 + 1e-6);
-    CHECK(corner.z() == doctest::Approx(0).epsilon(1e-12));
-    farthest = std::max(farthest, corner.x());
+  for (const ManifoldCorner& corner : patch.corners) {
+    CHECK(corner.point.x() <= 0.03 + 1e-6);
+    CHECK(std::abs(corner.point.z()) <= patch.margin);
+    CHECK(corner.depth <= -patch.deepest.gap);
+    farthest = std::max(farthest, corner.point.x());
   }
   CHECK(farthest == test::relative(0.03).epsilon(1e-4));
 }
@@ -71,15 +72,15 @@ TEST_CASE("not across a gap, nor onto a step") {
   add_rectangle(-1, -1, 0.03, 1, 0, 7, floor);
   add_rectangle(0.05, -1, 1, 1, 0, 7, floor);
   add_rectangle(0.03, -1, 0.05, 1, -0.01, 1, floor);
-  ContactPatch patch = patch_on_plane();
+  ContactManifold patch = patch_on_plane();
   draw_in_corners(patch, floor);
-  for (int k = 0; k < patch.corner_count; ++k) CHECK(patch.corners[static_cast<std::size_t>(k)].x() <= 0.03 + 1e-6);
+  for (int k = 0; k < patch.corner_count; ++k) CHECK(patch.corners[static_cast<std::size_t>(k)].point.x() <= 0.03 + 1e-6);
 }
 
 TEST_CASE("without a face under the deepest point there are no corners") {
   std::vector<MeshTriangle> beside;
   add_rectangle(0.05, -1, 1, 1, 0, 7, beside);
-  ContactPatch patch = patch_on_plane();
+  ContactManifold patch = patch_on_plane();
   draw_in_corners(patch, beside);
   CHECK(patch.corner_count == 0);
   std::vector<MeshTriangle> slope;

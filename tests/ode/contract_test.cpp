@@ -62,9 +62,10 @@ TEST_CASE("a contact moves the geoms apart, and nothing less does") {
         if (contacts.empty()) continue;
         ++overlapping;
         check_contact(contacts[0], g1, g2);
-        // The corners of a wide overlap.
+        // The corners of a flat overlap.
         for (std::size_t k = 1; k < contacts.size(); ++k) {
-          CHECK(contacts[k].depth == 0);
+          CHECK(contacts[k].depth >= 0);
+          CHECK(contacts[k].depth <= contacts[0].depth);
           CHECK(to_vec(contacts[k].normal) == to_vec(contacts[0].normal));
         }
 

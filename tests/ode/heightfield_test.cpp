@@ -216,8 +216,8 @@ TEST_CASE("any body on rough ground: the contacts with all triangles") {
     const std::span<const MeshContact> expected = reference.find(shape, pose_of(body), triangles, {});
     const Contacts contacts = collide(body, heightfield, 100);
     REQUIRE(contacts.size() >= expected.size());
-    // Behind them the corners of wide overlaps.
-    for (std::size_t i = expected.size(); i < contacts.size(); ++i) CHECK(contacts[i].depth == 0);
+    // Behind them the corners of flat overlaps.
+    for (std::size_t i = expected.size(); i < contacts.size(); ++i) CHECK(contacts[i].depth <= contacts[0].depth);
     for (std::size_t i = 0; i < expected.size(); ++i, ++count) {
       const Proximity& proximity = expected[i].proximity;
       CHECK(std::abs(contacts[i].depth + proximity.gap) < 1e-9);

@@ -102,7 +102,7 @@ class SUPERNORMAL_API Shape {
   virtual std::span<const Vector3> face_normals() const { return {}; }
 
   /// Whether no cap of the body is wider than one of an ellipsoid is, but for a little: it never rests on more than one point
-  /// (contact_patch.hpp). False where it is not known.
+  /// (contact_manifold.hpp). False where it is not known.
   virtual bool is_round() const { return false; }
 
   /// Whether the body is its own image in the origin of its frame: h(-n) = h(n), digit by digit. False where it is not known.

@@ -1,5 +1,5 @@
 // What flat bodies rest on.
-#include "supernormal/contact_patch.hpp"
+#include "supernormal/contact_manifold.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,12 +25,9 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// How much closer than they are the bodies would meet at the corners, in units of the depth: see kLoad in contact_patch.cpp.
-constexpr double kBeyondOverlap = 5;
-
-// How exactly corners are found, of the extent of the body: on a flat face the boundary point that the search starts from depends
-// on the last digits of the normal. See kReachTolerance in cap.cpp.
-constexpr double kCornerTolerance = 0.02;
+// How exactly corners are repeated, of the extent of the body: on a flat face the support point that they are seen from depends on
+// the last digits of the normal.
+constexpr double kCornerTolerance = 1e-3;
 
 double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
 
@@ -43,29 +40,29 @@ Matrix3 tilt(double angle, double direction) {
   return Eigen::AngleAxisd(angle, Vector3(std::cos(direction), std::sin(direction), 0)).toRotationMatrix();
 }
 
-/// The patch of a body that overlaps the plane z = 0 by `depth`.
-ContactPatch patch_on_floor(const Shape& shape, const Matrix3& rotation, double depth, Pose* pose_out = nullptr) {
+/// The manifold of a body that overlaps the plane z = 0 by `depth`.
+ContactManifold manifold_on_floor(const Shape& shape, const Matrix3& rotation, double depth, Pose* pose_out = nullptr) {
   Pose pose{Vector3(0.3, -0.2, 0), rotation};
   pose.position.z() = -find_plane_proximity(shape, pose, Vector3::UnitZ(), 0).gap - depth;
   if (pose_out != nullptr) *pose_out = pose;
-  return find_plane_contact_patch(shape, pose, find_plane_proximity(shape, pose, Vector3::UnitZ(), 0));
+  return find_plane_contact_manifold(shape, pose, find_plane_proximity(shape, pose, Vector3::UnitZ(), 0));
 }
 
-/// The patch of two bodies with parallel faces, the second on top of the first by (x, y), overlapping by `depth`.
-ContactPatch patch_of_stacked(const Shape& lower, const Shape& upper, double x, double y, double turn, double depth) {
+/// The manifold of two bodies with parallel faces, the second on top of the first by (x, y), overlapping by `depth`.
+ContactManifold manifold_of_stacked(const Shape& lower, const Shape& upper, double x, double y, double turn, double depth) {
   const Pose pose1;
   const Pose pose2{Vector3(x, y, lower.half_extents().z() + upper.half_extents().z() - depth),
                    Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix()};
-  return find_contact_patch(lower, pose1, upper, pose2, find_proximity(lower, pose1, upper, pose2));
+  return find_contact_manifold(lower, pose1, upper, pose2, find_proximity(lower, pose1, upper, pose2));
 }
 
-/// Smallest distance of a corner of one patch to those of the other, the largest of these.
-double distance_of_corners(const ContactPatch& a, const ContactPatch& b) {
+/// Smallest distance of a corner of one manifold to those of the other, the largest of these.
+double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
   double largest = 0;
   for (int i = 0; i < a.corner_count; ++i) {
     double nearest = HUGE_VAL;
     for (int k = 0; k < b.corner_count; ++k) {
-      nearest = std::min(nearest, (a.corners[static_cast<std::size_t>(i)] - b.corners[static_cast<std::size_t>(k)]).norm());
+      nearest = std::min(nearest, (a.corners[static_cast<std::size_t>(i)].point - b.corners[static_cast<std::size_t>(k)].point).norm());
     }
     largest = std::max(largest, nearest);
   }
@@ -80,31 +77,31 @@ TEST_CASE("ellipsoids have one contact, however deep") {
     const Ellipsoid first(Vector3{uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1)});
     const Ellipsoid second(Vector3{uniform(random, 0.2, 3), uniform(random, 0.2, 3), uniform(random, 0.2, 3)});
     const double depth = 0.2 * std::pow(10, uniform(random, -6, 0));
-    CHECK(patch_on_floor(first, random_rotation(random), depth).corner_count == 0);
+    CHECK(manifold_on_floor(first, random_rotation(random), depth).corner_count == 0);
     const Pose pose1{Vector3::Zero(), random_rotation(random)};
     Pose pose2{Vector3{uniform(random, -1, 1), uniform(random, -1, 1), 5}, random_rotation(random)};
     const Proximity apart = find_proximity(first, pose1, second, pose2);
     pose2.position -= (apart.gap + depth) * apart.normal;
-    const ContactPatch patch = find_contact_patch(first, pose1, second, pose2, find_proximity(first, pose1, second, pose2));
-    CHECK(patch.deepest.gap < 0);
-    CHECK(patch.corner_count == 0);
+    const ContactManifold manifold = find_contact_manifold(first, pose1, second, pose2, find_proximity(first, pose1, second, pose2));
+    CHECK(manifold.deepest.gap < 0);
+    CHECK(manifold.corner_count == 0);
   }
 }
 
 TEST_CASE("bodies that are apart or only touch have no corners") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
-  CHECK(patch_on_floor(brick, Matrix3::Identity(), -1e-3).corner_count == 0);
-  CHECK(patch_on_floor(brick, Matrix3::Identity(), 0).corner_count == 0);
-  CHECK(find_contact_patch(brick, {}, brick, {}, Proximity{}).corner_count == 0);
+  CHECK(manifold_on_floor(brick, Matrix3::Identity(), -1e-3).corner_count == 0);
+  CHECK(manifold_on_floor(brick, Matrix3::Identity(), 0).corner_count == 0);
+  CHECK(find_contact_manifold(brick, {}, brick, {}, Proximity{}).corner_count == 0);
 }
 
 TEST_CASE("a plate without thickness has one contact") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
   const Box plate(Vector3(2, 2, 0));
   const Pose pose{Vector3(0, 0, 0.0499), Matrix3::Identity()};
-  const ContactPatch patch = find_contact_patch(brick, pose, plate, {}, find_proximity(brick, pose, plate, {}));
-  CHECK(patch.deepest.gap < 0);
-  CHECK(patch.corner_count == 0);
+  const ContactManifold manifold = find_contact_manifold(brick, pose, plate, {}, find_proximity(brick, pose, plate, {}));
+  CHECK(manifold.deepest.gap < 0);
+  CHECK(manifold.corner_count == 0);
 }
 
 TEST_CASE("a flat body has four corners on the floor, with little between them and it") {
@@ -114,35 +111,39 @@ TEST_CASE("a flat body has four corners on the floor, with little between them a
     const Superellipsoid body(half_axes, uniform(random, 8, 100), uniform(random, 8, 100));
     const double depth = half_axes.z() * std::pow(10, uniform(random, -4, -2));
     Pose pose;
-    const ContactPatch patch =
-        patch_on_floor(body, tilt(uniform(random, 0, 0.2) * depth / half_axes.maxCoeff(), uniform(random, 0, 7)), depth, &pose);
-    CHECK(patch.deepest.gap == test::relative(-depth).epsilon(1e-9));
-    REQUIRE(patch.corner_count == 4);
-    for (const Vector3& corner : patch.corners) {
-      CHECK(std::abs(corner.z()) <= 1e-15);
+    const ContactManifold manifold =
+        manifold_on_floor(body, tilt(uniform(random, 0, 0.2) * depth / half_axes.maxCoeff(), uniform(random, 0, 7)), depth, &pose);
+    CHECK(manifold.deepest.gap == test::relative(-depth).epsilon(1e-9));
+    REQUIRE(manifold.corner_count == 4);
+    CHECK(manifold.flatness == 1);
+    for (const ManifoldCorner& corner : manifold.corners) {
+      CHECK(corner.depth >= 0);
+      CHECK(corner.depth <= depth * (1 + 1e-9));
       // Up from below the body's deepest point.
-      const Vector3 below = corner - 2 * depth * Vector3::UnitZ();
+      const Vector3 below = corner.point - 2 * manifold.margin * Vector3::UnitZ();
       const RayHit hit = find_ray_hit(body, pose, below, Vector3::UnitZ(), 1);
       REQUIRE(hit.hit);
-      CHECK(hit.point.z() <= kBeyondOverlap * depth * (1 + 1e-6));
+      CHECK(hit.point.z() <= manifold.margin * (1 + 1e-6));
+      // The chord to the corner lies in the body, and its end not far within.
+      CHECK(hit.point.z() <= corner.point.z() + 1e-9 * half_axes.z());
     }
     // They span most of the face.
-    CHECK((patch.corners[1] - patch.corners[0]).norm() >= std::hypot(half_axes.x(), half_axes.y()));
-    CHECK((patch.corners[3] - patch.corners[2]).norm() >= std::hypot(half_axes.x(), half_axes.y()));
+    CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
+    CHECK((manifold.corners[3].point - manifold.corners[1].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
   }
 }
 
 TEST_CASE("a can rests on two points on its side and on four on its end") {
   const Superellipsoid can(Vector3(0.03, 0.03, 0.06), 2, 30);
-  const ContactPatch upright = patch_on_floor(can, Matrix3::Identity(), 1e-5);
+  const ContactManifold upright = manifold_on_floor(can, Matrix3::Identity(), 1e-5);
   REQUIRE(upright.corner_count == 4);
-  const ContactPatch lying = patch_on_floor(can, tilt(0.5 * std::numbers::pi, 0), 1e-5);
+  const ContactManifold lying = manifold_on_floor(can, tilt(0.5 * std::numbers::pi, 0), 1e-5);
   REQUIRE(lying.corner_count == 2);
-  const Vector3 between = lying.corners[1] - lying.corners[0];
+  const Vector3 between = lying.corners[1].point - lying.corners[0].point;
   CHECK(std::abs(between.y()) >= 0.1);
   // On the line on which it rolls.
   CHECK(std::abs(between.x()) <= 1e-12);
-  CHECK(std::abs(lying.corners[0].x() - lying.deepest.contact.x()) <= 1e-12);
+  CHECK(std::abs(lying.corners[0].point.x() - lying.deepest.contact.x()) <= 1e-12);
 }
 
 TEST_CASE("a body on a box has the corners that it has on a plane") {
@@ -152,33 +153,35 @@ TEST_CASE("a body on a box has the corners that it has on a plane") {
   for (const double turn : {0.0, 0.3, 0.785398}) {
     const Matrix3 rotation = Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix();
     Pose pose;
-    const ContactPatch on_plane = patch_on_floor(brick, rotation, 1e-4, &pose);
-    const ContactPatch on_box = find_contact_patch(brick, pose, table, under, find_proximity(brick, pose, table, under));
+    ContactManifold on_plane = manifold_on_floor(brick, rotation, 1e-4, &pose);
+    const ContactManifold on_box = find_contact_manifold(brick, pose, table, under, find_proximity(brick, pose, table, under));
     REQUIRE(on_plane.corner_count == 4);
     REQUIRE(on_box.corner_count == 4);
+    // Those on a plane are points of the body, the others in the plane of the contact.
+    for (ManifoldCorner& corner : on_plane.corners) corner.point.z() = on_box.corners[0].point.z();
     CHECK(distance_of_corners(on_plane, on_box) <= 1e-4);
   }
 }
 
 TEST_CASE("what hangs over is not supported") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
-  const ContactPatch patch = patch_of_stacked(brick, brick, 0.1, 0.0, 0, 1e-4);
-  REQUIRE(patch.corner_count == 4);
-  for (const Vector3& corner : patch.corners) {
-    CHECK(corner.x() >= -1e-3);
-    CHECK(corner.x() <= 0.1 + 1e-3);
-    CHECK(std::abs(corner.y()) <= 0.07);
+  const ContactManifold manifold = manifold_of_stacked(brick, brick, 0.1, 0.0, 0, 1e-4);
+  REQUIRE(manifold.corner_count == 4);
+  for (const ManifoldCorner& corner : manifold.corners) {
+    CHECK(corner.point.x() >= -1e-3);
+    CHECK(corner.point.x() <= 0.1 + 1e-3);
+    CHECK(std::abs(corner.point.y()) <= 0.07);
   }
-  CHECK((patch.corners[1] - patch.corners[0]).norm() >= 0.8 * std::hypot(0.1, 0.14));
+  CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= 0.8 * std::hypot(0.1, 0.14));
 }
 
 TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of the brick") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 30, 30);
   const Capsule capsule(0.02, 0.06);
   Pose pose{Vector3(0, 0, 0.07 - 1e-5), Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitY()).toRotationMatrix()};
-  const ContactPatch along = find_contact_patch(brick, {}, capsule, pose, find_proximity(brick, {}, capsule, pose));
+  const ContactManifold along = find_contact_manifold(brick, {}, capsule, pose, find_proximity(brick, {}, capsule, pose));
   REQUIRE(along.corner_count == 2);
-  CHECK((along.corners[1] - along.corners[0]).norm() == test::relative(0.12).epsilon(0.05));
+  CHECK((along.corners[1].point - along.corners[0].point).norm() == test::relative(0.12).epsilon(0.05));
 }
 
 TEST_CASE("the corners do not depend on the order of the bodies, nor on where they are") {
@@ -194,25 +197,25 @@ TEST_CASE("the corners do not depend on the order of the bodies, nor on where th
     const Pose pose2{Vector3{uniform(random, -1, 1), uniform(random, -1, 1), 1.1 - 1e-3},
                      Matrix3(Eigen::AngleAxisd(uniform(random, 0, 6), Vector3::UnitZ()) * tilt(1e-4, uniform(random, 0, 7)))};
     const Proximity proximity = find_proximity(lower, pose1, upper, pose2);
-    const ContactPatch patch = find_contact_patch(lower, pose1, upper, pose2, proximity);
-    wide += patch.corner_count > 0 ? 1 : 0;
+    const ContactManifold manifold = find_contact_manifold(lower, pose1, upper, pose2, proximity);
+    wide += manifold.corner_count > 0 ? 1 : 0;
 
     Proximity swapped = proximity;
     swapped.normal = -swapped.normal;
     std::swap(swapped.point1, swapped.point2);
-    const ContactPatch of_swapped = find_contact_patch(upper, pose2, lower, pose1, swapped);
-    CHECK(of_swapped.corner_count == patch.corner_count);
-    CHECK(distance_of_corners(patch, of_swapped) <= 1e-9);
+    const ContactManifold of_swapped = find_contact_manifold(upper, pose2, lower, pose1, swapped);
+    CHECK(of_swapped.corner_count == manifold.corner_count);
+    CHECK(distance_of_corners(manifold, of_swapped) <= 1e-9);
 
     const Matrix3 turn = random_rotation(random);
     const auto moved = [&](const Pose& pose) { return Pose{turn * pose.position + far, turn * pose.rotation}; };
     Proximity there = proximity;
     there.normal = turn * proximity.normal;
-    there.contact = turn * proximity.contact + far;
-    ContactPatch back = find_contact_patch(lower, moved(pose1), upper, moved(pose2), there);
-    for (Vector3& corner : back.corners) corner = turn.transpose() * (corner - far);
-    CHECK(back.corner_count == patch.corner_count);
-    CHECK(distance_of_corners(patch, back) <= kCornerTolerance * 2);
+    for (Vector3* const point : {&there.point1, &there.point2, &there.contact}) *point = turn * *point + far;
+    ContactManifold back = find_contact_manifold(lower, moved(pose1), upper, moved(pose2), there);
+    for (ManifoldCorner& corner : back.corners) corner.point = turn.transpose() * (corner.point - far);
+    CHECK(back.corner_count == manifold.corner_count);
+    CHECK(distance_of_corners(manifold, back) <= kCornerTolerance * 2);
   }
   CHECK(wide > 200);
 }

@@ -1,0 +1,210 @@
+#include "supernormal/contact_manifold.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "contact/manifold/convex_polygon.hpp"
+#include "contact/manifold/support_polygon.hpp"
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+namespace {
+
+// Of the smallest half-extent: a lesser depth is rounding.
+constexpr double kLeastDepth = 1e-12;
+
+// Corners that are nearer to each other than this share of the body's extent are one.
+constexpr double kSamePlace = 0.01;
+
+// Corners are looked for from so many times the reach of the region: far enough to find those of a rectangle that is turned by
+// 30 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
+constexpr double kLookFrom = 4;
+
+// Of the deepest: what a corner that is not deep counts where two are united.
+constexpr double kLeastShare = 0.01;
+
+// Not a plate or a segment, which has no thickness to be deep in; nor anything else that is thinner than a body of ours may be.
+bool may_have_corners(const Shape& shape, const Proximity& proximity) {
+  const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
+  const double thickness = shape.half_extents().minCoeff();
+  return is_answer && !shape.is_round() && thickness >= kMinLength && -proximity.gap > kLeastDepth * thickness;
+}
+
+/// Points on which the bodies may rest, how far their surfaces are below the tangent planes there, and from that the corners.
+class CornerList {
+ public:
+  void add(const Vector3& point, double drop) {
+    points_[count_] = point;
+    drops_[count_++] = drop;
+  }
+
+  bool is_empty() const { return count_ == 0; }
+
+  /// What a flat face has as its drop everywhere is its rounding: the face as a whole is as deep as the deepest point. What one
+  /// corner has more than another is the lean.
+  void write(double same_place, ContactManifold& manifold) const {
+    const double least = *std::min_element(drops_.begin(), drops_.begin() + static_cast<std::ptrdiff_t>(count_));
+    for (std::size_t k = 0; k < count_; ++k) {
+      unite_or_add({points_[k], std::max(0.0, -manifold.deepest.gap - (drops_[k] - least))}, same_place, manifold);
+    }
+    if (manifold.corner_count == 1) manifold.corner_count = 0;  // beside the deepest point
+  }
+
+ private:
+  static void unite_or_add(const ManifoldCorner& corner, double same_place, ContactManifold& manifold) {
+    for (int k = 0; k < manifold.corner_count; ++k) {
+      ManifoldCorner& other = manifold.corners[static_cast<std::size_t>(k)];
+      if ((other.point - corner.point).squaredNorm() > same_place * same_place) continue;
+      other.point = 0.5 * (other.point + corner.point);
+      other.depth = std::max(other.depth, corner.depth);
+      return;
+    }
+    manifold.corners[static_cast<std::size_t>(manifold.corner_count++)] = corner;
+  }
+
+  std::array<Vector3, 4> points_;
+  std::array<double, 4> drops_{};
+  std::size_t count_ = 0;
+};
+
+/// A support polygon in the coordinates of the contact, counter-clockwise.
+class Side {
+ public:
+  Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below)
+      : apex_(frame.project(polygon.support_point())), axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const SupportPolygon::Vertex& vertex = polygon.vertices()[sees_it_from_below ? 3 - k : k];
+      corners_[k] = frame.project(polygon.support_point() + vertex.offset);
+      drops_[k] = vertex.drop;
+    }
+  }
+
+  ConvexPolygon outline() const {
+    ConvexPolygon outline;
+    for (const Vector2& corner : corners_) outline.add(corner);
+    return outline;
+  }
+
+  /// A bound on how far the surface is below the tangent plane there: by the triangles between the support point and two
+  /// neighbouring vertices, which lie in the body.
+  double drop_at(const Vector2& point) const {
+    double least_outside = HUGE_VAL;
+    double drop = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t next = (k + 1) % 4;
+      const Vector2 share = shares_in(corners_[k] - apex_, corners_[next] - apex_, point - apex_);
+      const double outside = std::max({-share.x(), -share.y(), share.sum() - 1});
+      if (!(outside < least_outside)) continue;
+      least_outside = outside;
+      const double first = std::clamp(share.x(), 0.0, 1.0);
+      drop = first * drops_[k] + std::clamp(share.y(), 0.0, 1 - first) * drops_[next];
+    }
+    return drop;
+  }
+
+  /// The direction of its axes, the same for all four of them, as a complex number that is the larger the smaller the body is.
+  std::complex<double> direction() const {
+    const std::complex<double> axis(axis_.x(), axis_.y());
+    return axis * axis * axis * axis / (area_ * area_);
+  }
+
+ private:
+  /// Coordinates of a point with respect to two edges; along the longer one where these are parallel.
+  static Vector2 shares_in(const Vector2& edge1, const Vector2& edge2, const Vector2& point) {
+    const double length1 = edge1.squaredNorm();
+    const double length2 = edge2.squaredNorm();
+    const double area = edge1.x() * edge2.y() - edge1.y() * edge2.x();
+    if (area * area > 1e-24 * length1 * length2) {
+      return Vector2(point.x() * edge2.y() - point.y() * edge2.x(), edge1.x() * point.y() - edge1.y() * point.x()) / area;
+    }
+    if (!(std::max(length1, length2) > 0)) return {0, 0};
+    return length1 >= length2 ? Vector2(point.dot(edge1) / length1, 0) : Vector2(0, point.dot(edge2) / length2);
+  }
+
+  Vector2 apex_;
+  std::array<Vector2, 4> corners_;
+  std::array<double, 4> drops_{};
+  Vector2 axis_;
+  double area_;
+};
+
+/// The common directions of the axes of both bodies, of which the smaller one counts more.
+std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
+  const double angle = 0.25 * std::arg(side1.direction() + side2.direction());
+  const Vector2 first(std::cos(angle), std::sin(angle));
+  return {first, Vector2(-first.y(), first.x())};
+}
+
+/// Up to four of the region that both sides have in common.
+void find_corners(const Side& side1, const Side& side2, const ContactFrame& frame, CornerList& corners) {
+  const ConvexPolygon region = side1.outline().intersected(side2.outline());
+  if (region.size() == 0) return;
+  double reach = 0;
+  for (int k = 0; k < region.size(); ++k) reach = std::max(reach, region[k].norm());
+  const auto [u, v] = common_axes(side1, side2);
+  for (const Vector2& diagonal : {Vector2(u + v), Vector2(v - u), Vector2(-u - v), Vector2(u - v)}) {
+    const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonal);
+    corners.add(frame.lift(corner), side1.drop_at(corner) + side2.drop_at(corner));
+  }
+}
+
+}  // namespace
+
+ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                      const Proximity& proximity) {
+  ContactManifold manifold(proximity);
+  if (!may_have_corners(shape1, proximity) || !may_have_corners(shape2, proximity)) return manifold;
+  const double depth = -proximity.gap;
+  const SupportPolygon polygon1(shape1, pose1, proximity.normal, proximity.point1, depth);
+  manifold.evaluations = polygon1.evaluations();
+  if (polygon1.flatness() == 0) return manifold;
+  const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth);
+  manifold.evaluations += polygon2.evaluations();
+  if (polygon2.flatness() == 0) return manifold;
+  const ContactFrame frame{TangentPlane(proximity.normal, polygon1.axis()), proximity.contact};
+  CornerList corners;
+  find_corners(Side(polygon1, frame, false), Side(polygon2, frame, true), frame, corners);
+  if (!corners.is_empty()) corners.write(kSamePlace * std::min(polygon1.size(), polygon2.size()), manifold);
+  manifold.flatness = polygon1.flatness() * polygon2.flatness();
+  manifold.margin = 2 * SupportPolygon::reach_of(depth) - depth;
+  return manifold;
+}
+
+ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
+  ContactManifold manifold(proximity);
+  if (!may_have_corners(shape, proximity)) return manifold;
+  const double depth = -proximity.gap;
+  const SupportPolygon polygon(shape, pose, proximity.normal, proximity.point1, depth);
+  manifold.evaluations = polygon.evaluations();
+  if (polygon.flatness() == 0) return manifold;
+  CornerList corners;
+  for (const SupportPolygon::Vertex& vertex : polygon.vertices()) corners.add(proximity.point1 + vertex.offset, vertex.drop);
+  corners.write(kSamePlace * polygon.size(), manifold);
+  manifold.flatness = polygon.flatness();
+  manifold.margin = SupportPolygon::reach_of(depth) - depth;
+  return manifold;
+}
+
+// The deeper of two counts more: where the body leans, it is its place that matters.
+ContactManifold reduced_to(ContactManifold manifold, int corner_count) {
+  const double least = -kLeastShare * manifold.deepest.gap;
+  for (int k = 0; manifold.corner_count > corner_count && k + 1 < manifold.corner_count; ++k) {
+    ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
+    const ManifoldCorner& next = manifold.corners[static_cast<std::size_t>(k + 1)];
+    const double weight = std::pow(corner.depth + least, 2);
+    const double weight_of_next = std::pow(next.depth + least, 2);
+    const double share = weight_of_next / (weight + weight_of_next);
+    corner.point += share * (next.point - corner.point);
+    corner.depth += share * (next.depth - corner.depth);
+    std::copy(manifold.corners.begin() + k + 2, manifold.corners.begin() + manifold.corner_count, manifold.corners.begin() + k + 1);
+    --manifold.corner_count;
+  }
+  // Programs expect the deepest contact first.
+  const auto end = manifold.corners.begin() + manifold.corner_count;
+  const auto is_less_deep = [](const ManifoldCorner& one, const ManifoldCorner& other) { return one.depth < other.depth; };
+  std::rotate(manifold.corners.begin(), std::max_element(manifold.corners.begin(), end, is_less_deep), end);
+  return manifold;
+}
+
+}  // namespace supernormal

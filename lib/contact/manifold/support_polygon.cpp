@@ -1,0 +1,177 @@
+#include "contact/manifold/support_polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/tangent_plane.hpp"
+
+namespace supernormal {
+namespace {
+
+// The vertices are where the bodies would overlap if the overlap were so many times as deep. A body at rest overlaps by
+// micrometres; what is round in the last digit must not make it rock. With 3 a body with exponents 8 takes longer than twice the
+// time of a box to fall asleep at steps of 2 ms, with 30 bodies with little room for contacts fall asleep while they lean.
+constexpr double kReach = 12;
+
+// A face like |x|^e with this exponent has its vertices just there; a flatter one has them nearer to its end. Between 4 and 16
+// it makes little difference.
+constexpr double kFaceExponent = 8;
+
+// Of the half-height: of a larger reach the vertices would be on the sides of the body.
+constexpr double kLargestReach = 0.2;
+
+// Of faces like |x|^e: up to here the body is round, from there on flat. The closed forms of rocking bodies hold for the first, and
+// bodies come to rest with the second.
+constexpr double kRoundExponent = 4;
+constexpr double kFlatExponent = 6;
+
+// A face that leans along an axis almost as much as the diagonals do is about to be left by those of the four points that are on
+// its far side. Shares of the diagonals' tilt at which the polygon begins to shrink along that axis, and has no width left.
+constexpr double kLeaning = 0.6;
+constexpr double kLeaningTooFar = 0.9;
+
+// Of the width of a round side: a line of contact is not without any, so that two of them have something in common.
+constexpr double kThinnest = 1e-3;
+
+constexpr std::array<std::array<double, 2>, 4> kSigns = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+
+/// 0 up to `zero`, 1 from `one` on, either of which may be the larger.
+double ramp(double value, double zero, double one) { return std::clamp((value - zero) / (one - zero), 0.0, 1.0); }
+
+/// Of the drop in the sum of drop and rise. `turn` is the way from p to q times the tilt, and what exceeds the drop the rise times
+/// the length of the tilted normal, `stretch`, in units of the half-extents: so an ellipsoid has 1/2 at any tilt.
+double share_of_drop(double drop, double turn, double stretch) {
+  const double rise = std::max(0.0, turn - drop) / stretch;
+  return drop + rise > 0 ? drop / (drop + rise) : 0;
+}
+
+/// The root with a positive real part of a complex number of length 1.
+Vector2 root(const Vector2& z) { return z.x() > -1 ? Vector2(z + Vector2::UnitX()).normalized() : Vector2(Vector2::UnitY()); }
+
+Vector2 product(const Vector2& a, const Vector2& b) { return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()}; }
+
+/// The axes of a body as they lie in the tangent plane: two directions at right angles, so that those of all its axes, and of their
+/// opposites, are near one of them or its opposite. As complex numbers to the power of four they are all the same, and added up. So
+/// it depends on the normal continuously, except where the three are alike, towards the vertices of a box.
+std::array<Vector3, 2> axes_in_plane(const Matrix3& rotation, const Vector3& n) {
+  int along_normal = 0;
+  (rotation.transpose() * n).cwiseAbs().maxCoeff(&along_normal);
+  const TangentPlane plane(n, rotation.col((along_normal + 1) % 3));
+  Vector2 sum = Vector2::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector2 seen = plane.project(rotation.col(axis));
+    const Vector2 square = product(seen, seen);
+    sum += product(square, square);
+  }
+  const double length = sum.norm();
+  if (!(length > 0)) return {plane.t1, plane.t2};
+  const Vector2 first = root(root(sum / length));
+  return {plane.lift(first), plane.lift({-first.y(), first.x()})};
+}
+
+// (kFaceExponent reach / (2 height))^(1 - 1 / kFaceExponent): the slope, in units of height over extent, where a face of that
+// exponent has half of the reach as its drop along either axis.
+double tangent_of_tilt(double reach, double height) {
+  const double x = 0.5 * kFaceExponent * std::min(reach / height, kLargestReach);
+  return x / std::sqrt(std::sqrt(std::sqrt(x)));
+}
+
+}  // namespace
+
+double SupportPolygon::reach_of(double depth) { return kReach * depth; }
+
+SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth)
+    : support_point_(support_point), axes_(axes_in_plane(pose.rotation, n)) {
+  const Vector3 half_extents = shape.half_extents();
+  // Of the ellipsoid with the body's half-extents.
+  const auto extent = [&](const Vector3& u) { return (pose.rotation.transpose() * u).cwiseProduct(half_extents).norm(); };
+  extents_ = {extent(axes_[0]), extent(axes_[1])};
+  const double height = extent(n);
+  const double tangent = tangent_of_tilt(reach_of(depth), height);
+  const Tilt diagonal = {tangent * height / extents_[0], tangent * height / extents_[1]};
+
+  std::array<Sight, 4> sights;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector3 way = point_of(shape, pose, n, {kSigns[k][0] * diagonal[0], kSigns[k][1] * diagonal[1]}) - support_point_;
+    sights[k] = {{axes_[0].dot(way), axes_[1].dot(way)}, std::max(0.0, -n.dot(way))};
+  }
+  const Tilt tilt = tilt_of_face(sights, diagonal);
+  Along along;
+  for (std::size_t a = 0; a < 2; ++a) along.upright[a] = ramp(std::abs(tilt[a]) / diagonal[a], kLeaningTooFar, kLeaning);
+
+  const double along_both = std::sqrt(1 + 2 * tangent * tangent);
+  const double along_one = std::sqrt(1 + tangent * tangent);
+  const auto shares = [&](const std::array<Sight, 4>& of, const Tilt& removed) {
+    double drop = 0;
+    std::array<double, 2> turn{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      drop += std::max(0.0, of[k].drop - removed[0] * of[k].way[0] - removed[1] * of[k].way[1]);
+      for (std::size_t a = 0; a < 2; ++a) {
+        turn[a] += along.upright[a] * std::max(0.0, (kSigns[k][a] * diagonal[a] - removed[a]) * of[k].way[a]);
+      }
+    }
+    return std::array<double, 3>{share_of_drop(drop, turn[0] + turn[1], along_both), share_of_drop(drop, turn[0], along_one),
+                                 share_of_drop(drop, turn[1], along_one)};
+  };
+  std::array<double, 3> share = shares(sights, {(1 - along.upright[0]) * tilt[0], (1 - along.upright[1]) * tilt[1]});
+  if (share[0] > 1 / kFlatExponent) {
+    const Vector3 top = point_of(shape, pose, n, tilt) - support_point_;
+    std::array<Sight, 4> from_top;
+    for (std::size_t k = 0; k < 4; ++k) {
+      from_top[k] = {{sights[k].way[0] - axes_[0].dot(top), sights[k].way[1] - axes_[1].dot(top)}, sights[k].drop + n.dot(top)};
+    }
+    const std::array<double, 3> upright = shares(from_top, tilt);
+    for (std::size_t i = 0; i < 3; ++i) share[i] = std::min(share[i], upright[i]);
+  }
+  // Along one axis at a time the drop is still that of both.
+  for (std::size_t a = 0; a < 2; ++a) along.flat[a] = ramp(share[1 + a], 2 / kRoundExponent, 2 / kFlatExponent);
+  flatness_ = ramp(share[0], 1 / kRoundExponent, 1 / kFlatExponent) *
+              std::max(along.flat[0] * along.upright[0], along.flat[1] * along.upright[1]);
+  if (flatness_ > 0) place_vertices(sights, diagonal, tilt, along, n, reach_of(depth));
+}
+
+Vector3 SupportPolygon::point_of(const Shape& shape, const Pose& pose, const Vector3& n, const Tilt& tilt) {
+  Jet jet;
+  shape.evaluate(pose.rotation.transpose() * (n + tilt[0] * axes_[0] + tilt[1] * axes_[1]).normalized(), Order::Point, jet);
+  ++evaluations_;
+  return pose.position + pose.rotation * jet.r;
+}
+
+// Of the plane that fits the four points best, as far as the diagonals reach.
+SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const {
+  Vector2 mean = Vector2::Zero();
+  double mean_drop = 0;
+  for (const Sight& sight : sights) {
+    mean += 0.25 * Vector2(sight.way[0], sight.way[1]);
+    mean_drop += 0.25 * sight.drop;
+  }
+  Symmetric2 spread;
+  Vector2 rise = Vector2::Zero();
+  for (const Sight& sight : sights) {
+    const Vector2 way = Vector2(sight.way[0], sight.way[1]) - mean;
+    spread = spread + Symmetric2{way.x() * way.x(), way.x() * way.y(), way.y() * way.y()};
+    rise += (sight.drop - mean_drop) * way;
+  }
+  const Vector2 slope = spread.solve(rise);
+  return {std::clamp(slope.x(), -diagonal[0], diagonal[0]), std::clamp(slope.y(), -diagonal[1], diagonal[1])};
+}
+
+void SupportPolygon::place_vertices(const std::array<Sight, 4>& sights, const Tilt& diagonal, const Tilt& tilt, const Along& along,
+                                    const Vector3& n, double reach) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    // Where the body is round or leans too far along one axis, it stands on a line, without the drop beside it.
+    double drop = sights[k].drop;
+    Vector3 way = Vector3::Zero();
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double x = sights[k].way[a];
+      drop -= 0.5 * along.upright[a] * (1 - along.flat[a]) * std::max(0.0, kSigns[k][a] * diagonal[a] * x);
+      drop -= (1 - along.upright[a]) * std::max(0.0, tilt[a] * x);
+      way += std::max(along.flat[a] * along.upright[a], kThinnest) * x * axes_[a];
+    }
+    drop = std::max(drop, 0.0);
+    const double share = flatness_ * (drop > reach ? reach / drop : 1);
+    vertices_[k] = {share * (way - drop * n), share * drop};
+  }
+}
+
+}  // namespace supernormal

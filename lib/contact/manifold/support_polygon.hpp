@@ -1,0 +1,81 @@
+// What a body would stand on if it stood on one of its tangent planes.
+#pragma once
+
+#include <array>
+
+#include "supernormal/shapes/shape.hpp"
+#include "supernormal/solvers/pose.hpp"
+
+namespace supernormal {
+
+/// The support polygon of a body on its tangent plane with normal n, explicit in the normal parameterization.
+///
+///  1. The plane tilts by a small angle towards each of four diagonals w. Then the body would stand on the point q = r(n + w), one
+///     evaluation each: at the end of a flat face, and next to p = r(n) where the body is round.
+///  2. The drop of q below the plane and the rise of p above the tilted plane are the two Bregman divergences of the support
+///     function between n and n + w. The share of the drop in their sum says how flat the body is there, in every scale: 1/e of a
+///     face like |x|^e, 1/2 where the body is as round as an ellipsoid, whatever its half-axes.
+///  3. A plane that is tilted against a flat face has a drop, too. So where the share is not small, the face is judged by the
+///     tangent plane that is parallel to the plane through the four points, for one more evaluation.
+///  4. The vertices are the four points, drawn in to p as the body becomes round, and to where the drop is that of the overlap that
+///     counts. A chord of the body lies in it, so that none of them has a larger drop than it says.
+///
+/// lib/contact/README.md has the proofs and figures.
+class SupportPolygon {
+ public:
+  struct Vertex {
+    Vector3 offset = Vector3::Zero();  ///< m; from the support point, in the frame of the pose
+    double drop = 0;                   ///< m; below the tangent plane
+  };
+
+  /// `n` of unit length, in the frame that the pose refers to; `support_point` that of the body with this normal, m; `depth` of the
+  /// overlap, m.
+  SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth);
+
+  /// A larger depth does not count: between the bodies there is at most the difference at a vertex, m.
+  static double reach_of(double depth);
+
+  /// 0: the body is round at the support point, which is its only one; 1: it is flat.
+  double flatness() const { return flatness_; }
+
+  /// Counter-clockwise about n.
+  const std::array<Vertex, 4>& vertices() const { return vertices_; }
+
+  const Vector3& support_point() const { return support_point_; }
+
+  /// The axis of the body's frame that the diagonals are between, as it lies in the tangent plane; unit.
+  const Vector3& axis() const { return axes_[0]; }
+
+  /// The half-extents of the body along the plane, m; its product and its smaller one.
+  double area() const { return extents_[0] * extents_[1]; }
+  double size() const { return std::min(extents_[0], extents_[1]); }
+
+  int evaluations() const { return evaluations_; }
+
+ private:
+  /// A point q of the body, seen from the support point: along the axes and along -n, m.
+  struct Sight {
+    std::array<double, 2> way;
+    double drop;
+  };
+  /// Along either axis, 0 to 1: whether the body is flat, and whether its face leans no farther than the diagonals.
+  struct Along {
+    std::array<double, 2> flat{};
+    std::array<double, 2> upright{};
+  };
+  using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
+
+  Vector3 point_of(const Shape& shape, const Pose& pose, const Vector3& n, const Tilt& tilt);
+  Tilt tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const;
+  void place_vertices(const std::array<Sight, 4>& sights, const Tilt& diagonal, const Tilt& tilt, const Along& along,
+                      const Vector3& n, double reach);
+
+  Vector3 support_point_;
+  std::array<Vector3, 2> axes_;
+  std::array<double, 2> extents_{};
+  double flatness_ = 0;
+  std::array<Vertex, 4> vertices_;
+  int evaluations_ = 0;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,143 @@
+// Whether flat bodies come to rest as a dBox does, whatever the step, the floor, the size and the room for contacts: drops each
+// body 24 times and prints every row that is worse than that of a dBox, then how many there are.
+
+#include <ode/ode.h>
+#include <supernormal/supernormal.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "drop.hpp"
+
+using namespace resting;
+
+namespace {
+
+// A row is as good as that of the dBox when as many bodies sleep, after no more than twice the time, and none of those that the
+// dBox holds has sunk into the floor.
+constexpr double kSlower = 2;
+// Half-heights; how far down a dBox itself comes to rest decides where that is lower, but for a hundredth.
+constexpr double kHeld = 0.9;
+constexpr double kSlack = 0.01;
+
+const std::map<std::string, FloorKind> kFloors = {{"plane", FloorKind::Plane},
+                                                  {"box", FloorKind::Box},
+                                                  {"mesh", FloorKind::Mesh},
+                                                  {"heightfield", FloorKind::Heightfield},
+                                                  {"ours", FloorKind::Superellipsoid}};
+
+struct Options {
+  std::vector<std::string> floors = {"plane", "box", "mesh", "heightfield", "ours"};
+  std::vector<double> exponents = {8, 12, 20, 60, 200};
+  std::vector<double> half_heights = {0.001, 0.01, 0.05, 0.25, 1};
+  std::vector<double> steps = {0.002, 0.005, 0.01, 0.0167, 0.02, 0.05};
+  std::vector<int> rooms = {3, 4, 8};
+  std::vector<double> correcting_velocities = {0, 0.1};
+  bool prints_all = false;
+};
+
+/// Of all drops of a row.
+struct Summary {
+  int asleep = 0;
+  double median = 0;  ///< s; of those that never sleep, the whole time
+  double lowest = 0;  ///< of the centre at the end, half-heights
+};
+
+Summary summarise(const Row& row) {
+  Summary summary;
+  summary.lowest = HUGE_VAL;
+  std::vector<double> times;
+  for (int number = 0; number < kDrops; ++number) {
+    const Rest rest = drop(row, number);
+    summary.asleep += rest.is_asleep ? 1 : 0;
+    summary.lowest = std::min(summary.lowest, rest.height);
+    times.push_back(rest.time);
+  }
+  std::nth_element(times.begin(), times.begin() + kDrops / 2, times.end());
+  summary.median = times[kDrops / 2];
+  return summary;
+}
+
+bool is_as_good(const Summary& ours, const Summary& box) {
+  const bool is_held = ours.lowest >= std::min(kHeld, box.lowest - kSlack);
+  return ours.asleep >= box.asleep && ours.median <= kSlower * box.median && is_held;
+}
+
+class Matrix {
+ public:
+  explicit Matrix(const Options& options) : options_(options) {}
+
+  /// How many rows are worse.
+  int run() {
+    std::printf("floor, half-height m, step s, room, correcting m/s, exponent: asleep, median s, lowest (dBox: the same)\n");
+    for (const std::string& floor : options_.floors) {
+      for (const double half_height : options_.half_heights) {
+        for (const double step : options_.steps) {
+          for (const double velocity : options_.correcting_velocities) {
+            for (const int room : options_.rooms) compare(floor, {kFloors.at(floor), 0, half_height, step, room, velocity});
+          }
+        }
+      }
+    }
+    std::printf("%d of %d rows are worse than those of a dBox\n", worse_, rows_);
+    return worse_;
+  }
+
+ private:
+  void compare(const std::string& floor, Row row) {
+    const Summary box = summarise(row);
+    for (const double exponent : options_.exponents) {
+      row.exponent = exponent;
+      const Summary ours = summarise(row);
+      const bool is_good = is_as_good(ours, box);
+      ++rows_;
+      worse_ += is_good ? 0 : 1;
+      if (is_good && !options_.prints_all) continue;
+      std::printf("%-11s %5.3f %6.4f %d %3.1f %3.0f: %2d %6.3f %6.3f (%2d %6.3f %6.3f)%s\n", floor.c_str(), row.half_height, row.step,
+                  row.room, row.correcting_velocity, exponent, ours.asleep, ours.median, ours.lowest, box.asleep, box.median,
+                  box.lowest, is_good ? "" : " worse");
+      std::fflush(stdout);
+    }
+  }
+
+  const Options& options_;
+  int rows_ = 0;
+  int worse_ = 0;
+};
+
+int run(const Options& options) {
+  dInitODE2(0);
+  dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
+  const int worse = Matrix(options).run();
+  snClose();
+  dCloseODE();
+  return worse == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    Options options;
+    CLI::App app("Whether flat bodies come to rest as a dBox does; exit status 1 if some do not");
+    app.add_option("--floors", options.floors, "plane, box, mesh, heightfield, ours")->check(CLI::IsMember(kFloors))->delimiter(',');
+    app.add_option("--exponents", options.exponents, "of the bodies")->delimiter(',');
+    app.add_option("--half-heights", options.half_heights, "m")->delimiter(',');
+    app.add_option("--steps", options.steps, "s")->delimiter(',');
+    app.add_option("--rooms", options.rooms, "contacts a pair, 1 to 8")->check(CLI::Range(1, 8))->delimiter(',');
+    app.add_option("--correcting-velocities", options.correcting_velocities, "m/s; 0: without limit")->delimiter(',');
+    app.add_flag("--all", options.prints_all, "print the other rows, too");
+    CLI11_PARSE(app, argc, argv);
+    return run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "resting: %s\n", error.what());
+    return 1;
+  }
+}

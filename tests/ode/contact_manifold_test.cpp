@@ -1,0 +1,187 @@
+// Several contacts of one pair: how many, where, and that no force jumps when their number changes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "ode/ode_fixture.hpp"
+#include "relative.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+using Contacts = std::vector<dContactGeom>;
+
+/// What the contacts do to a body of unit weight that stands still: force, and torque about its centre over its longest half-axis.
+struct Load {
+  Vec force{};
+  Vec torque{};
+};
+
+constexpr double kLongest = 0.1;  // half-axis of the bricks, m
+
+/// A body without neighbours but for what it stands on, held in one pose after the other.
+class Scale {
+ public:
+  Scale(dGeomID geom, dGeomID under) : geom_(geom), under_(under), world_(dWorldCreate()), joints_(dJointGroupCreate(0)) {
+    dWorldSetGravity(world_, 0, 0, -1);
+    dWorldSetERP(world_, 0);  // without what pushes the bodies apart
+    dWorldSetQuickStepNumIterations(world_, 300);
+    body_ = dBodyCreate(world_);
+    dMass mass;
+    REQUIRE(snMassSetTotal(&mass, 1, geom) == 1);
+    dBodySetMass(body_, &mass);
+    dBodySetGyroscopicMode(body_, 0);
+    dGeomSetBody(geom, body_);
+  }
+  ~Scale() {
+    dGeomSetBody(geom_, nullptr);
+    dJointGroupDestroy(joints_);
+    dWorldDestroy(world_);
+  }
+  Scale(const Scale&) = delete;
+  Scale(Scale&&) = delete;
+  Scale& operator=(const Scale&) = delete;
+  Scale& operator=(Scale&&) = delete;
+
+  Load weigh() {
+    const Vec position = to_vec(dBodyGetPosition(body_));
+    std::array<dContact, 8> contacts;
+    std::array<dJointFeedback, 8> feedback{};
+    const int count = dCollide(geom_, under_, 8, &contacts[0].geom, sizeof(dContact));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      contacts[k].surface = {};
+      const dJointID joint = dJointCreateContact(world_, joints_, &contacts[k]);
+      dJointAttach(joint, body_, nullptr);
+      dJointSetFeedback(joint, &feedback[k]);
+    }
+    dBodySetLinearVel(body_, 0, 0, 0);
+    dBodySetAngularVel(body_, 0, 0, 0);
+    dRandSetSeed(1);
+    dWorldQuickStep(world_, dReal(1e-6));  // in which it hardly moves
+    dJointGroupEmpty(joints_);
+    dBodySetPosition(body_, dReal(position[0]), dReal(position[1]), dReal(position[2]));
+    Load load;
+    for (const dJointFeedback& of : feedback) {
+      load.force = load.force + to_vec(of.f1);
+      load.torque = load.torque + (1 / kLongest) * to_vec(of.t1);
+    }
+    return load;
+  }
+
+ private:
+  dGeomID geom_, under_;
+  dWorldID world_;
+  dJointGroupID joints_;
+  dBodyID body_;
+};
+
+/// Tilts by `angle` about a horizontal axis and puts the body over the plane z = 0 or on top of `under` with the given depth.
+void place(dGeomID body, dGeomID under, double angle, double direction, double depth) {
+  dMatrix3 rotation;
+  dRFromAxisAndAngle(rotation, dReal(std::cos(direction)), dReal(std::sin(direction)), 0, dReal(angle));
+  dGeomSetRotation(body, rotation);
+  double height = 10;
+  // Along z: exact for a plane, and after a few steps for the flat top of a body.
+  for (int k = 0; k < 50; ++k) {
+    dGeomSetPosition(body, 0, 0, dReal(height));
+    snProximity proximity;
+    REQUIRE(snGeomProximity(body, under, &proximity) == 1);
+    const double excess = double{proximity.gap} + depth;
+    if (std::abs(excess) <= 1e-9 * depth) return;
+    height += excess / double{proximity.normal[2]};
+  }
+}
+
+}  // namespace
+
+TEST_CASE("there are never more contacts than there is room for, the deepest first") {
+  const OdeSession session;
+  const Geom floor(dCreatePlane(nullptr, 0, 0, 1, 0));
+  const Geom brick(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), 20, 20));
+  dGeomSetPosition(brick, 0, 0, dReal(0.0499));
+  for (int room = 1; room <= 8; ++room) {
+    const Contacts contacts = collide(brick, floor, room);
+    REQUIRE(contacts.size() == static_cast<std::size_t>(std::min(room, 5)));
+    CHECK(contacts[0].depth == relative(1e-4));
+    // It does not lean: the face is as deep as its deepest point.
+    for (std::size_t k = 1; k < contacts.size(); ++k) CHECK(contacts[k].depth == relative(1e-4));
+  }
+}
+
+TEST_CASE("swapped geoms have the same contacts, the normals turned") {
+  const OdeSession session;
+  snSetWarmStart(0);
+  const Geom lower(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), 20, 12));
+  const Geom upper(snCreateSuperellipsoid(nullptr, dReal(0.08), dReal(0.09), dReal(0.05), 9, 30));
+  dGeomSetPosition(upper, dReal(0.03), dReal(0.02), dReal(0.0999));
+  const Contacts contacts = collide(lower, upper);
+  const Contacts swapped = collide(upper, lower);
+  REQUIRE(contacts.size() == 5);
+  REQUIRE(swapped.size() == 5);
+  for (std::size_t k = 0; k < 5; ++k) {
+    CHECK(norm(to_vec(contacts[k].pos) - to_vec(swapped[k].pos)) <= 1e-12);
+    CHECK(norm(to_vec(contacts[k].normal) + to_vec(swapped[k].normal)) <= 1e-12);
+    CHECK(contacts[k].g1 == lower.operator dGeomID());
+    CHECK(swapped[k].g1 == upper.operator dGeomID());
+  }
+}
+
+TEST_CASE("what carries a flat body does not jump while it tilts, nor while it comes in deeper") {
+  const OdeSession session;
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  const Geom box(dCreateBox(nullptr, dReal(0.5), dReal(0.5), dReal(0.2)));
+  dGeomSetPosition(box, dReal(0.02), dReal(0.01), dReal(-0.1));
+  constexpr double kMost = 0.02;  // of the weight
+  constexpr int kSteps = 4000;
+  for (const dGeomID under : {plane.operator dGeomID(), box.operator dGeomID()}) {
+    for (const double exponent : {5.0, 8.0, 60.0}) {
+      CAPTURE(exponent);
+      const Geom brick(
+          snCreateSuperellipsoid(nullptr, dReal(kLongest), dReal(0.07), dReal(0.05), dReal(exponent), dReal(exponent)));
+      Scale scale(brick, under);
+      Load previous;
+      double largest = 0;
+      const auto weigh = [&](bool is_first) {
+        const Load load = scale.weigh();
+        if (!is_first) largest = std::max(largest, std::max(norm(load.force - previous.force), norm(load.torque - previous.torque)));
+        previous = load;
+      };
+      for (int step = 0; step <= kSteps; ++step) {
+        place(brick, under, 1e-4 * (step - 200), 1.1, 2e-4);
+        weigh(step == 0);
+      }
+      CHECK(largest <= kMost);
+      largest = 0;
+      for (int step = 0; step <= kSteps; ++step) {
+        place(brick, under, 0.01, 1.1, 1e-5 * std::pow(1500, static_cast<double>(step) / kSteps));
+        weigh(step == 0);
+      }
+      CHECK(largest <= kMost);
+    }
+  }
+}
+
+TEST_CASE("a face has as many contacts at any depth up to 30 % of its half-height") {
+  const OdeSession session;
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  const Geom box(dCreateBox(nullptr, 1, 1, dReal(0.4)));
+  const Geom table(snCreateSuperellipsoid(nullptr, dReal(0.5), dReal(0.5), dReal(0.2), 60, 60));
+  dGeomSetPosition(box, 0, 0, dReal(-0.2));
+  dGeomSetPosition(table, 0, 0, dReal(-0.2));
+  for (const dGeomID under : {plane.operator dGeomID(), box.operator dGeomID(), table.operator dGeomID()}) {
+    for (const double exponent : {8.0, 12.0, 20.0, 60.0, 200.0}) {
+      CAPTURE(exponent);
+      const Geom brick(
+          snCreateSuperellipsoid(nullptr, dReal(kLongest), dReal(0.07), dReal(0.05), dReal(exponent), dReal(exponent)));
+      for (const double depth : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 4e-3, 7e-3, 0.01, 0.015}) {
+        CAPTURE(depth);
+        dGeomSetPosition(brick, 0, 0, dReal(0.05 - depth));
+        for (int room = 2; room <= 8; ++room) CHECK(collide(brick, under, room).size() == static_cast<std::size_t>(std::min(room, 5)));
+      }
+    }
+  }
+}
