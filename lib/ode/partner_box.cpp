@@ -1,4 +1,6 @@
 // Our bodies and dBox.
+#include <span>
+
 #include "ode/convert.hpp"
 #include "ode/partner.hpp"
 #include "ode/solve_pair.hpp"
@@ -16,7 +18,7 @@ ContactPatch query_box(dGeomID ours, dGeomID partner, Goal goal) {
   // Onto the box, where ODE's own contacts of dSphere and dBox are.
   const Vector3 onto_box = 0.5 * patch.deepest.gap * patch.deepest.normal;
   patch.deepest.contact += onto_box;
-  for (Vector3& corner : patch.corners) corner += onto_box;
+  for (Vector3& corner : std::span(patch.corners).first(static_cast<std::size_t>(patch.corner_count))) corner += onto_box;
   return patch;
 }
 

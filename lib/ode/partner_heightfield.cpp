@@ -160,7 +160,9 @@ int collide_with_heightfield(dGeomID ours, dGeomID partner, int flags, dContactG
       ContactPatch patch = find_plane_contact_patch(visitor.shape, visitor.pose, contact);
       draw_in_corners(patch, found.triangles);
       patch.deepest = to_world(contact, frame);
-      for (Vector3& corner : patch.corners) corner = frame.rotation * corner + frame.position;
+      for (Vector3& corner : std::span(patch.corners).first(static_cast<std::size_t>(patch.corner_count))) {
+        corner = frame.rotation * corner + frame.position;
+      }
       count = append_corners(patch, out, count);
     }
     return count;
