@@ -11,8 +11,9 @@
 
 namespace supernormal::test {
 
-/// A signalling NaN: with the traps of traps.hpp set, computing with it ends the program.
-inline constexpr std::uint64_t kSignallingNan = 0x7FF4'0000'0000'0000;
+/// A signalling NaN, as a double and as the second of two floats: with the traps of traps.hpp set, computing with it ends the
+/// program.
+inline constexpr std::uint64_t kSignallingNan = 0x7FF4'0000'7FA0'0000;
 
 /// What a variable that is never set may hold: zeros, nothing that can be computed with, moderate, huge and tiny numbers, and as an
 /// integer a negative one.

@@ -13,8 +13,8 @@ namespace {
 // A rotation that was typed with three decimals is one, and one that was scaled or sheared by a per cent is not.
 constexpr double kNearRotation = 1e-2;
 
-// The error of a rotation is squared by each: from the largest that is near to below rounding.
-constexpr int kMostSteps = 4;
+// A step squares the error of a rotation: from below this nothing is left but rounding.
+constexpr double kLastError = 1e-8;
 
 // The squares of larger entries would overflow.
 constexpr double kLargestEntry = 1e100;
@@ -41,9 +41,11 @@ Matrix3 nearest_rotation(const Matrix3& R, dGeomID geom) {
                                 ", unit vectors at right angles and right-handed");
   }
   Matrix3 Q = R;
-  for (int step = 0; step < kMostSteps && rotation_error(Q) > kRoundedRotation; ++step) {
+  double error = 0;
+  do {
+    error = rotation_error(Q);
     Q = Q * (1.5 * Matrix3::Identity() - 0.5 * Q.transpose() * Q);
-  }
+  } while (error > kLastError);
   return Q;
 }
 
