@@ -6,6 +6,7 @@
 #include <cfenv>
 #include <csignal>
 #include <cstring>
+#include <initializer_list>
 
 namespace supernormal::test {
 
