@@ -2,7 +2,9 @@
  *
  * Lengths in metres (or whatever unit the ODE world uses, consistently), directions as unit vectors. A body is an ordinary
  * placeable dGeomID: dGeomSetBody, dGeomSetOffset…, dSpaceAdd, dCollide and dGeomDestroy work as for the built-in classes.
- * The library may be used from several threads wherever ODE itself may; see README, "Threads".
+ * Rotations are orthonormal as ODE keeps them, or nearly so: where they are not to rounding, the nearest one is taken, and a geom
+ * whose rotation is 1 % off has no contacts and no answers (snLastError says so). The library may be used from several threads
+ * wherever ODE itself may; see README, "Threads".
  */
 #ifndef SUPERNORMAL_SUPERNORMAL_H
 #define SUPERNORMAL_SUPERNORMAL_H
@@ -113,7 +115,14 @@ SUPERNORMAL_API int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom);
 
 /* --- solver settings --------------------------------------------------------------------------------------------------- */
 
-typedef enum { SN_SOLVER_HYBRID, SN_SOLVER_NEWTON, SN_SOLVER_FIXED_POINT } snSolver;
+/* In C++, too, every int is a value of the type: one that names no solver is refused, and passing it is no undefined behaviour. */
+#ifdef __cplusplus
+#define SN_ENUM_BASE : int
+#else
+#define SN_ENUM_BASE
+#endif
+typedef enum snSolver SN_ENUM_BASE { SN_SOLVER_HYBRID, SN_SOLVER_NEWTON, SN_SOLVER_FIXED_POINT } snSolver;
+#undef SN_ENUM_BASE
 
 /* tolerance: the largest error of the gap that a query may leave, relative to the smallest half-extent of the two bodies, in
  * [1e-15, 1]; default 1e-9. max_evaluations: of the gap function, in [1, 1000000]; default 1000. A pair uses the tighter

@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include "ode/rotation.hpp"
 #include "supernormal/shapes/shape.hpp"
 #include "supernormal/solvers/pose.hpp"
 
@@ -17,7 +18,7 @@ inline void from_vector(const Vector3& v, dReal* out) {
   for (int i = 0; i < 3; ++i) out[i] = to_real(v[i]);
 }
 
-/// Row-major rows of four, as ODE keeps rotations.
+/// Row-major rows of four, as ODE keeps rotations; the numbers as they are.
 inline Matrix3 to_rotation(const dReal* R) {
   Matrix3 rotation;
   for (int row = 0; row < 3; ++row) {
@@ -26,8 +27,10 @@ inline Matrix3 to_rotation(const dReal* R) {
   return rotation;
 }
 
+/// The rotation of a placeable geom, orthonormal to rounding (rotation.hpp).
+inline Matrix3 rotation_of(dGeomID geom) { return orthonormal(to_rotation(dGeomGetRotation(geom)), geom); }
+
 /// Where a placeable geom is now. Asked anew in every call: inside a dGeomTransform ODE swaps the pose for the time of the call.
-/// The rotation is taken as it is; ODE keeps it orthonormal to rounding.
-inline Pose pose_of(dGeomID geom) { return {to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))}; }
+inline Pose pose_of(dGeomID geom) { return {to_vector(dGeomGetPosition(geom)), rotation_of(geom)}; }
 
 }  // namespace supernormal::ode

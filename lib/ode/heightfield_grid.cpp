@@ -43,7 +43,7 @@ bool is_on(const SampleAxis& axis, const std::vector<double>& coordinates) {
 
 // From one border to the other there is a whole number of cells, which makes the spacing exact.
 std::optional<SampleAxis> finite_axis(std::vector<double> coordinates, double half) {
-  std::erase_if(coordinates, [&](double x) { return std::abs(x) > half * (1 - 1e-9); });  // the border, to rounding
+  std::erase_if(coordinates, [&](double x) { return std::abs(x) > half * (1 - kBorder); });  // the border, to rounding
   coordinates.push_back(half);
   coordinates.insert(coordinates.begin(), -half);
   const double cells = std::round(2 * half / smallest_step(coordinates));
@@ -127,7 +127,9 @@ bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std:
   if (!probe.list_samples(spot, radius, samples)) return false;
   if (samples.empty()) return true;
   const Vector3 sample = samples[samples.size() / 2];  // not on the plane of the spot
-  for (const double step : {1e-6 * radius, -1e-6 * radius}) {
+  // Beside it, also after rounding.
+  const double aside = std::max(1e-6 * radius, 16 * kRealEpsilon * (std::abs(sample.x()) + std::abs(sample.z())));
+  for (const double step : {aside, -aside}) {
     Facet other;
     if (probe.find_facet(sample.x() + step, sample.z() + 0.6 * step, radius, other)) {
       return probe.list_samples(other, radius, samples);
@@ -138,8 +140,8 @@ bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std:
 
 // Where a rectangle holds no samples, its surface is a plane if its corners are on one: a kink would part them.
 bool is_plane_around(HeightfieldProbe& probe, const Facet& spot, double reach) {
-  const double limit_x = probe.half_width() * (1 - 1e-8);
-  const double limit_z = probe.half_depth() * (1 - 1e-8);
+  const double limit_x = probe.half_width() * kInside;
+  const double limit_z = probe.half_depth() * kInside;
   for (const double side_x : {-reach, reach}) {
     for (const double side_z : {-reach, reach}) {
       const double x = std::clamp(spot.x + side_x, -limit_x, limit_x);

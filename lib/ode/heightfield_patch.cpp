@@ -14,8 +14,6 @@ constexpr int kPoints = 32;      // where there is no grid
 // Farther away, in units of the region, a region's place among the samples is a matter of rounding, and their number no int.
 constexpr double kFarthest = 1e8;
 
-constexpr double kInside = 1 - 1e-8;  // of the extent: ODE answers no rays on the border
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Interval {

@@ -10,13 +10,8 @@
 namespace supernormal::ode {
 namespace {
 
-constexpr double kEpsilon = double{std::numeric_limits<dReal>::epsilon()};
-
 // Longer than any ray that has to get through a surface, and not infinite: ODE would multiply it by zero.
 constexpr double kRayLength = 1e18;
-
-// ODE 0.16 aborts on what reaches beyond the far border by a rounding error (heightfield.cpp, dIASSERT(nMinX < nMaxX)).
-constexpr double kBorder = 1e-9;
 
 constexpr int kMaxListed = 2048;
 
@@ -63,7 +58,7 @@ bool HeightfieldProbe::cast_down(double x, double z, double start, Facet& facet)
   facet.height = double{hit.pos[1]};
   facet.normal = -to_vector(hit.normal);
   const double slope = std::hypot(facet.normal.x(), facet.normal.z()) / facet.normal.y();
-  facet.rounding = kEpsilon * (std::abs(start) + std::abs(facet.height) + slope * (std::abs(x) + std::abs(z)));
+  facet.rounding = kRealEpsilon * (std::abs(start) + std::abs(facet.height) + slope * (std::abs(x) + std::abs(z)));
   // Of a start below all samples around ODE says that they are hit, though the ray goes down (heightfield.cpp, "totally under").
   return facet.height < start && facet.normal.allFinite() && facet.normal.y() > 0;
 }

@@ -4,11 +4,21 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal::ode {
+
+/// Of dReal: what ODE is told, and tells, is rounded to it.
+inline constexpr double kRealEpsilon = double{std::numeric_limits<dReal>::epsilon()};
+
+/// Of the extent: ODE 0.16 aborts on what reaches beyond the far border by a rounding error (heightfield.cpp,
+/// dIASSERT(nMinX < nMaxX)), and answers no rays on the border.
+inline constexpr double kBorder = std::max(1e-9, 8 * kRealEpsilon);
+inline constexpr double kInside = 1 - 10 * kBorder;
 
 /// The plane of the triangle at some (x, z).
 struct Facet {

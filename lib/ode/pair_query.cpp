@@ -25,7 +25,7 @@ Proximity query(dGeomID ours, dGeomID partner, Goal goal) {
   }
   Proximity result = pair_query(ours, partner, goal).deepest;
   if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {
-    throw std::invalid_argument("the pose of a geom, or what a user-defined body returned, is not finite");
+    throw std::invalid_argument("the pose of a geom" + no_answer_because());
   }
   return result;
 }

@@ -32,6 +32,7 @@ Pose pose_of_heightfield(dGeomID heightfield) {
     dGeomVectorToWorld(heightfield, to_real(unit.x()), to_real(unit.y()), to_real(unit.z()), column);
     pose.rotation.col(axis) = to_vector(column);
   }
+  pose.rotation = orthonormal(pose.rotation, heightfield);
   return pose;
 }
 

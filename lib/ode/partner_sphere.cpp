@@ -11,7 +11,7 @@ namespace supernormal::ode {
 // the body. And the normals at which s has its maxima do not depend on the radius: any sphere that has come to this place will do.
 ContactManifold query_sphere(dGeomID ours, dGeomID partner, Goal goal) {
   const Sphere sphere(dGeomSphereGetRadius(partner));
-  const Pose pose{to_vector(dGeomGetPosition(partner)), to_rotation(dGeomGetRotation(ours))};
+  const Pose pose{to_vector(dGeomGetPosition(partner)), rotation_of(ours)};
   return solve_pair(ours, {sphere, pose, partner_kind(dSphereClass, {})}, goal);
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "ode/body.hpp"
 #include "ode/convert.hpp"
@@ -18,10 +19,10 @@ using namespace supernormal::ode;
 extern "C" dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z) {
   return guarded("snGeomPointDepth", std::numeric_limits<dReal>::quiet_NaN(), [&] {
     const Body& body = require_body(geom);
-    const Pose point_pose{require_finite("point", Vector3(x, y, z)), Matrix3::Identity()};
+    const Pose point_pose{require_place(Vector3(x, y, z)), Matrix3::Identity()};
     const Settings settings = for_goal(body.settings(), Goal::Distance);
     const Proximity result = find_proximity(body.shape(), pose_of(geom), Sphere(0), point_pose, settings);
-    if (result.status == Status::InvalidInput) throw std::invalid_argument("the pose of geom is not finite");
+    if (result.status == Status::InvalidInput) throw std::invalid_argument("the pose of geom" + no_answer_because());
     return to_real(0 - result.gap);  // 0 - 0 is +0
   });
 }

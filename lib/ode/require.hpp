@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shapes/validation.hpp"
+#include "solvers/usable_pose.hpp"
 
 namespace supernormal::ode {
 
@@ -23,6 +24,18 @@ inline Vector3 require_finite(const char* name, const Vector3& value) {
   if (value.allFinite()) return value;
   throw std::invalid_argument(std::string(name) + " = (" + to_text(value.x()) + ", " + to_text(value.y()) + ", " +
                               to_text(value.z()) + ") is not finite");
+}
+
+/// Of a point, m: the refusal names the coordinate and the range that can be computed with.
+inline Vector3 require_place(const Vector3& point) {
+  const char* const names[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) require_in(names[axis], point[axis], -kFarthest, kFarthest, "m");
+  return point;
+}
+
+/// What is wrong where the core refuses a query, after whose pose it may be.
+inline std::string no_answer_because() {
+  return ", or what a user-defined body returned, is not finite, or a position is not within " + to_text(kFarthest) + " m";
 }
 
 }  // namespace supernormal::ode

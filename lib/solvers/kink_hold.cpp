@@ -20,8 +20,9 @@ Symmetric2 KinkHold::curvature_that_counts(const Symmetric2& A, std::span<const 
   if (Eigen2(A).low > 0) return A;
   std::array<Piece, kMaxTied> tied;
   std::size_t count = 0;
+  const double level = lowest_value(pieces) + rounding_;
   for (const Piece& piece : pieces) {
-    if (piece.value <= rounding_ && count < tied.size()) tied[count++] = {0, piece.slope};
+    if (piece.value <= level && count < tied.size()) tied[count++] = {0, piece.slope};
   }
   const PiecewiseModel::Peak rest = holding({tied.data(), count});
   const double size = std::max(std::abs(A.xx) + std::abs(A.yy), length_unit_);

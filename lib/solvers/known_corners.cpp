@@ -26,14 +26,14 @@ void KnownCorners::settle(GapJet& jet, Corners& here) {
   collect(jet, here, plane_at(jet.n));
   if (here.is_partial()) remember(jet.jet2.r);
   // Only the pieces that meet here, as if they met exactly.
+  const double lowest = lowest_value({pieces_.data(), count_});
   std::size_t tied = 0;
   for (std::size_t k = 0; k < count_; ++k) {
     const double rounding = kTieUnits * std::numeric_limits<double>::epsilon() * (corners_[k].norm() + jet.jet2.r.norm());
-    if (pieces_[k].value > rounding) continue;
+    if (pieces_[k].value > lowest + rounding) continue;
     corners_[tied] = corners_[k];
     pieces_[tied++] = {0, pieces_[k].slope};
   }
-  if (tied == 0) return;
   const auto nearest = PiecewiseModel{{pieces_.data(), tied}, {1, 0, 1}}.maximize();
   jet.jet2.r.setZero();
   for (std::size_t i = 0; i < nearest.count; ++i) jet.jet2.r += nearest.weight[i] * corners_[nearest.active[i]];
@@ -48,6 +48,8 @@ std::span<const Piece> KnownCorners::pieces(const GapJet& jet, const Corners& he
 void KnownCorners::collect(const GapJet& jet, const Corners& here, const TangentPlane& plane1) {
   count_ = 0;
   for (int k = 0; k < here.size(); ++k) add_piece(jet, here[k], plane1);
+  // A body with kinks that names none of its corners has a boundary point all the same.
+  if (count_ == 0) add_piece(jet, jet.jet2.r, plane1);
   if (!here.is_partial()) return;
   const std::size_t named = count_;
   for (std::size_t k = 0; k < std::min(earlier_count_, kEarlier); ++k) {

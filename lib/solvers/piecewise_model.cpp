@@ -107,7 +107,14 @@ class Candidates {
 
 }  // namespace
 
+double lowest_value(std::span<const Piece> pieces) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces) lowest = std::min(lowest, piece.value);
+  return lowest;
+}
+
 PiecewiseModel::Peak PiecewiseModel::maximize() const {
+  if (pieces.empty()) return {Vector2::Zero(), std::numeric_limits<double>::infinity(), {}, {}, 0};
   Indices subset{};
   for (std::size_t k = 1; k < pieces.size(); ++k) {
     if (pieces[k].value < pieces[subset[0]].value) subset[0] = k;

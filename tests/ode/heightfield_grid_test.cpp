@@ -46,15 +46,15 @@ Facet facet_near(HeightfieldProbe& probe, const Terrain& terrain, double u, doub
 
 void check_axis(const SampleAxis& axis, double spacing, double half, int count, bool repeats) {
   if (!repeats) {
-    CHECK(axis.spacing == spacing);
-    CHECK(axis.half == half);
+    CHECK(std::abs(axis.spacing - spacing) <= within_rounding(0) * spacing);
+    CHECK(std::abs(axis.half - half) <= within_rounding(0) * half);
     CHECK(axis.count == count);
     return;
   }
-  CHECK(axis.spacing == relative(spacing).epsilon(1e-13));
+  CHECK(axis.spacing == relative(spacing).epsilon(within_rounding(1e-13)));
   CHECK(axis.count == 0);
   const double shift = (axis.half - half) / spacing;
-  CHECK(std::abs(shift - std::round(shift)) < 1e-12 * (1 + std::abs(shift)));
+  CHECK(std::abs(shift - std::round(shift)) < within_rounding(1e-12) * (1 + std::abs(shift)));
 }
 
 // Every triangle's vertices are samples, and every cell of the region is there with both.
@@ -88,7 +88,7 @@ void check_triangles(std::span<const MeshTriangle> triangles, const Terrain& ter
       }
     }
   }
-  CHECK(worst <= 1e-14 * largest);
+  CHECK(worst <= within_rounding(1e-14) * largest);
 }
 
 }  // namespace
@@ -203,9 +203,9 @@ TEST_CASE("an infinite heightfield far from the origin") {
         const auto i = std::llround((v.x() + 1.15) / terrain.spacing_x());
         const auto j = std::llround((v.z() + 1.55) / terrain.spacing_z());
         const Vec sample = terrain.vertex(i, j);
-        CHECK(std::abs(v.x() - sample[0]) < 1e-15 * std::abs(far));
-        CHECK(std::abs(v.z() - sample[2]) < 1e-15 * std::abs(far));
-        CHECK(std::abs(v.y() - sample[1]) < 4e-15 * std::abs(far));
+        CHECK(std::abs(v.x() - sample[0]) < within_rounding(1e-15) * std::abs(far));
+        CHECK(std::abs(v.z() - sample[2]) < within_rounding(1e-15) * std::abs(far));
+        CHECK(std::abs(v.y() - sample[1]) < within_rounding(4e-15) * std::abs(far));
       }
     }
     // Learned near the origin, used far away.
@@ -227,7 +227,7 @@ TEST_CASE("a plane shows no grid, and is one") {
     const std::span<const MeshTriangle> triangles = patch.read(HeightfieldProbe::looking_at(geom), {-1.2, 0.4, 2, 3.7});
     REQUIRE(triangles.size() >= 2);
     for (const MeshTriangle& triangle : triangles) {
-      for (const Vector3& v : triangle.vertices) CHECK(std::abs(v.y() - terrain.surface(v.x(), v.z())) < 1e-14);
+      for (const Vector3& v : triangle.vertices) CHECK(std::abs(v.y() - terrain.surface(v.x(), v.z())) < within_rounding(1e-14));
     }
   }
 }
@@ -259,6 +259,7 @@ TEST_CASE("more cells than can be read: points of the surface") {
   CHECK(triangles.size() == 2 * 512 * 512);
   for (std::size_t k = 0; k < triangles.size(); k += 97) {
     const Vector3& v = triangles[k].vertices[0];
-    if (std::abs(v.x()) < 5.99 && std::abs(v.z()) < 5.99) CHECK(std::abs(v.y() - terrain.surface(v.x(), v.z())) < 1e-13);
+    if (std::abs(v.x()) < 5.99 && std::abs(v.z()) < 5.99)
+      CHECK(std::abs(v.y() - terrain.surface(v.x(), v.z())) < within_rounding(1e-13));
   }
 }

@@ -11,9 +11,9 @@ namespace {
 // Principal moments per mass from the second moments, and nothing off the diagonal.
 void check_inertia(const dMass& mass, const Vec& squares) {
   const double m = mass.mass;
-  CHECK(mass.I[0] == relative(m * (squares[1] + squares[2])).epsilon(1e-12));
-  CHECK(mass.I[5] == relative(m * (squares[0] + squares[2])).epsilon(1e-12));
-  CHECK(mass.I[10] == relative(m * (squares[0] + squares[1])).epsilon(1e-12));
+  CHECK(mass.I[0] == relative(m * (squares[1] + squares[2])).epsilon(within_rounding(1e-12)));
+  CHECK(mass.I[5] == relative(m * (squares[0] + squares[2])).epsilon(within_rounding(1e-12)));
+  CHECK(mass.I[10] == relative(m * (squares[0] + squares[1])).epsilon(within_rounding(1e-12)));
   for (const int off_diagonal : {1, 2, 4, 6, 8, 9}) CHECK(std::abs(mass.I[off_diagonal]) < 1e-14 * m);
 }
 
@@ -31,7 +31,7 @@ TEST_CASE("ellipsoid: the textbook") {
   const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
   dMass mass;
   REQUIRE(snMassSet(&mass, 1000, geom) == 1);
-  CHECK(mass.mass == relative(1000 * 4.0 / 3 * std::acos(-1.0) * 6).epsilon(1e-14));
+  CHECK(mass.mass == relative(1000 * 4.0 / 3 * std::acos(-1.0) * 6).epsilon(within_rounding(1e-14)));
   check_inertia(mass, {9.0 / 5, 4.0 / 5, 1.0 / 5});
   CHECK(dMassCheck(&mass) == 1);
 
@@ -39,8 +39,8 @@ TEST_CASE("ellipsoid: the textbook") {
   dMass reference;
   dMassSetSphere(&reference, 7, 2);
   REQUIRE(snMassSet(&mass, 7, sphere) == 1);
-  CHECK(mass.mass == relative(reference.mass).epsilon(1e-14));
-  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(1e-14));
+  CHECK(mass.mass == relative(reference.mass).epsilon(within_rounding(1e-14)));
+  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-14)));
 }
 
 TEST_CASE("superellipsoids: the values of shared/reference/README.md, 'Volume and inertia (closed form)'") {
@@ -50,16 +50,16 @@ TEST_CASE("superellipsoids: the values of shared/reference/README.md, 'Volume an
     const Geom geom(
         snCreateSuperellipsoid(nullptr, 3, 2, 1, 4, 4));  // "(3,2,1; 4,4): V = 38.8919241107183, <x^2> = 2.4675115376401"
     REQUIRE(snMassSet(&mass, 2, geom) == 1);
-    CHECK(mass.mass == relative(2 * 38.8919241107183).epsilon(1e-13));
+    CHECK(mass.mass == relative(2 * 38.8919241107183).epsilon(within_rounding(1e-13)));
     const double xx = (mass.I[5] + mass.I[10] - mass.I[0]) / (2 * mass.mass);
-    CHECK(xx == relative(2.4675115376401).epsilon(1e-13));
+    CHECK(xx == relative(2.4675115376401).epsilon(within_rounding(1e-13)));
   }
   {
     // "(1,0.8,0.6; delta 1.3, epsilon 5): V = 2.18581004266971, <x^2>, <y^2>, <z^2> = 0.189146356547047, 0.12105366819011,
     // 0.104342869785707"
     const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), dReal(1.3), 5));
     REQUIRE(snMassSet(&mass, 1, geom) == 1);
-    CHECK(mass.mass == relative(2.18581004266971).epsilon(1e-13));
+    CHECK(mass.mass == relative(2.18581004266971).epsilon(within_rounding(1e-13)));
     check_inertia(mass, {0.189146356547047, 0.12105366819011, 0.104342869785707});
   }
 }
@@ -71,7 +71,8 @@ TEST_CASE("total mass: the same body, scaled") {
   REQUIRE(snMassSet(&by_density, 1, geom) == 1);
   REQUIRE(snMassSetTotal(&by_total, 42, geom) == 1);
   CHECK(by_total.mass == relative(42).epsilon(1e-14));
-  for (const int i : {0, 5, 10}) CHECK(by_total.I[i] / by_total.mass == relative(by_density.I[i] / by_density.mass).epsilon(1e-14));
+  for (const int i : {0, 5, 10})
+    CHECK(by_total.I[i] / by_total.mass == relative(by_density.I[i] / by_density.mass).epsilon(within_rounding(1e-14)));
 }
 
 TEST_CASE("rounding: a swept sphere is a larger sphere") {
@@ -81,8 +82,8 @@ TEST_CASE("rounding: a swept sphere is a larger sphere") {
   dMass mass, reference;
   dMassSetSphere(&reference, 3, dReal(1.5));
   REQUIRE(snMassSet(&mass, 3, geom) == 1);
-  CHECK(mass.mass == relative(reference.mass).epsilon(1e-9));
-  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(1e-9));
+  CHECK(mass.mass == relative(reference.mass).epsilon(within_rounding(1e-9)));
+  for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-9)));
 }
 
 TEST_CASE("a centre of mass off the origin: what dMassTranslate gives for a sphere") {
@@ -94,11 +95,11 @@ TEST_CASE("a centre of mass off the origin: what dMassTranslate gives for a sphe
   dMassSetSphere(&reference, 5, 1);
   dMassTranslate(&reference, dReal(kOffset[0]), dReal(kOffset[1]), dReal(kOffset[2]));
   REQUIRE(snMassSet(&mass, 5, geom) == 1);
-  CHECK(mass.mass == relative(reference.mass).epsilon(1e-9));
-  for (std::size_t i = 0; i < 3; ++i) CHECK(mass.c[i] == relative(kOffset[i]).epsilon(1e-9));
+  CHECK(mass.mass == relative(reference.mass).epsilon(within_rounding(1e-9)));
+  for (std::size_t i = 0; i < 3; ++i) CHECK(mass.c[i] == relative(kOffset[i]).epsilon(within_rounding(1e-9)));
   for (int i = 0; i < 12; ++i) {
     if (i % 4 == 3) continue;  // padding
-    CHECK(mass.I[i] == relative(reference.I[i]).epsilon(1e-8));
+    CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-8)));
   }
   CHECK(dMassCheck(&mass) == 1);
 }

@@ -131,7 +131,7 @@ TEST_CASE("a ball and a mesh with hollows: as far as its centre from the nearest
       if (std::abs(gap) < 1e-9) continue;
       CHECK(contacts.empty() == (gap > 0));
       if (gap < -0.1 * radius) continue;  // deeper, the planes on both sides of a hollow count farther than they are seen
-      CHECK(std::abs(proximity.gap - gap) < 1e-9 * radius);
+      CHECK(std::abs(proximity.gap - gap) < within_rounding(1e-9) * radius);
       if (gap < 0) ++touching;
     }
     CHECK(touching > 30);

@@ -3,8 +3,10 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -86,6 +88,15 @@ class Random {
 inline void place(dGeomID geom, const Vec& p) { dGeomSetPosition(geom, dReal(p[0]), dReal(p[1]), dReal(p[2])); }
 
 inline void move(dGeomID geom, const Vec& by) { place(geom, to_vec(dGeomGetPosition(geom)) + by); }
+
+inline constexpr bool kIsSinglePrecision = sizeof(dReal) == sizeof(float);
+
+/// A tolerance of double precision. With single precision, what rounding of dReal leaves of it: some units in the last place of
+/// poses, normals and depths of about this size, which is all that ODE is told.
+inline double within_rounding(double tolerance, double size = 1) {
+  constexpr double kEpsilon = std::numeric_limits<dReal>::epsilon();
+  return kIsSinglePrecision ? std::max(tolerance, 32 * kEpsilon * size) : tolerance;
+}
 
 /// All contacts of a pair, at most `room`.
 inline std::vector<dContactGeom> collide(dGeomID g1, dGeomID g2, int room = 8) {

@@ -57,12 +57,12 @@ double distance_from(dGeomID partner, const Vec& point) {
 
 // Of a dConvex we know no formula: a small sphere at the point touches it from the side of the normal.
 bool is_on(dGeomID partner, const Vec& point, const Vec& outward) {
-  constexpr double kTolerance = 3e-9;
-  if (dGeomGetClass(partner) != dConvexClass) return std::abs(distance_from(partner, point)) < kTolerance;
+  const double tolerance = within_rounding(3e-9);
+  if (dGeomGetClass(partner) != dConvexClass) return std::abs(distance_from(partner, point)) < tolerance;
   constexpr double kRadius = 0.01;
   const Geom ball(snCreateEllipsoid(nullptr, dReal(kRadius), dReal(kRadius), dReal(kRadius)));
   place(ball, point + kRadius * outward);
-  return std::abs(proximity(ball, partner).gap) < kTolerance;
+  return std::abs(proximity(ball, partner).gap) < tolerance;
 }
 
 void check_swapped(dGeomID body, dGeomID partner, const snProximity& forth) {
@@ -78,11 +78,11 @@ void check_answer(dGeomID body, dGeomID partner, const snProximity& answer) {
   const Vec d = to_vec(answer.point2) - to_vec(answer.point1);
   CHECK(answer.converged == 1);
   CHECK(answer.error >= 0);
-  CHECK(std::abs(norm(normal) - 1) < 1e-14);
-  CHECK(std::abs(dot(d, normal) - answer.gap) < 1e-13);
-  CHECK(std::abs(snGeomPointDepth(body, answer.point1[0], answer.point1[1], answer.point1[2])) < 3e-9);
+  CHECK(std::abs(norm(normal) - 1) < within_rounding(1e-14));
+  CHECK(std::abs(dot(d, normal) - answer.gap) < within_rounding(1e-13));
+  CHECK(std::abs(snGeomPointDepth(body, answer.point1[0], answer.point1[1], answer.point1[2])) < within_rounding(3e-9));
   CHECK(is_on(partner, to_vec(answer.point2), -1.0 * normal));
-  if (answer.gap > 0) CHECK(norm(d) >= answer.gap - 1e-13);
+  if (answer.gap > 0) CHECK(norm(d) >= answer.gap - within_rounding(1e-13));
   check_swapped(body, partner, answer);
 }
 
@@ -106,14 +106,14 @@ TEST_CASE("points on both surfaces, a gap apart along the normal; moved by the g
 
       move(body, double{apart.gap} * to_vec(apart.normal));
       const snProximity touching = proximity(body, partner);
-      CHECK(std::abs(touching.gap) < 3e-9);
+      CHECK(std::abs(touching.gap) < within_rounding(3e-9));
       check_answer(body, partner, touching);
 
       const double depth = random.uniform(0.001, 0.3) * std::min(size_of(body), 0.1);
       move(body, depth * to_vec(apart.normal));
       const snProximity overlapping = proximity(body, partner);
       CHECK(overlapping.gap < 0);
-      CHECK(overlapping.gap > -depth - 3e-9);
+      CHECK(overlapping.gap > -depth - within_rounding(3e-9));
       check_answer(body, partner, overlapping);
       const auto contacts = collide(body, partner, 1);
       REQUIRE(contacts.size() == 1);

@@ -44,7 +44,7 @@ std::vector<dContactGeom> hit(dGeomID ray, dGeomID body) {
     CHECK(contacts[i].depth == turned[i].depth);
     CHECK(contacts[i].side1 == -1);
     CHECK(contacts[i].side2 == -1);
-    CHECK(std::abs(norm(to_vec(contacts[i].normal)) - 1) < 1e-15);
+    CHECK(std::abs(norm(to_vec(contacts[i].normal)) - 1) < within_rounding(1e-15));
   }
   return contacts;
 }
@@ -78,8 +78,8 @@ void check_on_boundary(dGeomID body, const dContactGeom& contact, const Vec& dir
   const bool is_from_inside =
       dot(to_vec(contact.normal), support(body, to_vec(contact.normal)) - pos) > 1e-3 && dot(to_vec(contact.normal), direction) < 0;
   const Vec outward = is_from_inside ? -1.0 * to_vec(contact.normal) : to_vec(contact.normal);
-  CHECK(std::abs(dot(outward, support(body, outward) - pos)) < 1e-9);
-  CHECK(snGeomPointDepth(body, contact.pos[0], contact.pos[1], contact.pos[2]) > -1e-9);
+  CHECK(std::abs(dot(outward, support(body, outward) - pos)) < within_rounding(1e-9));
+  CHECK(snGeomPointDepth(body, contact.pos[0], contact.pos[1], contact.pos[2]) > -within_rounding(1e-9));
 }
 
 }  // namespace
@@ -119,9 +119,9 @@ TEST_CASE("as dSphere against rays, from outside and inside") {
         continue;
       }
       ++(C < 0 ? inside : outside);
-      CHECK(std::abs(found[0].depth - reference[0].depth) < 1e-9);
-      CHECK(norm(to_vec(found[0].normal) - to_vec(reference[0].normal)) < 1e-9);
-      CHECK(norm(to_vec(found[0].pos) - to_vec(reference[0].pos)) < 1e-9);
+      CHECK(std::abs(found[0].depth - reference[0].depth) < within_rounding(1e-9));
+      CHECK(norm(to_vec(found[0].normal) - to_vec(reference[0].normal)) < within_rounding(1e-9));
+      CHECK(norm(to_vec(found[0].pos) - to_vec(reference[0].pos)) < within_rounding(1e-9));
     }
   }
   CHECK(outside > 1000);
@@ -168,8 +168,8 @@ TEST_CASE("ODE's ray battery for our bodies") {
     dGeomRaySetLength(ray, dReal(1.0001 * distance));
     const auto frontal = hit(ray, body);
     REQUIRE(frontal.size() == 1);
-    CHECK(norm(to_vec(frontal[0].pos) - p) < 1e-9 / std::abs(dot(inward, n)));
-    CHECK(std::abs(frontal[0].depth - distance) < 1e-9 / std::abs(dot(inward, n)));
+    CHECK(norm(to_vec(frontal[0].pos) - p) < within_rounding(1e-9) / std::abs(dot(inward, n)));
+    CHECK(std::abs(frontal[0].depth - distance) < within_rounding(1e-9) / std::abs(dot(inward, n)));
 
     // Random rays from inside and outside.
     const Vec direction = random.direction();
@@ -245,8 +245,8 @@ TEST_CASE("by dGeomRaySet or by pose, at rest or carried by a body with an offse
     for (const dGeomID other : {dGeomID(set), dGeomID(carried)}) {
       const auto contacts = hit(other, body);
       REQUIRE(contacts.size() == 1);
-      CHECK(std::abs(contacts[0].depth - reference[0].depth) < 1e-12);
-      CHECK(norm(to_vec(contacts[0].pos) - to_vec(reference[0].pos)) < 1e-12);
+      CHECK(std::abs(contacts[0].depth - reference[0].depth) < within_rounding(1e-12));
+      CHECK(norm(to_vec(contacts[0].pos) - to_vec(reference[0].pos)) < within_rounding(1e-12));
     }
   }
   dWorldDestroy(world);
@@ -345,10 +345,10 @@ TEST_CASE("snGeomProximity of a body and a ray: the distance of the segment") {
     if (gap < 0) continue;
     snProximity answer;
     REQUIRE(snGeomProximity(ray, body, &answer) == 1);
-    CHECK(std::abs(answer.gap - gap) < 1e-9);
+    CHECK(std::abs(answer.gap - gap) < within_rounding(1e-9));
     CHECK(norm(to_vec(answer.point1) - nearest) < 1e-4);
     CHECK(dot(to_vec(answer.normal), c - nearest) > 0);
     REQUIRE(snGeomProximity(body, ray, &answer) == 1);
-    CHECK(std::abs(answer.gap - gap) < 1e-9);
+    CHECK(std::abs(answer.gap - gap) < within_rounding(1e-9));
   }
 }

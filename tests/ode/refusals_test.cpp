@@ -115,7 +115,11 @@ TEST_CASE("solver settings") {
   check_both(SN_SOLVER_HYBRID, kNan, 10, "tolerance = nan", "[1e-15, 1]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 0, "max_evaluations = 0", "[1, 1000000]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 1000001, "max_evaluations = 1000001", "[1, 1000000]");
-  check_both(static_cast<snSolver>(3), dReal(1e-9), 10, "solver = 3", "SN_SOLVER_FIXED_POINT (2)");
+  // As C passes them: any int, before anything has looked at it.
+  for (const int number : {3, 7, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
+    check_both(static_cast<snSolver>(number), dReal(1e-9), 10, ("solver = " + std::to_string(number) + " ").c_str(),
+               "SN_SOLVER_FIXED_POINT (2)");
+  }
 }
 
 TEST_CASE("mass, support, point, proximity") {
@@ -147,7 +151,15 @@ TEST_CASE("mass, support, point, proximity") {
   CHECK(point[0] == 7);
 
   CHECK(std::isnan(snGeomPointDepth(geom, 0, kInf, 0)));
-  check_error("snGeomPointDepth", "point = (0, inf, 0)", "not finite");
+  check_error("snGeomPointDepth", "y = inf m", "[-1e+150, 1e+150] m");
+  if (largest > 1e150) {
+    CHECK(std::isnan(snGeomPointDepth(geom, 0, 0, dReal(-1e300))));
+    check_error("snGeomPointDepth", "z = -1e+300 m", "[-1e+150, 1e+150] m");
+    dGeomSetPosition(geom, dReal(1e300), 0, 0);
+    CHECK(std::isnan(snGeomPointDepth(geom, 0, 0, 0)));
+    check_error("snGeomPointDepth", "the pose of geom", "within 1e+150 m");
+    dGeomSetPosition(geom, 0, 0, 0);
+  }
 
   snProximity answer;
   answer.gap = 7;

@@ -136,9 +136,10 @@ TEST_CASE("a box whose corner is in the bounding box but not near the body is pr
     return count;
   };
   const double touching = 0.5 + 1 / std::sqrt(3.0);  // corner on the unit sphere
-  place(box, {touching - 1e-9, touching - 1e-9, touching - 1e-9});
+  const double aside = within_rounding(1e-9, 4);
+  place(box, {touching - aside, touching - aside, touching - aside});
   CHECK(calls() == 1);
-  place(box, {touching + 1e-9, touching + 1e-9, touching + 1e-9});
+  place(box, {touching + aside, touching + aside, touching + aside});
   CHECK(calls() == 0);
   dSpaceDestroy(space);
 }

@@ -126,7 +126,8 @@ dGeomID make_slider(const std::string& kind) {
 
 }  // namespace
 
-TEST_CASE("10 m across 20 000 triangles: as on a plane") {
+// With single precision micrometres are not to be seen over 10 m: they are the spacing of its numbers.
+TEST_CASE("10 m across 20 000 triangles: as on a plane" * doctest::skip(kIsSinglePrecision)) {
   OdeSession session;
   struct Case {
     const char* kind;
@@ -158,11 +159,11 @@ TEST_CASE("10 m across 20 000 triangles: as on a plane") {
     }
     CHECK(travelled >= 10);
     CHECK(difference < 1e-6);
-    CHECK(vertical < 1e-6);
+    CHECK(vertical < within_rounding(1e-6));
   }
 }
 
-TEST_CASE("10 m across a turned and moved floor, whose vertices are rounded") {
+TEST_CASE("10 m across a turned and moved floor, whose vertices are rounded" * doctest::skip(kIsSinglePrecision)) {
   OdeSession session;
   Random random(32);
   const MeshGeom floor(floor_arrays(100, 100, 0.1));  // 0.1 is no float
@@ -226,8 +227,8 @@ TEST_CASE("a turned and moved block against dBox: sphere-shaped bodies") {
     if (reference[0].depth < 1e-9) continue;
     ++contacts;
     REQUIRE(found.size() == 1);
-    CHECK(std::abs(found[0].depth - reference[0].depth) < 1e-9);
-    CHECK(norm(to_vec(found[0].normal) - to_vec(reference[0].normal)) < 1e-6);
+    CHECK(std::abs(found[0].depth - reference[0].depth) < within_rounding(1e-9));
+    CHECK(norm(to_vec(found[0].normal) - to_vec(reference[0].normal)) < within_rounding(1e-6, 4));
     CHECK(std::abs(proximity.gap + found[0].depth) < 1e-12);
   }
   CHECK(contacts > 500);
@@ -248,7 +249,7 @@ TEST_CASE("distances: the nearest triangle, however far") {
     snProximity other;
     REQUIRE(snGeomProximity(ball, block, &one) == 1);
     REQUIRE(snGeomProximity(block, ball, &other) == 1);
-    CHECK(std::abs(one.gap - (norm(where - nearest) - radius)) < 1e-9);
+    CHECK(std::abs(one.gap - (norm(where - nearest) - radius)) < within_rounding(1e-9, norm(where)));
     CHECK(norm(to_vec(one.point2) - nearest) < 1e-4);
     CHECK(one.gap == other.gap);
     CHECK(to_vec(one.normal) == -1.0 * to_vec(other.normal));

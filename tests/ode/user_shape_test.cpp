@@ -52,6 +52,8 @@ snShape describe(Egg& egg, bool with_hessian) {
 
 TEST_CASE("collides as the built-in body of the same form") {
   OdeSession session;
+  // What the functions of a user's body return is as good as dReal: with single precision it converges to no more than that.
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(within_rounding(1e-9, 100)), 1000);
   Random random(12);
   Egg egg;
   for (const bool with_hessian : {true, false}) {
@@ -73,7 +75,7 @@ TEST_CASE("collides as the built-in body of the same form") {
         REQUIRE(snGeomProximity(user, other, &mine) == 1);
         REQUIRE(snGeomProximity(built_in, other, &reference) == 1);
         CHECK(mine.converged == 1);
-        CHECK(std::abs(mine.gap - reference.gap) < 3e-9);
+        CHECK(std::abs(mine.gap - reference.gap) < within_rounding(3e-9, 100));
       }
     }
   }

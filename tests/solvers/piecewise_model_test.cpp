@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "relative.hpp"
+#include "solvers/kink_hold.hpp"
 
 using namespace supernormal;
 
@@ -136,4 +137,24 @@ TEST_CASE("pieces that are parallel but for rounding meet nowhere, and raise no 
   CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
   CHECK(peak.u.allFinite());
   CHECK(peak.gain == test::relative(-3));
+}
+
+TEST_CASE("where there is no piece, nothing bounds the gain and nothing is active") {
+  for (const PiecewiseModel::Peak& peak : {PiecewiseModel{{}, {1, 0, 1}}.maximize(), PiecewiseModel{{}, {1, 0, 1}}.maximize(0.5)}) {
+    CHECK(peak.count == 0);
+    CHECK(peak.u == Vector2::Zero());
+    CHECK(peak.gain == std::numeric_limits<double>::infinity());
+  }
+}
+
+TEST_CASE("corners hold the normal together when they are as low as each other, whatever the support function is rounded to") {
+  constexpr double kRounding = 1e-16;
+  const KinkHold hold(0, kRounding, 1);
+  const Symmetric2 saddle{-1, 0, 1};
+  for (const double level : {0.0, 0.5 * kRounding, 3 * kRounding, 1.0}) {
+    const std::vector<Piece> edge = {{level, {1, 0}}, {level, {-1, 0}}, {level + 2, {0, 1}}};
+    const Symmetric2 held = hold.curvature_that_counts(saddle, edge);
+    CHECK(held.xx > 0);
+    CHECK(held.yy == 1);
+  }
 }

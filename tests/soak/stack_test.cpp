@@ -1,0 +1,46 @@
+// What was on the stack before does not decide an answer: every hard case, and what the soak program draws.
+#include <doctest/doctest.h>
+
+#include "painted_stack.hpp"
+#include "sample.hpp"
+#include "supernormal/solvers/solve.hpp"
+#include "traps.hpp"
+
+using namespace supernormal;
+using namespace supernormal::soak;
+using namespace supernormal::test;
+
+namespace {
+
+constexpr std::uint64_t kSamples = 4000;
+
+void check(const samples::HardCase& one, const Settings& settings) {
+  const Vector3* const start = one.first_normal ? &*one.first_normal : nullptr;
+  const auto ask = [&] { return find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, settings, start); };
+  if (!is_same_on_every_stack(ask)) FAIL_CHECK(one.name);
+  const Traps traps(one.name.c_str());
+  ask_on_painted_stack(kSignallingNan, ask);
+}
+
+}  // namespace
+
+TEST_CASE("hard cases: the same digits over any stack, and nothing computed with what was not set") {
+  Settings certified;
+  certified.certify_depth = true;
+  certified.max_evaluations = 300;
+  for (const samples::HardCase& one : samples::hard_cases()) {
+    check(one, {});
+    check(one, certified);
+  }
+}
+
+TEST_CASE("random pairs: the same digits over any stack, and nothing computed with what was not set") {
+  for (const Mix mix : {Mix::Everything, Mix::Sharp}) {
+    const SampleSource source(22, mix);
+    Sample sample;
+    for (std::uint64_t index = 0; index < kSamples; ++index) {
+      source.draw(index, sample);
+      check(sample.pair, sample.settings);
+    }
+  }
+}

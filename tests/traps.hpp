@@ -1,0 +1,47 @@
+// Floating-point exceptions as a program meets them that has trapped them: one that is raised ends it.
+#pragma once
+
+#include <unistd.h>
+
+#include <cfenv>
+#include <csignal>
+#include <cstring>
+#include <initializer_list>
+
+namespace supernormal::test {
+
+/// Traps while it lives; an exception ends the program with the name of what was asked.
+class Traps {
+ public:
+  static constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+
+  /// Refers to the name.
+  explicit Traps(const char* name) : old_handler_(std::signal(SIGFPE, say_what_was_asked)) {
+    asked = name;
+    std::feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(kTrapped);
+  }
+  ~Traps() {
+    fedisableexcept(kTrapped);
+    std::signal(SIGFPE, old_handler_);
+  }
+  Traps(const Traps&) = delete;
+  Traps(Traps&&) = delete;
+  Traps& operator=(const Traps&) = delete;
+  Traps& operator=(Traps&&) = delete;
+
+ private:
+  /// Only what a signal handler may call.
+  static void say_what_was_asked(int /*signal*/) {
+    for (const char* part : {"floating-point exception in \"", asked, "\"\n"}) {
+      if (write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+    }
+    _exit(1);
+  }
+
+  inline static const char* asked = "";
+
+  void (*old_handler_)(int);
+};
+
+}  // namespace supernormal::test
