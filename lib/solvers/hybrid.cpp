@@ -5,6 +5,7 @@
 #include "solvers/ascent.hpp"
 #include "solvers/first_guess.hpp"
 #include "solvers/global_proof.hpp"
+#include "solvers/known_corners.hpp"
 #include "solvers/other_maxima.hpp"
 #include "solvers/solvers.hpp"
 
@@ -94,6 +95,7 @@ Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3
     if (goal.max_evaluations > 0) out = search(gap, cuts, ascent, settings, goal, best, status);
   }
   out.contact = contact_point(gap, best);
+  if (gap.shape2().has_kinks() && status != Status::InvalidInput) out.normal = KnownCorners(gap).held_normal(best);
   return out;
 }
 

@@ -19,7 +19,7 @@ TangentPlane plane_at(const Vector3& n) {
 
 }  // namespace
 
-void KnownCorners::settle(GapJet& jet, Corners& here) {
+PiecewiseModel::Peak KnownCorners::settle(GapJet& jet, Corners& here) {
   here.clear();
   const Vector3 toward = jet.jet2.r - gap_.rotation().transpose() * jet.d;  // body 1's boundary point in body 2's frame
   gap_.shape2().add_corners(jet.m, toward, here);
@@ -38,6 +38,13 @@ void KnownCorners::settle(GapJet& jet, Corners& here) {
   jet.jet2.r.setZero();
   for (std::size_t i = 0; i < nearest.count; ++i) jet.jet2.r += nearest.weight[i] * corners_[nearest.active[i]];
   jet.d = gap_.rotation() * jet.jet2.r + (gap_.offset() - jet.jet1.r);
+  return nearest;
+}
+
+Vector3 KnownCorners::held_normal(GapJet jet) {
+  Corners here;
+  const PiecewiseModel::Peak holding = settle(jet, here);
+  return shared_normal(holding, jet.n).normalized();
 }
 
 std::span<const Piece> KnownCorners::pieces(const GapJet& jet, const Corners& here, const TangentPlane& plane1) {

@@ -21,7 +21,12 @@ class KnownCorners {
 
   /// After the evaluation of `jet`: puts the corners of body 2 near its normal into `here`, and moves jet.jet2.r to the boundary
   /// point with this normal that is nearest to that of body 1, and jet.d with it: jet.d - jet.s jet.n is then the steepest ascent.
-  void settle(GapJet& jet, Corners& here);
+  /// Returns the corners that it is between.
+  PiecewiseModel::Peak settle(GapJet& jet, Corners& here);
+
+  /// The normal that the edge or face has which holds that of `jet`, when settled: the same to rounding, but without what a normal
+  /// gathers that is turned from one frame into another at every step of a simulation, until it is no longer that of the face.
+  Vector3 held_normal(GapJet jet);
 
   /// The pieces of s over a tangent plane at `jet`, relative to jet.s. Valid, as are the next two, until the next call of a
   /// function that is not const.
