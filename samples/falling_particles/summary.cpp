@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "beverloo.hpp"
+#include "toml_string.hpp"
 
 namespace falling_particles {
 namespace {
@@ -42,9 +43,9 @@ double ratio(unsigned long long part, unsigned long long whole) {
 
 void add_run(Lines& lines, const Summary& s) {
   lines.section("run");
-  lines.add("scene", '"' + s.scene.name + '"');
+  lines.add("scene", toml_string(s.scene.name));
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
-  lines.add("container", '"' + std::string(kind_of(s.scene.container)) + '"');
+  lines.add("container", toml_string(kind_of(s.scene.container)));
   lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()));
   for (const GrainCount& kind : s.scene.grains) {
     lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));

@@ -77,6 +77,14 @@ other_containers() {
   awk "BEGIN { exit !($(value packing_spheres volume_fraction_at_contact) > 0.5) }" || fail "not compressed"
 }
 
+names_with_quotes() {
+  local name='say "grains" \ 1'
+  sed 's/^duration = .*/duration = 0.01/' "$samples/scenes/short.toml" >"$work/scenes/$name.toml"
+  expect 0 "$program" -q --scene "$work/scenes/$name.toml" --out "$work/names"
+  grep -qF '= "say \"grains\" \\ 1"' "$work/names/$name/summary.toml" ||
+    fail "not a TOML string: $(grep '^scene' "$work/names/$name/summary.toml")"
+}
+
 leaks_are_told() {
   # A step so long that what falls passes the floor within one.
   sed -e 's/^step = .*/step = 0.15/' -e 's/^frame = .*/frame = 0.15/' "$samples/scenes/short.toml" >"$work/scenes/leaky.toml"
@@ -112,6 +120,7 @@ same_seed_same_result
 other_seed_other_result
 bad_input_leaves_nothing
 other_containers
+names_with_quotes
 leaks_are_told
 ctrl_c_writes_what_there_is
 echo "all passed"
