@@ -145,9 +145,20 @@ std::optional<Compression> read_compression(const TomlTable& root, const Scene& 
   return compression;
 }
 
+std::optional<Axis> read_sweep_axis(const TomlTable& root) {
+  const auto table = root.find_table("broad_phase", {"axis"});
+  if (!table) return std::nullopt;
+  const std::string word = table->choice("axis", {name_of(Axis::X), name_of(Axis::Y), name_of(Axis::Z)});
+  for (const Axis axis : {Axis::X, Axis::Y}) {
+    if (word == name_of(axis)) return axis;
+  }
+  return Axis::Z;
+}
+
 /// The keys of the top of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed", "catalogue", "container", "drop", "grain", "time", "solver", "compression"};
+  std::vector<std::string> names = {"seed", "catalogue", "container",   "drop",       "grain",
+                                    "time", "solver",    "compression", "broad_phase"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -166,6 +177,7 @@ Scene load_scene(const std::string& path) {
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   scene.compression = read_compression(root, scene);
+  scene.sweep_axis = read_sweep_axis(root);
   check_fit(root, scene);
   return scene;
 }
