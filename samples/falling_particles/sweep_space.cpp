@@ -68,7 +68,7 @@ const char* name_of(Axis axis) {
   return kNames[index_of(axis)];
 }
 
-SweepSpace::SweepSpace(std::optional<Axis> axis) : fixed_(axis), order_{Axis::X, Axis::Y, Axis::Z}, space_(), markers_() {
+SweepSpace::SweepSpace(std::optional<Axis> axis) : fixed_(axis), order_{Axis::X, Axis::Y, Axis::Z} {
   if (fixed_) std::swap(order_[0], order_[index_of(*fixed_)]);
   space_ = create_space(order_);
   // Planes that are not along an axis have no bounding box, and ODE names such pairs after the sweep.

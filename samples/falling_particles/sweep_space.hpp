@@ -42,8 +42,8 @@ class SweepSpace {
 
   std::optional<Axis> fixed_;
   Order order_;
-  dSpaceID space_;
-  std::array<dGeomID, 2> markers_;
+  dSpaceID space_ = nullptr;
+  std::array<dGeomID, 2> markers_ = {};
   int steps_ = 0;
 };
 

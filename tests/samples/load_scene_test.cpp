@@ -189,6 +189,6 @@ TEST_CASE("the catalogues are valid and name their sources, and the scenes load"
     }
   }
   for (const char* scene : {"mixture", "short", "hopper", "terrain", "heap", "packing_spheres", "packing_ellipsoids", "packing_mm",
-                            "packing_superballs"})
+                            "packing_superballs", "tower"})
     load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
 }
