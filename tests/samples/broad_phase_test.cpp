@@ -90,13 +90,17 @@ TEST_CASE("the broad phase names every pair whose bounding boxes meet, whatever 
 TEST_CASE("the sweep goes along the axis of the largest spread, also when that changes") {
   const Scene scene = scene_of_peas(200);
   const World world = make_world(scene);
-  const std::vector<std::pair<Point, Axis>> beds = {
+  struct Bed {
+    Point sides;
+    Axis axis;
+  };
+  const std::vector<Bed> beds = {
       {{0.01, 0.01, 1}, Axis::Z}, {{1, 0.1, 0.1}, Axis::X}, {{0.1, 1, 0.1}, Axis::Y}, {{1, 1.1, 0.1}, Axis::Y}};
-  for (const auto& [sides, axis] : beds) {
-    CAPTURE(name_of(axis));
-    scatter(world, sides);
+  for (const Bed& bed : beds) {
+    CAPTURE(name_of(bed.axis));
+    scatter(world, bed.sides);
     for (int step = 0; step < 100; ++step) world.sweep().before_step();
-    CHECK(world.sweep().axis() == axis);
+    CHECK(world.sweep().axis() == bed.axis);
     CHECK(named_pairs(world) == all_pairs(world));
   }
 }

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <initializer_list>
+
 using namespace falling_particles;
 
 TEST_CASE("memory grows in proportion to the grains") {
