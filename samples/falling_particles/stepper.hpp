@@ -43,6 +43,7 @@ class Stepper {
  private:
   void collide_grains();
   void collide_with_walls();
+  void sort_contacts();
   static int name_pair(void* self, dGeomID g1, dGeomID g2);
   static void add_contacts(void* self, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
 
