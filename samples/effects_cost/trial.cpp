@@ -44,7 +44,7 @@ class Bench {
   void step(Outcome& sum) {
     contacts_.clear();
     const double start = processor_time();
-    dSpaceCollide(world_.space(), this, near_callback);
+    world_.name_pairs(this, near_callback);
     const double collided = processor_time();
     joints_.replace(contacts_);
     world_.effects().apply_forces();

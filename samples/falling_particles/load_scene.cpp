@@ -9,6 +9,7 @@
 #include "input_error.hpp"
 #include "load_container.hpp"
 #include "load_effects.hpp"
+#include "memory.hpp"
 #include "nearest_word.hpp"
 #include "scene.hpp"
 #include "toml_input.hpp"
@@ -22,9 +23,10 @@ constexpr std::int64_t kMostSteps = 1'000'000'000;
 /// The catalogue that the scene names, relative to the scene's folder.
 std::vector<Grain> read_catalogue(const TomlTable& root, const std::string& scene_path) {
   const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
+  const std::string allowed = "; allowed: a grain catalogue, its path relative to the scene file";
+  if (std::filesystem::is_directory(path)) root.fail("catalogue", "catalogue: \"" + path.string() + "\" is a folder" + allowed);
   if (!std::filesystem::is_regular_file(path)) {
-    root.fail("catalogue", "catalogue: there is no file \"" + path.string() +
-                               "\"; allowed: a grain catalogue, its path relative to " + "the scene file");
+    root.fail("catalogue", "catalogue: there is no file \"" + path.string() + "\"" + allowed);
   }
   return load_catalogue(path.string());
 }
@@ -104,6 +106,17 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   return grains;
 }
 
+void check_memory(const TomlTable& root, int grains) {
+  constexpr double kGigabyte = 1e9;
+  const double needed = memory_needed(grains);
+  const double available = memory_of_machine();
+  if (needed <= available) return;
+  const auto in_gigabytes = [](double bytes) { return shortest(std::round(bytes / kGigabyte * 10) / 10) + " GB"; };
+  root.fail("grain", "the scene has " + std::to_string(grains) + " grains, a bed of which takes " + in_gigabytes(needed) +
+                         " of memory; allowed with " + in_gigabytes(available) + ": up to " +
+                         std::to_string(most_grains(available)) + " grains");
+}
+
 Time read_time(const TomlTable& table) {
   Time time{};
   time.duration = table.number("duration", Interval::positive(3600, "s"));
@@ -145,9 +158,20 @@ std::optional<Compression> read_compression(const TomlTable& root, const Scene& 
   return compression;
 }
 
+std::optional<Axis> read_sweep_axis(const TomlTable& root) {
+  const auto table = root.find_table("broad_phase", {"axis"});
+  if (!table) return std::nullopt;
+  const std::string word = table->choice("axis", {name_of(Axis::X), name_of(Axis::Y), name_of(Axis::Z)});
+  for (const Axis axis : {Axis::X, Axis::Y}) {
+    if (word == name_of(axis)) return axis;
+  }
+  return Axis::Z;
+}
+
 /// The keys of the top of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed", "catalogue", "container", "drop", "grain", "time", "solver", "compression"};
+  std::vector<std::string> names = {"seed", "catalogue", "container",   "drop",       "grain",
+                                    "time", "solver",    "compression", "broad_phase"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -166,6 +190,8 @@ Scene load_scene(const std::string& path) {
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   scene.compression = read_compression(root, scene);
+  scene.sweep_axis = read_sweep_axis(root);
+  check_memory(root, scene.bodies());
   check_fit(root, scene);
   return scene;
 }

@@ -1,11 +1,17 @@
 // Drops real grains into a container (a box, a hopper, a terrain), or packs them in a periodic cell, and watches them: a scene file
 // in, trajectories and a summary out.
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <supernormal/effects.hpp>
+#include <vector>
 
 #include "input_error.hpp"
 #include "interrupt.hpp"
@@ -17,8 +23,9 @@ namespace {
 enum ExitCode { Done = 0, Failed = 1, BadInput = 2, Leaked = 3, Interrupted = 130 };
 
 constexpr const char* kFooter =
-    "Writes OUT/<scene>/trajectory.csv, energies.csv, summary.toml and, of a hopper, discharge.csv.\n"
-    "Exit code: 0 done; 1 failed (disk full, say); 2 bad input, nothing written;\n"
+    "Writes OUT/<scene>/trajectory.csv, energies.csv, summary.toml and, of a hopper, discharge.csv; until the end they are in\n"
+    "OUT/<scene>.unfinished-1. If the run is killed they stay there, up to the last frame, until the next run of the scene.\n"
+    "Exit code: 0 done; 1 failed (disk full, say, or stdout closed); 2 bad input, nothing written;\n"
     "3 with --check-leaks: a grain left the container, all results written;\n"
     "130 stopped by Ctrl-C, with all results up to then written.";
 
@@ -66,17 +73,39 @@ ExitCode run_program(int argc, char** argv) {
   app.footer(kFooter);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    // A misspelt --scene is the mistake, and not that there is none.
+    std::vector<std::string> unknown = app.remaining();
+    std::ranges::reverse(unknown);  // as ExtrasError expects them
+    unknown.empty() ? app.exit(error) : app.exit(CLI::ExtrasError(unknown));
+    return BadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? Done : BadInput;
   }
   return simulate(options);
 }
 
+/// A file that is opened while stdin, stdout or stderr is closed would take its number, and get what is printed.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);  // the lowest free number; to write fails
+  }
+}
+
+bool is_stdout_written() {
+  std::cout.flush();
+  return std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupy_standard_streams();
   try {
-    return run_program(argc, argv);
+    const ExitCode code = run_program(argc, argv);
+    if (is_stdout_written()) return code;
+    std::fputs("falling_particles: cannot write to stdout (is it closed, or the disk full?)\n", stderr);
+    return code == Done ? Failed : code;
   } catch (const falling_particles::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return BadInput;

@@ -22,14 +22,16 @@ Trajectory::Trajectory(const std::filesystem::path& path) : path_(path), stream_
 void Trajectory::write(double time, const World& world) {
   const std::string start = shortest(time) + ',';
   std::size_t index = 0;
+  std::string frame;
   for (const Body& body : world.bodies()) {
     const dReal* position = dBodyGetPosition(body.body);
     const dReal* quaternion = dBodyGetQuaternion(body.body);
-    std::string line = start + std::to_string(index++) + ',' + body.grain->name;
-    for (int i = 0; i < 3; ++i) line += ',' + shortest(position[i]);
-    for (int i = 0; i < 4; ++i) line += ',' + shortest(quaternion[i]);
-    stream_ << line << '\n';
+    frame += start + std::to_string(index++) + ',' + body.grain->name;
+    for (int i = 0; i < 3; ++i) frame += ',' + shortest(position[i]);
+    for (int i = 0; i < 4; ++i) frame += ',' + shortest(quaternion[i]);
+    frame += '\n';
   }
+  stream_ << frame << std::flush;
 }
 
 void Trajectory::close() { close_or_throw(stream_, path_); }
@@ -40,7 +42,7 @@ Energies::Energies(const std::filesystem::path& path) : path_(path), stream_(pat
 
 void Energies::write(double time, const Energy& energy, std::size_t contacts) {
   stream_ << shortest(time) << ',' << shortest(energy.kinetic) << ',' << shortest(energy.potential) << ','
-          << shortest(energy.total()) << ',' << contacts << '\n';
+          << shortest(energy.total()) << ',' << contacts << std::endl;
 }
 
 void Energies::close() { close_or_throw(stream_, path_); }
@@ -50,7 +52,7 @@ DischargeFile::DischargeFile(const std::filesystem::path& path) : path_(path), s
 }
 
 void DischargeFile::write(double time, double mass, std::size_t count) {
-  stream_ << shortest(time) << ',' << shortest(mass) << ',' << count << '\n';
+  stream_ << shortest(time) << ',' << shortest(mass) << ',' << count << std::endl;
 }
 
 void DischargeFile::close() { close_or_throw(stream_, path_); }

@@ -16,7 +16,8 @@ inline constexpr std::string_view kSummaryFile = "summary.toml";
 inline constexpr std::string_view kDischargeFile = "discharge.csv";
 inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile, kSummaryFile, kDischargeFile};
 
-/// trajectory.csv: a line per frame and body. Numbers are the shortest text that reads back exactly.
+/// trajectory.csv: a line per frame and body. Numbers are the shortest text that reads back exactly. This and the other files are
+/// handed over to the system frame by frame: a run that is killed leaves whole frames.
 class Trajectory {
  public:
   explicit Trajectory(const std::filesystem::path& path);

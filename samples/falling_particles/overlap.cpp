@@ -32,7 +32,7 @@ std::array<dReal, 4> middle_of(const snProximity& proximity) {
 
 Overlap measure_overlap(const World& world) {
   Pairs pairs;
-  dSpaceCollide(world.space(), &pairs, append);
+  world.name_pairs(&pairs, append);
   const PeriodicCell* cell = world.cell();
   Overlap overlap;
   for (const auto& [g1, g2] : pairs) {

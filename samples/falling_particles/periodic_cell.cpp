@@ -70,7 +70,7 @@ bool PeriodicCell::contains(const dVector3 point) const {
 }
 
 PeriodicCell::Image PeriodicCell::make_image(const Body& body) const {
-  Image image{dBodyCreate(world_.id()), create_geom(world_.space(), *body.grain), nullptr, nullptr};
+  Image image{dBodyCreate(world_.id()), create_geom(world_.sweep().id(), *body.grain), nullptr, nullptr};
   dGeomSetBody(image.geom, image.body);
   dGeomSetData(image.geom, dGeomGetData(body.geom));
   dGeomSetCategoryBits(image.geom, dGeomGetCategoryBits(body.geom));

@@ -144,6 +144,7 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         seconds,
                         stepper.costs(),
                         statistics,
+                        world.sweep().axis(),
                         stepper.contacts(),
                         stepper.deepest_contact(),
                         kinetic_height(world, scene),

@@ -7,6 +7,7 @@
 
 #include "container/container.hpp"
 #include "grain.hpp"
+#include "sweep_space.hpp"
 
 namespace falling_particles {
 
@@ -52,6 +53,7 @@ struct Scene {
   Solver solver;
   std::vector<supernormal::effects::Effect> effects;  ///< those that the scene names; nothing else exists for it
   std::optional<Compression> compression = {};        ///< of the grains in a periodic container
+  std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen from where the grains are if there is none
 
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;

@@ -1,6 +1,7 @@
 #include "stepper.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <stdexcept>
 #include <variant>
@@ -21,11 +22,7 @@ bool may_sleep(const Scene& scene) {
 }  // namespace
 
 Stepper::Stepper(const World& world, const Scene& scene, int threads)
-    : world_(world),
-      step_(scene.time.step),
-      name_pair_(may_sleep(scene) ? &Stepper::name_pair_of_sleepers : &Stepper::name_pair),
-      joints_(world),
-      batch_(snBatchCreate(threads)) {
+    : world_(world), step_(scene.time.step), may_sleep_(may_sleep(scene)), joints_(world), batch_(snBatchCreate(threads)) {
   if (batch_ == nullptr) throw std::runtime_error(snLastError());
   world_.effects().measure();
 }
@@ -35,12 +32,12 @@ Stepper::~Stepper() { snBatchDestroy(batch_); }
 void Stepper::step() {
   contacts_.clear();
   if (PeriodicCell* cell = world_.cell()) cell->place_images();
+  world_.sweep().before_step();
   {
     const Stopwatch::Lap lap(costs_.collision);
-    costs_.broad_phase.start();
-    if (snBatchCollide(batch_, world_.space(), kContactsPerPair, this, name_pair_, &Stepper::add_contacts) < 0) {
-      throw std::runtime_error(snLastError());
-    }
+    collide_grains();
+    sort_contacts();
+    collide_with_walls();
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
@@ -54,14 +51,47 @@ void Stepper::step() {
   if (PeriodicCell* cell = world_.cell()) cell->gather();
 }
 
-int Stepper::name_pair_of_sleepers(void* self, dGeomID g1, dGeomID g2) {
-  return is_awake(g1) || is_awake(g2) ? name_pair(self, g1, g2) : 0;
+void Stepper::collide_grains() {
+  costs_.broad_phase.start();
+  if (snBatchCollide(batch_, world_.sweep().id(), kContactsPerPair, this, &Stepper::name_pair, &Stepper::add_contacts) < 0) {
+    throw std::runtime_error(snLastError());
+  }
 }
 
-int Stepper::name_pair(void* self, dGeomID /*g1*/, dGeomID /*g2*/) {
-  StepCosts& costs = static_cast<Stepper*>(self)->costs_;
-  ++costs.pairs_tested;
-  costs.broad_phase.lap();  // the last of these ends it
+// One after the other: ODE's meshes and heightfields bear one thread at a time.
+void Stepper::collide_with_walls() {
+  wall_pairs_.clear();
+  {
+    const Stopwatch::Lap lap(costs_.broad_phase);
+    world_.name_wall_pairs(this, [](void* self, dGeomID g1, dGeomID g2) {
+      auto& stepper = *static_cast<Stepper*>(self);
+      if (name_pair(self, g1, g2) != 0) stepper.wall_pairs_.emplace_back(g1, g2);
+    });
+  }
+  for (const auto& [grain, wall] : wall_pairs_) {
+    std::array<dContactGeom, kContactsPerPair> found;
+    add_contacts(this, grain, wall, found.data(), dCollide(grain, wall, kContactsPerPair, found.data(), sizeof(dContactGeom)));
+  }
+}
+
+// The sweep names pairs in the order in which they lie along its axis. Quickstep's first iterations take the contacts in the order
+// of their joints, and would carry forces along the axis better than against it: so it gets them in the order of the bodies.
+void Stepper::sort_contacts() {
+  const auto bodies = [](const dContactGeom& contact) -> std::pair<const Body*, const Body*> {
+    return std::minmax(body_of(contact.g1), body_of(contact.g2));
+  };
+  // Stable: the contacts of a pair stay together, also where images of the same two bodies meet.
+  std::ranges::stable_sort(contacts_, [&bodies](const dContactGeom& a, const dContactGeom& b) { return bodies(a) < bodies(b); });
+}
+
+int Stepper::name_pair(void* self, dGeomID g1, dGeomID g2) {
+  auto& stepper = *static_cast<Stepper*>(self);
+  if (stepper.world_.sweep().is_end_marker(g1)) {
+    stepper.costs_.broad_phase.lap();
+    return 0;
+  }
+  if (stepper.may_sleep_ && !is_awake(g1) && !is_awake(g2)) return 0;
+  ++stepper.costs_.pairs_tested;
   return 1;
 }
 

@@ -3,6 +3,7 @@
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
 
+#include <utility>
 #include <vector>
 
 #include "contact_joints.hpp"
@@ -14,7 +15,7 @@ namespace falling_particles {
 
 /// Where the time of the steps went, and how much was done in them.
 struct StepCosts {
-  Stopwatch collision;      ///< snBatchCollide: broad and narrow phase
+  Stopwatch collision;      ///< broad and narrow phase
   Stopwatch broad_phase;    ///< bounding boxes and pairs, within collision
   Stopwatch contact_setup;  ///< effects' passes, contact joints made and removed
   Stopwatch solver;         ///< dWorldQuickStep
@@ -40,16 +41,18 @@ class Stepper {
   const StepCosts& costs() const { return costs_; }
 
  private:
+  void collide_grains();
+  void collide_with_walls();
+  void sort_contacts();
   static int name_pair(void* self, dGeomID g1, dGeomID g2);
-  /// Of scenes whose bodies may sleep: leaves pairs alone of which neither is awake.
-  static int name_pair_of_sleepers(void* self, dGeomID g1, dGeomID g2);
   static void add_contacts(void* self, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
 
   const World& world_;
   double step_;
-  snPairFilter* name_pair_;
+  bool may_sleep_;  // then pairs of which neither is awake are left alone
   ContactJoints joints_;
   snBatchID batch_;
+  std::vector<std::pair<dGeomID, dGeomID>> wall_pairs_;
   std::vector<dContactGeom> contacts_;
   double deepest_contact_ = 0;
   StepCosts costs_;

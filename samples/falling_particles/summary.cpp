@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "beverloo.hpp"
+#include "toml_string.hpp"
 
 namespace falling_particles {
 namespace {
@@ -42,9 +43,9 @@ double ratio(unsigned long long part, unsigned long long whole) {
 
 void add_run(Lines& lines, const Summary& s) {
   lines.section("run");
-  lines.add("scene", '"' + s.scene.name + '"');
+  lines.add("scene", toml_string(s.scene.name));
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
-  lines.add("container", '"' + std::string(kind_of(s.scene.container)) + '"');
+  lines.add("container", toml_string(kind_of(s.scene.container)));
   lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()));
   for (const GrainCount& kind : s.scene.grains) {
     lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));
@@ -59,6 +60,7 @@ void add_queries(Lines& lines, const Summary& s) {
   const auto steps = static_cast<unsigned long long>(s.steps);
   lines.section("collision");
   lines.add("pairs_tested", s.costs.pairs_tested, "whose bounding boxes met, in all steps");
+  lines.add("sweep_axis", toml_string(name_of(s.sweep_axis)), "of the broad phase, in the last step");
   lines.add("queries_cold", n.queries_cold, "pairs without a remembered normal; mesh and ground have none");
   lines.add("queries_warm", n.queries_warm, "with one");
   lines.add("evaluations_per_cold_query", ratio(n.evaluations_cold, n.queries_cold), "of the gap function, mean");
@@ -155,7 +157,7 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.section("cost");
   lines.add("real", total, "s, steps and output");
   lines.add("real_per_step", total / s.steps, "s");
-  lines.add("share_broad_phase", c.broad_phase.seconds() / total, "bounding boxes and hash space");
+  lines.add("share_broad_phase", c.broad_phase.seconds() / total, "bounding boxes, the sweep along them, and walls");
   lines.add("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
   lines.add("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
   lines.add("share_solver", solver / total, "dWorldQuickStep");

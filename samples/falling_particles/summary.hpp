@@ -29,6 +29,7 @@ struct Summary {
   double real_seconds;  ///< of the steps and their output; not of the measurements at the end
   const StepCosts& costs;
   snStatistics statistics;  ///< of the steps
+  Axis sweep_axis;
   std::size_t contacts_at_end;
   double deepest_contact;         ///< m, of all steps
   double kinetic_height;          ///< m

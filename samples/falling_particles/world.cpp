@@ -2,7 +2,6 @@
 
 #include <supernormal/supernormal.h>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -12,15 +11,16 @@ namespace {
 constexpr unsigned long kWallBit = 1;
 constexpr unsigned long kGrainBit = 2;
 
-/// Hash space: its cost grows as the number of grains, where sweep and prune sorts along one axis on which a settled bed overlaps
-/// throughout. One level per power of two from the smallest to the largest bounding box, so that every grain sits in a cell of its
-/// own size; ODE's default range is for metres. The walls, larger, are tested against everybody.
-dSpaceID create_space(const Scene& scene) {
-  dSpaceID space = dHashSpaceCreate(nullptr);
-  const int finest = static_cast<int>(std::ceil(std::log2(2 * scene.smallest_half_axis())));
-  const int coarsest = static_cast<int>(std::ceil(std::log2(2 * scene.largest_bounding_radius())));
-  dHashSpaceSetLevels(space, finest, coarsest);
-  return space;
+/// What World::name_pairs passes through ODE.
+struct PairCallback {
+  const SweepSpace& sweep;
+  void* data;
+  dNearCallback* callback;
+};
+
+void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
+  const auto& [sweep, data, callback] = *static_cast<const PairCallback*>(to);
+  if (!sweep.is_end_marker(g1)) callback(data, g1, g2);
 }
 
 }  // namespace
@@ -41,11 +41,13 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();
-  space_ = create_space(scene);
+  sweep_ = std::make_unique<SweepSpace>(scene.sweep_axis);
   // Quickstep shuffles its constraints with ODE's global generator.
   dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
   set_parameters(scene);
-  walls_.emplace(space_, scene.container, kWallBit, kGrainBit);  // walls overlap one another, which is nobody's business
+  // In no space: ODE pairs what has no upper end with all others, without a look at the bounding boxes. Each wall is held against
+  // the grains instead, which costs the comparison of their boxes.
+  walls_.emplace(nullptr, scene.container, kWallBit, kGrainBit);
   bodies_.reserve(placements.size());
   for (const Placement& placement : placements) add_body(scene.grains[placement.kind].grain, placement);
   if (const Periodic* periodic = std::get_if<Periodic>(&scene.container))
@@ -55,10 +57,23 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
 World::~World() {
   cell_.reset();
   walls_.reset();
-  dSpaceDestroy(space_);
+  sweep_.reset();
   dWorldDestroy(world_);
   snClose();
   dCloseODE();
+}
+
+void World::name_wall_pairs(void* data, dNearCallback* callback) const {
+  for (dGeomID wall : walls_->geoms()) {
+    // A space is a geom to ODE.
+    dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
+  }
+}
+
+void World::name_pairs(void* data, dNearCallback* callback) const {
+  PairCallback to{*sweep_, data, callback};
+  dSpaceCollide(sweep_->id(), &to, call_for_pair);
+  name_wall_pairs(data, callback);
 }
 
 void World::set_parameters(const Scene& scene) {
@@ -71,7 +86,7 @@ void World::set_parameters(const Scene& scene) {
 }
 
 void World::add_body(const Grain& grain, const Placement& placement) {
-  Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), create_geom(space_, grain), &grain, {}});
+  Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), create_geom(sweep_->id(), grain), &grain, {}});
   if (snMassSet(&entry.mass, grain.density, entry.geom) == 0) {
     throw std::runtime_error("mass of grain \"" + grain.name + "\" was refused: " + snLastError());
   }

@@ -13,6 +13,7 @@
 #include "periodic_cell.hpp"
 #include "placement.hpp"
 #include "scene.hpp"
+#include "sweep_space.hpp"
 
 namespace falling_particles {
 
@@ -54,11 +55,16 @@ class World {
   World& operator=(const World&) = delete;
 
   dWorldID id() const { return world_; }
-  dSpaceID space() const { return space_; }
+  /// Of the grains, and of their images; the walls are not in it.
+  SweepSpace& sweep() const { return *sweep_; }
   const std::vector<Body>& bodies() const { return bodies_; }
   /// Compiled from what the scene names.
   supernormal::effects::Effects& effects() const { return *effects_; }
   const Walls& walls() const { return *walls_; }
+  /// Calls back for every pair of a grain and a wall whose bounding boxes meet.
+  void name_wall_pairs(void* data, dNearCallback* callback) const;
+  /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
+  void name_pairs(void* data, dNearCallback* callback) const;
   PeriodicCell* cell() const { return cell_.get(); }  ///< of a periodic container, or null
 
   /// Takes the lid off a hopper's outlet; once.
@@ -69,7 +75,7 @@ class World {
   void add_body(const Grain& grain, const Placement& placement);
 
   dWorldID world_;
-  dSpaceID space_;
+  std::unique_ptr<SweepSpace> sweep_;
   std::unique_ptr<supernormal::effects::Effects> effects_;
   std::vector<Body> bodies_;
   std::optional<Walls> walls_;

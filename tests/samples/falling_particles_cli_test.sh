@@ -38,6 +38,10 @@ bad_input_leaves_nothing() {
   expect 2 "$program" --scene "$work/scenes/missing.toml" --out "$work/bad"
   expect 2 "$program" --out "$work/bad"
   expect 2 "$program" --scene "$work/scenes/short.toml" --out "$work/bad" --speed 3
+  expect 2 "$program" --scen "$work/scenes/short.toml" --out "$work/bad"
+  grep -q -- '--scen ' "$work/log" || fail "the misspelt option is not named: $(cat "$work/log")"
+  expect 2 "$program" --out "$work/bad"
+  grep -q -- '--scene is required' "$work/log" || fail "the missing option is not named: $(cat "$work/log")"
   [ ! -e "$work/bad" ] || fail "an output folder after bad input"
   expect 0 "$program" --help
 }
@@ -77,6 +81,14 @@ other_containers() {
   awk "BEGIN { exit !($(value packing_spheres volume_fraction_at_contact) > 0.5) }" || fail "not compressed"
 }
 
+names_with_quotes() {
+  local name='say "grains" \ 1'
+  sed 's/^duration = .*/duration = 0.01/' "$samples/scenes/short.toml" >"$work/scenes/$name.toml"
+  expect 0 "$program" -q --scene "$work/scenes/$name.toml" --out "$work/names"
+  grep -qF '= "say \"grains\" \\ 1"' "$work/names/$name/summary.toml" ||
+    fail "not a TOML string: $(grep '^scene' "$work/names/$name/summary.toml")"
+}
+
 leaks_are_told() {
   # A step so long that what falls passes the floor within one.
   sed -e 's/^step = .*/step = 0.15/' -e 's/^frame = .*/frame = 0.15/' "$samples/scenes/short.toml" >"$work/scenes/leaky.toml"
@@ -86,25 +98,89 @@ leaks_are_told() {
   expect 0 "$program" -q --scene "$work/scenes/leaky.toml" --out "$work/leaky"
 }
 
-ctrl_c_writes_what_there_is() {
-  sed 's/^duration = .*/duration = 3600/' "$samples/scenes/short.toml" >"$work/scenes/long.toml"
+# With a limit of memory.
+many_grains_are_refused_or_run() {
+  limited() { (ulimit -v 1600000 && "$@"); }
+  limited "$program" --help >/dev/null 2>&1 || return 0  # sanitizers take more for themselves
+  sed -e 's/^total = .*/total = 140000/' -e 's/^duration = .*/duration = 0.001/' -e 's/^frame = .*/frame = 0.001/' \
+    "$samples/scenes/short.toml" >"$work/scenes/many.toml"
+  expect 2 limited "$program" -q --scene "$work/scenes/many.toml" --out "$work/many"
+  grep -q 'many.toml:[0-9]*: the scene has 140000 grains, .* allowed with 1.6 GB: up to 7[0-9]* grains' "$work/log" ||
+    fail "unclear message: $(cat "$work/log")"
+  [ ! -e "$work/many" ] || fail "an output folder after bad input"
+  sed -i 's/^total = .*/total = 70000/' "$work/scenes/many.toml"
+  expect 0 limited "$program" -q --scene "$work/scenes/many.toml" --out "$work/many"
+  grep -q '^sweep_axis *= "z" ' "$work/many/many/summary.toml" || fail "the sweep is not along the tower of grains"
+}
+
+stdout_is_checked() {
+  sed 's/^duration = .*/duration = 0.01/' "$samples/scenes/short.toml" >"$work/scenes/brief.toml"
+  local got command
+  for command in '>/dev/full' '>&-'; do
+    got=0
+    eval '"$program" -q --scene "$work/scenes/brief.toml" --out "$work/stdout" 2>"$work/log"' "$command" || got=$?
+    [ "$got" -eq 1 ] || fail "exit code $got with stdout $command"
+    grep -q 'cannot write to stdout' "$work/log" || fail "does not say what failed with stdout $command"
+    ! grep -q '^\[' "$work/stdout/brief/trajectory.csv" || fail "the summary went into the trajectory"
+    [ -s "$work/stdout/brief/summary.toml" ] || fail "no results with stdout $command"
+  done
+  got=0
+  "$program" --list-effects >/dev/full 2>"$work/log" || got=$?
+  [ "$got" -eq 1 ] || fail "exit code $got of --list-effects to a full disk"
+}
+
+# Starts a run of an hour in the background, sets $pid and returns when it has written frames. $1: name of the scene
+start_long_run() {
+  sed 's/^duration = .*/duration = 3600/' "$samples/scenes/short.toml" >"$work/scenes/$1.toml"
   # Job control, so that the background process does not ignore SIGINT.
   set -m
-  "$program" --scene "$work/scenes/long.toml" --out "$work/stopped" >"$work/log" 2>&1 &
-  local pid=$! got=0
+  "$program" --scene "$work/scenes/$1.toml" --out "$work/stopped" >"$work/log" 2>&1 &
+  pid=$!
   set +m
-  until compgen -G "$work/stopped/.long.unfinished-*/energies.csv" >/dev/null; do
+  until [ "$(cat "$work/stopped/$1".unfinished-*/energies.csv 2>/dev/null | wc -l)" -ge 3 ]; do
     kill -0 "$pid" 2>/dev/null || { cat "$work/log" >&2; fail "ended before it was interrupted"; }
     sleep 0.05
   done
-  sleep 0.2
+}
+
+ctrl_c_writes_what_there_is() {
+  local pid got=0
+  start_long_run long
   kill -INT "$pid"
   wait "$pid" || got=$?
   [ "$got" -eq 130 ] || fail "exit code $got instead of 130 after Ctrl-C"
   grep -q 'Interrupted after step' "$work/log" || fail "does not say that it was interrupted"
   grep -q '^interrupted *= true ' "$work/stopped/long/summary.toml" || fail "the summary does not say so"
   [ "$(wc -l <"$work/stopped/long/energies.csv")" -ge 2 ] || fail "no frames"
-  [ -z "$(find "$work/stopped" -name '.*' -mindepth 1)" ] || fail "unfinished folder left behind"
+  [ "$(ls -A "$work/stopped")" = long ] || fail "left behind: $(ls -A "$work/stopped")"
+}
+
+a_killed_run_leaves_whole_frames_until_the_next() {
+  local pid left=$work/stopped/killed.unfinished-1
+  start_long_run killed
+  kill -KILL "$pid"
+  wait "$pid" 2>/dev/null || true
+  [ "$(ls "$left" | tr '\n' ' ')" = "UNFINISHED energies.csv trajectory.csv " ] || fail "left behind: $(ls "$left")"
+  [ "$(tail -c 1 "$left/energies.csv" | wc -l)" -eq 1 ] || fail "energies.csv ends within a line"
+  [ "$(wc -l <"$left/energies.csv")" -ge 3 ] || fail "energies.csv holds no frames"
+  awk -F, 'NF != 10 { exit 1 } END { exit (NR - 1) % 60 != 0 || NR < 120 }' "$left/trajectory.csv" ||
+    fail "trajectory.csv does not hold whole frames"
+
+  # The next run takes it away, but neither a run that is on its way nor what no run has written.
+  mkdir "$work/stopped/killed.unfinished-notes" && echo mine >"$work/stopped/killed.unfinished-notes/energies.csv"
+  start_long_run killed
+  local living=$pid
+  sed -i 's/^duration = .*/duration = 0.01/' "$work/scenes/killed.toml"
+  expect 0 "$program" -q --scene "$work/scenes/killed.toml" --out "$work/stopped"
+  kill -0 "$living" || fail "the other run has ended"
+  [ "$(echo "$work/stopped"/killed*)" = "$work/stopped/killed $left $work/stopped/killed.unfinished-notes" ] ||
+    fail "wrong folders: $(ls "$work/stopped")"
+  [ "$(wc -l <"$left/energies.csv")" -ge 3 ] || fail "the run on its way has lost its files"
+  kill -KILL "$living"
+  wait "$living" 2>/dev/null || true
+  expect 0 "$program" -q --scene "$work/scenes/killed.toml" --out "$work/stopped"
+  [ ! -e "$left" ] || fail "the leftovers of the killed run are still there"
+  [ "$(cat "$work/stopped/killed.unfinished-notes/energies.csv")" = mine ] || fail "a folder of the user's was deleted"
 }
 
 mkdir "$work/scenes" && cp -r "$samples/data" "$work/data"
@@ -112,6 +188,10 @@ same_seed_same_result
 other_seed_other_result
 bad_input_leaves_nothing
 other_containers
+names_with_quotes
 leaks_are_told
+many_grains_are_refused_or_run
+stdout_is_checked
 ctrl_c_writes_what_there_is
+a_killed_run_leaves_whole_frames_until_the_next
 echo "all passed"

@@ -135,6 +135,9 @@ TEST_CASE("every mistake in a scene file ends with one line: file, line, what is
       {"count = 2", "fraction = 0.5", {"scene.toml:14: grain.fraction is mixed with count"}},
       {"count = 2", "count = 0", {"scene.toml:14: grain.count is 0; allowed: a whole number from 1"}},
       {"catalogue = \"grains.toml\"", "catalogue = \"grain.toml\"", {"scene.toml:2: catalogue: there is no file", "grain.toml"}},
+      {"catalogue = \"grains.toml\"",
+       "catalogue = \".\"",
+       {"scene.toml:2: catalogue: \".\" is a folder", "allowed: a grain catalogue, its path relative to the scene file"}},
   };
   for (const Mistake& mistake : mistakes) check_says(complaint(replaced(kSceneText, mistake.from, mistake.to)), mistake.says);
 }
@@ -186,6 +189,6 @@ TEST_CASE("the catalogues are valid and name their sources, and the scenes load"
     }
   }
   for (const char* scene : {"mixture", "short", "hopper", "terrain", "heap", "packing_spheres", "packing_ellipsoids", "packing_mm",
-                            "packing_superballs"})
+                            "packing_superballs", "tower"})
     load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
 }

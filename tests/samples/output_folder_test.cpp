@@ -48,6 +48,38 @@ TEST_CASE("an unfinished run leaves nothing behind and earlier results alone") {
   CHECK(entries(folder.path()) == 1);
 }
 
+TEST_CASE("a run on its way is in a folder that says so, and a second one beside it") {
+  const TemporaryFolder folder;
+  OutputFolder first(folder.path(), "scene");
+  OutputFolder second(folder.path(), "scene");
+  CHECK(first.file("summary.toml") == folder.path() / "scene.unfinished-1/summary.toml");
+  CHECK(second.file("summary.toml") == folder.path() / "scene.unfinished-2/summary.toml");
+  CHECK(content_of(first.file("UNFINISHED")).find("has not ended") != std::string::npos);
+  first.commit();
+  second.commit();
+  CHECK(entries(folder.path()) == 1);
+  CHECK(entries(folder.path() / "scene") == 0);
+}
+
+TEST_CASE("what a killed run has left goes, but only where it is a run's") {
+  const TemporaryFolder folder;
+  const auto leave = [&folder](const std::string& name, const std::string& file) {
+    fs::create_directories(folder.path() / name);
+    folder.write(name + "/" + file, "text");
+  };
+  leave("scene.unfinished-1", "UNFINISHED");
+  leave("scene.unfinished-1", "trajectory.csv");
+  leave("scene.unfinished-2", "UNFINISHED");
+  leave("scene.unfinished-2", "thesis.txt");
+  leave("scene.unfinished-3", "trajectory.csv");
+  leave("other.unfinished-1", "UNFINISHED");
+  run_once(folder.path(), "finished", true);
+  CHECK(entries(folder.path()) == 4);
+  CHECK_FALSE(fs::exists(folder.path() / "scene.unfinished-1"));
+  CHECK(content_of(folder.path() / "scene.unfinished-2/thesis.txt") == "text");
+  CHECK(content_of(folder.path() / "scene/summary.toml") == "finished");
+}
+
 TEST_CASE("what a run has not written is never deleted") {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "scene");
