@@ -197,14 +197,21 @@ SUPERNORMAL_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_cont
 
 /* --- statistics --------------------------------------------------------------------------------------------------------- */
 
+/* A number of 64 bits. C90 has no long long: there the compilers that know __extension__ take it without a warning. */
+#ifdef __GNUC__
+__extension__ typedef unsigned long long snCount;
+#else
+typedef unsigned long long snCount;
+#endif
+
 /* Of this thread since the last reset: what the colliders and snGeomProximity did. With meshes, heightfields and rays no normal is
  * remembered. */
 typedef struct snStatistics {
-  unsigned long long queries_cold, queries_warm;         /* pairs solved without and with a remembered normal */
-  unsigned long long evaluations_cold, evaluations_warm; /* of the gap function, in those queries */
-  unsigned long long closed_forms;                       /* pairs settled without iteration, such as body and plane */
-  unsigned long long contacts;                           /* emitted */
-  unsigned long long not_converged;                      /* queries whose error bound exceeds the tolerance */
+  snCount queries_cold, queries_warm;         /* pairs solved without and with a remembered normal */
+  snCount evaluations_cold, evaluations_warm; /* of the gap function, in those queries */
+  snCount closed_forms;                       /* pairs settled without iteration, such as body and plane */
+  snCount contacts;                           /* emitted */
+  snCount not_converged;                      /* queries whose error bound exceeds the tolerance */
 } snStatistics;
 SUPERNORMAL_API void snGetStatistics(snStatistics* out);
 SUPERNORMAL_API void snResetStatistics(void);

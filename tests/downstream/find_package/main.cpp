@@ -1,8 +1,11 @@
-// A program that knows only what is installed: asks the C++ core and the C interface for the same gap.
+// A program that knows only what is installed: asks the C++ core and the C interface for the same gap, with a shape of its own too,
+// and catches an exception that the library throws. That takes the tables of virtual functions and the type information of the
+// library.
 #include <supernormal/supernormal.h>
 
 #include <cmath>
 #include <cstdio>
+#include <supernormal/effects.hpp>
 #include <supernormal/supernormal.hpp>
 
 namespace {
@@ -11,12 +14,30 @@ namespace {
 constexpr double kDistance = 3;
 constexpr double kGap = 1.5;
 
-double gap_by_core() {
-  const supernormal::Ellipsoid left({1, 0.8, 0.6});
+// The ball that has the left ellipsoid's largest half-axis.
+class Ball final : public supernormal::Shape {
+ public:
+  void evaluate(const supernormal::Vector3& n, supernormal::Order /*order*/, supernormal::Jet& jet) const override {
+    jet.h = 1;
+    jet.r = n;
+    jet.H = supernormal::Matrix3::Identity() - n * n.transpose();
+  }
+};
+
+double gap_by_core(const supernormal::Shape& left) {
   const supernormal::Ellipsoid right({0.5, 0.4, 0.3});
   supernormal::Pose pose;
   pose.position.x() = kDistance;
   return supernormal::find_proximity(left, {}, right, pose).gap;
+}
+
+bool refuses_bad_effects() {
+  try {
+    const supernormal::effects::Effects effects({supernormal::effects::Friction{-1}}, 0.001);
+  } catch (const supernormal::effects::BadEffect& error) {
+    return error.effect() == "friction";
+  }
+  return false;
 }
 
 double gap_by_ode() {
@@ -36,8 +57,13 @@ double gap_by_ode() {
 }  // namespace
 
 int main() {
-  const double core = gap_by_core();
+  const supernormal::Ellipsoid ellipsoid({1, 0.8, 0.6});
+  const supernormal::Shape& shape = ellipsoid;
+  const double core = gap_by_core(ellipsoid);
+  const double own = gap_by_core(Ball());
   const double ode = gap_by_ode();
-  std::printf("gap by the core %.17g, by the C interface %.17g, expected %g\n", core, ode, kGap);
-  return std::abs(core - kGap) < 1e-9 && std::abs(ode - kGap) < (sizeof(dReal) == sizeof(double) ? 1e-9 : 1e-6) ? 0 : 1;
+  std::printf("gap by the core %.17g, of a shape of our own %.17g, by the C interface %.17g, expected %g\n", core, own, ode, kGap);
+  const bool gaps_agree = std::abs(core - kGap) < 1e-9 && std::abs(own - kGap) < 1e-9 &&
+                          std::abs(ode - kGap) < (sizeof(dReal) == sizeof(double) ? 1e-9 : 1e-6);
+  return gaps_agree && refuses_bad_effects() && dynamic_cast<const supernormal::Ellipsoid*>(&shape) != nullptr ? 0 : 1;
 }
