@@ -33,6 +33,9 @@ constexpr double kLeaningTooFar = 0.9;
 // Of the width of a round side: a line of contact is not without any, so that two of them have something in common.
 constexpr double kThinnest = 1e-3;
 
+// Squared, of the longer way across the four points: along a shorter one nothing is known of the lean, and there is none.
+constexpr double kLeastSpread = 1e-6;
+
 constexpr std::array<std::array<double, 2>, 4> kSigns = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 
 /// 0 up to `zero`, 1 from `one` on, either of which may be the larger.
@@ -137,23 +140,26 @@ Vector3 SupportPolygon::point_of(const Shape& shape, const Pose& pose, const Vec
   return pose.position + pose.rotation * jet.r;
 }
 
-// Of the plane that fits the four points best, as far as the diagonals reach.
+// Of the plane that fits the four points best, as far as the diagonals reach; level along an axis along which they are all the same.
 SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const {
+  const auto way_of = [&](const Sight& sight) { return Vector2(sight.way[0] / extents_[0], sight.way[1] / extents_[1]); };
   Vector2 mean = Vector2::Zero();
   double mean_drop = 0;
   for (const Sight& sight : sights) {
-    mean += 0.25 * Vector2(sight.way[0], sight.way[1]);
+    mean += 0.25 * way_of(sight);
     mean_drop += 0.25 * sight.drop;
   }
   Symmetric2 spread;
   Vector2 rise = Vector2::Zero();
   for (const Sight& sight : sights) {
-    const Vector2 way = Vector2(sight.way[0], sight.way[1]) - mean;
+    const Vector2 way = way_of(sight) - mean;
     spread = spread + Symmetric2{way.x() * way.x(), way.x() * way.y(), way.y() * way.y()};
     rise += (sight.drop - mean_drop) * way;
   }
-  const Vector2 slope = spread.solve(rise);
-  return {std::clamp(slope.x(), -diagonal[0], diagonal[0]), std::clamp(slope.y(), -diagonal[1], diagonal[1])};
+  if (!(spread.trace() > 0)) return {};
+  const Vector2 slope = spread.plus_identity(kLeastSpread * spread.trace()).solve(rise);
+  return {std::clamp(slope.x() / extents_[0], -diagonal[0], diagonal[0]),
+          std::clamp(slope.y() / extents_[1], -diagonal[1], diagonal[1])};
 }
 
 void SupportPolygon::place_vertices(const std::array<Sight, 4>& sights, const Tilt& diagonal, const Tilt& tilt, const Along& along,
