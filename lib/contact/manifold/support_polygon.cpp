@@ -36,7 +36,9 @@ constexpr double kThinnest = 1e-3;
 // Squared, of the longer way across the four points: along a shorter one nothing is known of the lean, and there is none.
 constexpr double kLeastSpread = 1e-6;
 
+// Along the axes; and which of the four faces which other one along either axis.
 constexpr std::array<std::array<double, 2>, 4> kSigns = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+constexpr std::array<std::array<std::size_t, 4>, 2> kFacing = {{{1, 0, 3, 2}, {3, 2, 1, 0}}};
 
 /// 0 up to `zero`, 1 from `one` on, either of which may be the larger.
 double ramp(double value, double zero, double one) { return std::clamp((value - zero) / (one - zero), 0.0, 1.0); }
@@ -130,7 +132,7 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   for (std::size_t a = 0; a < 2; ++a) along.flat[a] = ramp(share[1 + a], 2 / kRoundExponent, 2 / kFlatExponent);
   flatness_ = ramp(share[0], 1 / kRoundExponent, 1 / kFlatExponent) *
               std::max(along.flat[0] * along.upright[0], along.flat[1] * along.upright[1]);
-  if (flatness_ > 0) place_vertices(sights, diagonal, tilt, along, n, reach_of(depth));
+  if (flatness_ > 0) place_vertices(sights, tilt, along, n, reach_of(depth));
 }
 
 Vector3 SupportPolygon::point_of(const Shape& shape, const Pose& pose, const Vector3& n, const Tilt& tilt) {
@@ -162,21 +164,30 @@ SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<Sight, 4>& si
           std::clamp(slope.y() / extents_[1], -diagonal[1], diagonal[1])};
 }
 
-void SupportPolygon::place_vertices(const std::array<Sight, 4>& sights, const Tilt& diagonal, const Tilt& tilt, const Along& along,
-                                    const Vector3& n, double reach) {
+// All that happens to the four points happens along chords of the body, so that they stay in it.
+void SupportPolygon::place_vertices(const std::array<Sight, 4>& sights, const Tilt& tilt, const Along& along, const Vector3& n,
+                                    double reach) {
+  // Where the body is round along an axis, the two points that face one another along it become one, halfway between them.
+  std::array<Sight, 4> points = sights;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double own = 1 - 0.5 * along.upright[a] * (1 - std::max(along.flat[a], kThinnest));
+    const std::array<Sight, 4> apart = points;
+    for (std::size_t k = 0; k < 4; ++k) points[k] = apart[k].mixed_with(apart[kFacing[a][k]], own);
+  }
+  // Where it leans too far along an axis, the points above are drawn in to the support point, the others to the line through it.
+  std::array<double, 2> farthest{};
+  for (const Sight& point : points) {
+    for (std::size_t a = 0; a < 2; ++a) farthest[a] = std::max(farthest[a], tilt[a] * point.way[a]);
+  }
   for (std::size_t k = 0; k < 4; ++k) {
-    // Where the body is round or leans too far along one axis, it stands on a line, without the drop beside it.
-    double drop = sights[k].drop;
-    Vector3 way = Vector3::Zero();
+    auto [way, drop] = points[k];
+    double share = flatness_ * (drop > reach ? reach / drop : 1);
     for (std::size_t a = 0; a < 2; ++a) {
-      const double x = sights[k].way[a];
-      drop -= 0.5 * along.upright[a] * (1 - along.flat[a]) * std::max(0.0, kSigns[k][a] * diagonal[a] * x);
-      drop -= (1 - along.upright[a]) * std::max(0.0, tilt[a] * x);
-      way += std::max(along.flat[a] * along.upright[a], kThinnest) * x * axes_[a];
+      const double above = tilt[a] * points[k].way[a] > 0 ? tilt[a] * points[k].way[a] / farthest[a] : 0;
+      share *= 1 - (1 - along.upright[a]) * above;
+      way[a] *= 1 - (1 - along.upright[a]) * (1 - above);
     }
-    drop = std::max(drop, 0.0);
-    const double share = flatness_ * (drop > reach ? reach / drop : 1);
-    vertices_[k] = {share * (way - drop * n), share * drop};
+    vertices_[k] = {share * (way[0] * axes_[0] + way[1] * axes_[1] - drop * n), share * drop};
   }
 }
 

@@ -57,6 +57,10 @@ class SupportPolygon {
   struct Sight {
     std::array<double, 2> way;
     double drop;
+
+    Sight mixed_with(const Sight& other, double own) const {
+      return {{own * way[0] + (1 - own) * other.way[0], own * way[1] + (1 - own) * other.way[1]}, own * drop + (1 - own) * other.drop};
+    }
   };
   /// Along either axis, 0 to 1: whether the body is flat, and whether its face leans no farther than the diagonals.
   struct Along {
@@ -67,8 +71,7 @@ class SupportPolygon {
 
   Vector3 point_of(const Shape& shape, const Pose& pose, const Vector3& n, const Tilt& tilt);
   Tilt tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const;
-  void place_vertices(const std::array<Sight, 4>& sights, const Tilt& diagonal, const Tilt& tilt, const Along& along,
-                      const Vector3& n, double reach);
+  void place_vertices(const std::array<Sight, 4>& sights, const Tilt& tilt, const Along& along, const Vector3& n, double reach);
 
   Vector3 support_point_;
   std::array<Vector3, 2> axes_;
