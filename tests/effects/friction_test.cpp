@@ -87,8 +87,8 @@ TEST_CASE("no contact ever exceeds the cone") {
   const double coefficient = 0.4;
   EffectsWorld scene({earth(), fx::Friction{coefficient, {}}}, kStep);
   // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges.
-  // With five loaded contacts a face it converges more slowly than with one.
-  dWorldSetQuickStepNumIterations(scene.id(), 400);
+  // Five loaded contacts of one face are redundant, and it converges more slowly than with one.
+  dWorldSetQuickStepNumIterations(scene.id(), 3000);
   scene.world.add_plane();
   Random random(5);
   for (int i = 0; i < 8; ++i) {
@@ -144,6 +144,7 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
     CAPTURE(turn);
     OdeSession session;
     EffectsWorld scene({earth(), grain}, kStep);
+    dWorldSetQuickStepNumIterations(scene.id(), 200);  // the loads of five contacts of one face are redundant
     scene.world.add_plane();
     const dBodyID puck = add_puck(scene);
     const double grain_angle = 45 * kDegree + turn;
