@@ -90,6 +90,38 @@ TEST_CASE("a wall of 50 bricks stands and sleeps as soon as one of dBoxes") {
   CHECK(build_and_settle(false) <= 2 * steps_of_boxes);
 }
 
+TEST_CASE("60 needles side by side fall asleep") {
+  const double c = 0.005;
+  for (const double exponent : {0.0, 6.0, 8.0, 20.0}) {  // 0: dBoxes
+    OdeSession session;
+    World world;
+    dWorldSetAutoDisableFlag(world.id(), 1);
+    world.surface.mode = dContactApprox1;
+    world.surface.mu = dReal(0.5);
+    world.add_plane();
+    Random random(5);
+    std::vector<dBodyID> needles;
+    for (int k = 0; k < 60; ++k) {
+      dMass mass;
+      dMassSetBox(&mass, 1000, dReal(80 * c), dReal(2 * c), dReal(2 * c));
+      dGeomID geom = nullptr;
+      if (exponent == 0) {
+        geom = dCreateBox(world.space(), dReal(80 * c), dReal(2 * c), dReal(2 * c));
+      } else {
+        geom = snCreateSuperellipsoid(world.space(), dReal(40 * c), dReal(c), dReal(c), dReal(exponent), dReal(exponent));
+        REQUIRE(snMassSet(&mass, 1000, geom) == 1);
+      }
+      needles.push_back(world.add(geom, mass));
+      place(geom, {random.uniform(-c, c), 2.2 * c * k + random.uniform(-0.1, 0.1) * c, 3.2 * c});
+      turn(needles.back(), {0, 1, 0}, random.uniform(-0.002, 0.002));
+    }
+    const Watch watch = settle(world, needles, 2e-3, 3);
+    CAPTURE(exponent);
+    CHECK(watch.asleep);
+    MESSAGE("exponent ", exponent, ": asleep after ", 2e-3 * watch.steps, " s, gained ", watch.gained / watch.start);
+  }
+}
+
 TEST_CASE("a pile of mixed grains comes to rest") {
   // samples/scenes/pile.toml is the long run: 1000 grains, 1e5 steps.
   OdeSession session;
