@@ -1,5 +1,6 @@
 #include "supernormal/shapes/power_norm.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,9 @@ constexpr double kSmallRatio = 1e-140;
 // For p < 2 the second derivative grows without bound as k -> 0 (a flat face). It is held at its value for this ratio, which
 // is beyond any curvature that matters and leaves room for products of two such numbers.
 constexpr double kFlatRatio = 1e-60;
+
+// With some room to that, whichever of the three numbers the ratio is taken of.
+constexpr double kPlainRatio = 1e-50;
 
 }  // namespace
 
@@ -57,6 +61,47 @@ void PowerNorm::answer(std::array<PowerNormQuestion, kCount>& questions, Order o
 
 template void PowerNorm::answer(std::array<PowerNormQuestion, 1>& questions, Order order);
 template void PowerNorm::answer(std::array<PowerNormQuestion, 2>& questions, Order order);
+template void PowerNorm::answer(std::array<PowerNormQuestion, 4>& questions, Order order);
+
+bool PowerNorm::is_plain(double x, double y, double z) { return std::min({x, y, z}) > kPlainRatio * std::max({x, y, z}); }
+
+template <std::size_t kCount>
+void PowerNorm::answer(std::array<PowerNorm3Question, kCount>& questions, Order order) {
+  std::array<std::array<double, 3>, kCount> k, powers;
+  std::array<double, kCount> largest, sum, root;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const auto& [norm, x, value, slope, bend] = questions[i];
+    largest[i] = std::max({x[0], x[1], x[2]});
+    for (std::size_t a = 0; a < 3; ++a) {
+      k[i][a] = x[a] < largest[i] ? x[a] / largest[i] : 1;
+      powers[i][a] = k[i][a] == 1 || norm->is_euclidean_ ? k[i][a] * k[i][a] : std::pow(k[i][a], norm->p_);
+    }
+    sum[i] = powers[i][0] + powers[i][1] + powers[i][2];
+  }
+  for (std::size_t i = 0; i < kCount; ++i) root[i] = questions[i].norm->is_euclidean_ ? std::sqrt(sum[i]) : std::log(sum[i]);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const PowerNorm& norm = *questions[i].norm;
+    if (!norm.is_euclidean_) root[i] = std::exp(norm.inverse_p_ * root[i]);
+  }
+  for (std::size_t i = 0; i < kCount; ++i) {
+    auto& [norm, x, value, slope, bend] = questions[i];
+    value = largest[i] * root[i];
+    if (order == Order::Value) continue;
+    const double steepest = root[i] / sum[i];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double power_1 = powers[i][a] / k[i][a];
+      slope[a] = steepest * power_1;
+      if (order == Order::Point) continue;
+      // What the others are of the sum, without a difference.
+      const double others = powers[i][(a + 1) % 3] + powers[i][(a + 2) % 3];
+      bend[a] = norm->p_minus_1_ * steepest * steepest * others * (power_1 / k[i][a]);
+    }
+  }
+}
+
+template void PowerNorm::answer(std::array<PowerNorm3Question, 1>& questions, Order order);
+template void PowerNorm::answer(std::array<PowerNorm3Question, 2>& questions, Order order);
+template void PowerNorm::answer(std::array<PowerNorm3Question, 4>& questions, Order order);
 
 void PowerNorm::differentiate(const Ratio& f, PowerNormJet& jet) const {
   jet.dx = f.root / f.sum;
@@ -93,6 +138,8 @@ void PowerNorm::gradient(double x, double y, PowerNormJet& jet) const {
   answer(question, Order::Point);
   jet = question[0].jet;
 }
+
+double PowerNorm::slope(double k) const { return is_euclidean_ || k == 1 ? k : std::pow(k, p_minus_1_); }
 
 void PowerNorm::curvature(double x, double y, PowerNormJet& jet) const {
   std::array<PowerNormQuestion, 1> question = {{{this, x, y, {}}}};

@@ -59,9 +59,41 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
       outer_gauge_(PowerNorm::of_exponent(epsilon)),
       rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)) {}
 
+// With one exponent the two norms are a single one of three numbers. Not of a sharp body, whose high powers p make much of the
+// rounding of the ratios.
+bool Superellipsoid::is_one_norm_at(const Vector3& n) const {
+  const Vector3 scaled = half_axes_.cwiseProduct(n).cwiseAbs();
+  return delta_ == epsilon_ && delta_ >= 2 && PowerNorm::is_plain(scaled.x(), scaled.y(), scaled.z());
+}
+
+template <std::size_t kCount>
+void Superellipsoid::answer_by_one_norm(const std::array<Question, kCount>& questions, Order order) {
+  std::array<PowerNorm3Question, kCount> norms;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Superellipsoid& body = *questions[i].body;
+    const Vector3 scaled = body.half_axes_.cwiseProduct(*questions[i].n).cwiseAbs();
+    norms[i] = {&body.inner_potential_, {scaled.x(), scaled.y(), scaled.z()}};
+  }
+  PowerNorm::answer(norms, order);
+  for (std::size_t i = 0; i < kCount; ++i) questions[i].body->assemble(norms[i], *questions[i].n, order, *questions[i].jet);
+}
+
+void Superellipsoid::assemble(const PowerNorm3Question& norm, const Vector3& n, Order order, Jet& jet) const {
+  jet.h = norm.value;
+  if (order == Order::Value) return;
+  for (int i = 0; i < 3; ++i) jet.r[i] = std::copysign(half_axes_[i] * norm.slope[static_cast<std::size_t>(i)], n[i]);
+  if (order == Order::Point) return;
+  const double scale = -norm.norm->p_minus_1() / norm.value;
+  for (int i = 0; i < 3; ++i) {
+    const int next = (i + 1) % 3;
+    jet.H(i, i) = half_axes_[i] * half_axes_[i] * (norm.bend[static_cast<std::size_t>(i)] / norm.value);
+    jet.H(i, next) = jet.H(next, i) = scale * jet.r[i] * jet.r[next];
+  }
+}
+
 // The inner norms of x and y; with them ("x") and z ("y") the outer ones.
 template <std::size_t kCount>
-void Superellipsoid::answer(const std::array<Question, kCount>& questions, Order order) {
+void Superellipsoid::answer_by_two_norms(const std::array<Question, kCount>& questions, Order order) {
   std::array<PowerNormQuestion, kCount> inner, outer;
   for (std::size_t i = 0; i < kCount; ++i) {
     const Superellipsoid& body = *questions[i].body;
@@ -77,6 +109,19 @@ void Superellipsoid::answer(const std::array<Question, kCount>& questions, Order
   }
 }
 
+template <std::size_t kCount>
+void Superellipsoid::answer(const std::array<Question, kCount>& questions, Order order) {
+  const auto is_one_norm = [](const Question& question) { return question.body->is_one_norm_at(*question.n); };
+  const auto one_norms = static_cast<std::size_t>(std::ranges::count_if(questions, is_one_norm));
+  if (one_norms == kCount) {
+    answer_by_one_norm(questions, order);
+  } else if (one_norms == 0) {
+    answer_by_two_norms(questions, order);
+  } else {  // a body gives the same digits in any company
+    for (const Question& question : questions) answer(std::array<Question, 1>{question}, order);
+  }
+}
+
 void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   answer(std::array<Question, 1>{{{this, &n, &jet}}}, order);
 }
@@ -84,6 +129,8 @@ void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
 void Superellipsoid::evaluate_both(const Question& question1, const Question& question2, Order order) {
   answer(std::array<Question, 2>{question1, question2}, order);
 }
+
+void Superellipsoid::evaluate_four(const std::array<Question, 4>& questions, Order order) { answer(questions, order); }
 
 void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const {
   jet.h = outer.value;
@@ -120,6 +167,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
 
   const Vector3 target = jet.r + jet.H * dn;
   const Vector3 gauge_point = target.cwiseQuotient(half_axes_).cwiseAbs();
+  if (delta_ == epsilon_) return along_gauge_gradient(gauge_point, target);
   const Vector3 scaled = half_axes_.cwiseProduct(moved).cwiseAbs();
   PowerNormJet inner, outer;
   inner_gauge_.gradient(gauge_point.x(), gauge_point.y(), inner);
@@ -148,6 +196,17 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   return Vector3(std::copysign(result.x(), sign_xy.x()), std::copysign(result.y(), sign_xy.y()),
                  std::copysign(result.z(), sign_z.z()))
       .cwiseQuotient(half_axes_);
+}
+
+// With one exponent the two norms are a single one of three numbers, whose gradient takes no root.
+Vector3 Superellipsoid::along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const {
+  const double largest = gauge_point.maxCoeff();
+  Vector3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double ratio = gauge_point[axis] < largest ? gauge_point[axis] / largest : 1;
+    gradient[axis] = std::copysign(inner_gauge_.slope(ratio), signs[axis]);
+  }
+  return gradient.cwiseQuotient(half_axes_);
 }
 
 double Superellipsoid::sharpest_radius() const {

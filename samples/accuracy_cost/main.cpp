@@ -8,6 +8,7 @@
 
 #include "atlas.hpp"
 #include "atlas_report.hpp"
+#include "face_cost.hpp"
 #include "measurement.hpp"
 #include "partner_cost.hpp"
 #include "partner_sweep.hpp"
@@ -31,6 +32,7 @@ struct Options {
   std::string csv;
   bool partners = false;
   std::size_t poses = 200;
+  bool faces = false;
   bool atlas = false;
   bool scene = false;
   std::string scene_path = "samples/scenes/pile.toml";
@@ -53,6 +55,10 @@ void run(const Options& options) {
   }
   if (options.partners) {
     write_partner_costs(options.poses, options.seed, effort, std::cout);
+    return;
+  }
+  if (options.faces) {
+    write_face_costs(effort, std::cout);
     return;
   }
   std::vector<Pair> pairs = draw_pairs(options.pairs, options.seed);
@@ -90,6 +96,7 @@ int main(int argc, char** argv) {
     app.add_option("--poses", options.poses, "with --partners: of each body at each partner")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
+    app.add_flag("--faces", options.faces, "times dCollide of bodies at rest, by their exponents, instead")->excludes(csv);
     app.add_flag("--atlas", options.atlas, "measures all levels instead: queries, meshes, partners, scenes")->excludes(csv);
     app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")->excludes(csv);
     app.add_option("--scene-file", options.scene_path, "with --atlas and --scene: the grains, in a box")->capture_default_str();

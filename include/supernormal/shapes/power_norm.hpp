@@ -26,6 +26,15 @@ struct PowerNormQuestion {
   PowerNormJet jet;
 };
 
+/// A norm of three numbers, and the answer.
+struct PowerNorm3Question {
+  const PowerNorm* norm;
+  std::array<double, 3> x;  ///< not negative
+  double value = 0;
+  std::array<double, 3> slope{};  ///< first derivatives
+  std::array<double, 3> bend{};   ///< value times the second derivatives; the mixed ones are -(p - 1) slope[i] slope[j] / value
+};
+
 /// (x^p + y^p)^(1/p), from two powers; from a square root for p = 2. The larger number is factored out, so that nothing
 /// overflows whatever p is.
 class PowerNorm {
@@ -41,13 +50,25 @@ class PowerNorm {
   /// Value and first derivatives. At the origin, where the direction is undefined, as if x = y.
   void gradient(double x, double y, PowerNormJet& jet) const;
 
+  /// k^(p-1): what the derivative with respect to one number is to that with respect to another that is 1/k times as large.
+  double slope(double k) const;
+
   /// All of PowerNormJet.
   void curvature(double x, double y, PowerNormJet& jet) const;
 
-  /// Answers one or two questions up to `order`. Two side by side take two thirds of the time of one after the other: a power, a
-  /// logarithm and an exponential wait for one another, but not for those of the other norm.
+  /// Answers one, two or four questions up to `order`. Two side by side take two thirds of the time of one after the other: a
+  /// power, a logarithm and an exponential wait for one another, but not for those of the other norm.
   template <std::size_t kCount>
   static void answer(std::array<PowerNormQuestion, kCount>& questions, Order order);
+
+  /// The same of three numbers, which must be plain: one root less than two nested norms take.
+  template <std::size_t kCount>
+  static void answer(std::array<PowerNorm3Question, kCount>& questions, Order order);
+
+  /// Whether none of three numbers vanishes beside the others, so that no derivative has to be kept finite.
+  static bool is_plain(double x, double y, double z);
+
+  double p_minus_1() const { return p_minus_1_; }
 
  private:
   PowerNorm(double p, double p_minus_1, double inverse_p);

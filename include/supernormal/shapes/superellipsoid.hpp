@@ -35,6 +35,9 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   /// evaluate() of two bodies in two thirds of the time that they take one after the other, with the same digits.
   static void evaluate_both(const Question& question1, const Question& question2, Order order);
+
+  /// The same of four normals: in half of the time.
+  static void evaluate_four(const std::array<Question, 4>& questions, Order order);
   const Superellipsoid* as_superellipsoid() const override { return this; }
 
   /// Moves the boundary point and takes the normal there (the gradient of the implicit function): on a flat face, r is
@@ -59,6 +62,13 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   template <std::size_t kCount>
   static void answer(const std::array<Question, kCount>& questions, Order order);
+  Vector3 along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const;
+  bool is_one_norm_at(const Vector3& n) const;
+  template <std::size_t kCount>
+  static void answer_by_one_norm(const std::array<Question, kCount>& questions, Order order);
+  template <std::size_t kCount>
+  static void answer_by_two_norms(const std::array<Question, kCount>& questions, Order order);
+  void assemble(const PowerNorm3Question& norm, const Vector3& n, Order order, Jet& jet) const;
   void assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const;
 
   Vector3 half_axes_;

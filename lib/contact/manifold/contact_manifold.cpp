@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "contact/manifold/convex_polygon.hpp"
 #include "contact/manifold/support_polygon.hpp"
+#include "contact/manifold/unit_root.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -75,25 +75,31 @@ class Side {
       : apex_(frame.project(polygon.support_point())), axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
     for (std::size_t k = 0; k < 4; ++k) {
       const SupportPolygon::Vertex& vertex = polygon.vertices()[sees_it_from_below ? 3 - k : k];
-      corners_[k] = frame.project(polygon.support_point() + vertex.offset);
+      spokes_[k] = frame.plane.project(vertex.offset);
       drops_[k] = vertex.drop;
     }
+    for (std::size_t k = 0; k < 4; ++k) inverse_areas_[k] = inverse_area(spokes_[k], spokes_[(k + 1) % 4]);
   }
 
   ConvexPolygon outline() const {
     ConvexPolygon outline;
-    for (const Vector2& corner : corners_) outline.add(corner);
+    for (const Vector2& spoke : spokes_) outline.add(apex_ + spoke);
     return outline;
   }
 
   /// A bound on how far the surface is below the tangent plane there: by the triangles between the support point and two
   /// neighbouring vertices, which lie in the body.
   double drop_at(const Vector2& point) const {
+    const Vector2 way = point - apex_;
     double least_outside = HUGE_VAL;
     double drop = 0;
+    double across = cross(spokes_[0], way);
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t next = (k + 1) % 4;
-      const Vector2 share = shares_in(corners_[k] - apex_, corners_[next] - apex_, point - apex_);
+      const double across_next = cross(spokes_[next], way);
+      Vector2 share(-across_next * inverse_areas_[k], across * inverse_areas_[k]);
+      if (inverse_areas_[k] == 0) share = share_along_longer(spokes_[k], spokes_[next], way);
+      across = across_next;
       const double outside = std::max({-share.x(), -share.y(), share.sum() - 1});
       if (!(outside < least_outside)) continue;
       least_outside = outside;
@@ -104,35 +110,35 @@ class Side {
   }
 
   /// The direction of its axes, the same for all four of them, as a complex number that is the larger the smaller the body is.
-  std::complex<double> direction() const {
-    const std::complex<double> axis(axis_.x(), axis_.y());
-    return axis * axis * axis * axis / (area_ * area_);
-  }
+  Vector2 direction() const { return fourth_power(axis_) / (area_ * area_); }
 
  private:
-  /// Coordinates of a point with respect to two edges; along the longer one where these are parallel.
-  static Vector2 shares_in(const Vector2& edge1, const Vector2& edge2, const Vector2& point) {
-    const double length1 = edge1.squaredNorm();
-    const double length2 = edge2.squaredNorm();
-    const double area = edge1.x() * edge2.y() - edge1.y() * edge2.x();
-    if (area * area > 1e-24 * length1 * length2) {
-      return Vector2(point.x() * edge2.y() - point.y() * edge2.x(), edge1.x() * point.y() - edge1.y() * point.x()) / area;
-    }
+  /// 0 of two that are parallel, which have no area between them.
+  static double inverse_area(const Vector2& spoke1, const Vector2& spoke2) {
+    const double area = cross(spoke1, spoke2);
+    return area * area > 1e-24 * spoke1.squaredNorm() * spoke2.squaredNorm() ? 1 / area : 0;
+  }
+
+  /// Coordinates of a point with respect to two spokes that are parallel.
+  static Vector2 share_along_longer(const Vector2& spoke1, const Vector2& spoke2, const Vector2& point) {
+    const double length1 = spoke1.squaredNorm();
+    const double length2 = spoke2.squaredNorm();
     if (!(std::max(length1, length2) > 0)) return {0, 0};
-    return length1 >= length2 ? Vector2(point.dot(edge1) / length1, 0) : Vector2(0, point.dot(edge2) / length2);
+    return length1 >= length2 ? Vector2(point.dot(spoke1) / length1, 0) : Vector2(0, point.dot(spoke2) / length2);
   }
 
   Vector2 apex_;
-  std::array<Vector2, 4> corners_;
+  std::array<Vector2, 4> spokes_;  // from the apex to the corners
   std::array<double, 4> drops_{};
+  std::array<double, 4> inverse_areas_{};  // of the parallelograms between two spokes
   Vector2 axis_;
   double area_;
 };
 
 /// The common directions of the axes of both bodies, of which the smaller one counts more.
 std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
-  const double angle = 0.25 * std::arg(side1.direction() + side2.direction());
-  const Vector2 first(std::cos(angle), std::sin(angle));
+  const Vector2 sum = side1.direction() + side2.direction();
+  const Vector2 first = sum.squaredNorm() > 0 ? direction_of_fourth_power(sum) : Vector2(Vector2::UnitX());
   return {first, Vector2(-first.y(), first.x())};
 }
 
@@ -140,8 +146,9 @@ std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
 void find_corners(const Side& side1, const Side& side2, const ContactFrame& frame, CornerList& corners) {
   const ConvexPolygon region = side1.outline().intersected(side2.outline());
   if (region.size() == 0) return;
-  double reach = 0;
-  for (int k = 0; k < region.size(); ++k) reach = std::max(reach, region[k].norm());
+  double squared_reach = 0;
+  for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
+  const double reach = std::sqrt(squared_reach);
   const auto [u, v] = common_axes(side1, side2);
   for (const Vector2& diagonal : {Vector2(u + v), Vector2(v - u), Vector2(-u - v), Vector2(u - v)}) {
     const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonal);
@@ -191,7 +198,7 @@ ContactManifold reduced_to(ContactManifold manifold, int corner_count) {
   const double least = -kLeastShare * manifold.deepest.gap;
   for (int k = 0; manifold.corner_count > corner_count && k + 1 < manifold.corner_count; ++k) {
     ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
-    const ManifoldCorner& next = manifold.corners[static_cast<std::size_t>(k + 1)];
+    const ManifoldCorner& next = manifold.corners[static_cast<std::size_t>(k) + 1];
     const double weight = std::pow(corner.depth + least, 2);
     const double weight_of_next = std::pow(next.depth + least, 2);
     const double share = weight_of_next / (weight + weight_of_next);

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace supernormal {
-namespace {
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
-
 // Sutherland and Hodgman (1974): the other polygon's edges cut this one, one after the other.
 ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   ConvexPolygon rest = *this;

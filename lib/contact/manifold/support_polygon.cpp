@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/manifold/unit_root.hpp"
 #include "solvers/tangent_plane.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 
 namespace supernormal {
 namespace {
@@ -50,27 +52,17 @@ double share_of_drop(double drop, double turn, double stretch) {
   return drop + rise > 0 ? drop / (drop + rise) : 0;
 }
 
-/// The root with a positive real part of a complex number of length 1.
-Vector2 root(const Vector2& z) { return z.x() > -1 ? Vector2(z + Vector2::UnitX()).normalized() : Vector2(Vector2::UnitY()); }
-
-Vector2 product(const Vector2& a, const Vector2& b) { return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()}; }
-
 /// The axes of a body as they lie in the tangent plane: two directions at right angles, so that those of all its axes, and of their
 /// opposites, are near one of them or its opposite. As complex numbers to the power of four they are all the same, and added up. So
-/// it depends on the normal continuously, except where the three are alike, towards the vertices of a box.
-std::array<Vector3, 2> axes_in_plane(const Matrix3& rotation, const Vector3& n) {
+/// it depends on the normal continuously, except where the three are alike, towards the vertices of a box. All in the body's frame.
+std::array<Vector3, 2> axes_in_plane(const Vector3& n) {
   int along_normal = 0;
-  (rotation.transpose() * n).cwiseAbs().maxCoeff(&along_normal);
-  const TangentPlane plane(n, rotation.col((along_normal + 1) % 3));
+  n.cwiseAbs().maxCoeff(&along_normal);
+  const TangentPlane plane(n, Vector3::Unit((along_normal + 1) % 3));
   Vector2 sum = Vector2::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector2 seen = plane.project(rotation.col(axis));
-    const Vector2 square = product(seen, seen);
-    sum += product(square, square);
-  }
-  const double length = sum.norm();
-  if (!(length > 0)) return {plane.t1, plane.t2};
-  const Vector2 first = root(root(sum / length));
+  for (int axis = 0; axis < 3; ++axis) sum += fourth_power({plane.t1[axis], plane.t2[axis]});
+  if (!(sum.squaredNorm() > 0)) return {plane.t1, plane.t2};
+  const Vector2 first = direction_of_fourth_power(sum);
   return {plane.lift(first), plane.lift({-first.y(), first.x()})};
 }
 
@@ -85,21 +77,69 @@ double tangent_of_tilt(double reach, double height) {
 
 double SupportPolygon::reach_of(double depth) { return kReach * depth; }
 
+/// Looks at points of a body from its support point, all in the body's frame.
+class SupportPolygon::Observer {
+ public:
+  Observer(const Shape& shape, const Vector3& n, const std::array<Vector3, 2>& axes, const Vector3& support_point)
+      : shape_(&shape), n_(n), axes_(axes), support_point_(support_point) {}
+
+  Sight of(const Tilt& tilt) const {
+    Jet jet;
+    shape_->evaluate(tilted(tilt).normalized(), Order::Point, jet);
+    return sight_of(jet.r);
+  }
+
+  /// Of the normals that are tilted towards each of the four diagonals.
+  std::array<Sight, 4> of_diagonals(const Tilt& diagonal) const {
+    const double length = std::sqrt(1 + diagonal[0] * diagonal[0] + diagonal[1] * diagonal[1]);
+    std::array<Vector3, 4> normals;
+    for (std::size_t k = 0; k < 4; ++k) {
+      normals[k] = tilted({kSigns[k][0] * diagonal[0], kSigns[k][1] * diagonal[1]}) / length;
+    }
+    std::array<Jet, 4> jets;
+    if (const Superellipsoid* const body = shape_->as_superellipsoid()) {
+      std::array<Superellipsoid::Question, 4> questions;
+      for (std::size_t k = 0; k < 4; ++k) questions[k] = {body, &normals[k], &jets[k]};
+      Superellipsoid::evaluate_four(questions, Order::Point);
+    } else {
+      for (std::size_t k = 0; k < 4; ++k) shape_->evaluate(normals[k], Order::Point, jets[k]);
+    }
+    std::array<Sight, 4> sights;
+    for (std::size_t k = 0; k < 4; ++k) sights[k] = sight_of(jets[k].r);
+    return sights;
+  }
+
+ private:
+  Vector3 tilted(const Tilt& tilt) const { return n_ + tilt[0] * axes_[0] + tilt[1] * axes_[1]; }
+
+  Sight sight_of(const Vector3& point) const {
+    const Vector3 way = point - support_point_;
+    return {{axes_[0].dot(way), axes_[1].dot(way)}, std::max(0.0, -n_.dot(way))};
+  }
+
+  const Shape* shape_;
+  Vector3 n_;
+  std::array<Vector3, 2> axes_;
+  Vector3 support_point_;
+};
+
 SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth)
-    : support_point_(support_point), axes_(axes_in_plane(pose.rotation, n)) {
+    : support_point_(support_point) {
+  const Matrix3 to_body = pose.rotation.transpose();
+  const Vector3 normal = to_body * n;
+  const std::array<Vector3, 2> axes = axes_in_plane(normal);
+  axes_ = {pose.rotation * axes[0], pose.rotation * axes[1]};
   const Vector3 half_extents = shape.half_extents();
   // Of the ellipsoid with the body's half-extents.
-  const auto extent = [&](const Vector3& u) { return (pose.rotation.transpose() * u).cwiseProduct(half_extents).norm(); };
-  extents_ = {extent(axes_[0]), extent(axes_[1])};
-  const double height = extent(n);
+  const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
+  extents_ = {extent(axes[0]), extent(axes[1])};
+  const double height = extent(normal);
   const double tangent = tangent_of_tilt(reach_of(depth), height);
   const Tilt diagonal = {tangent * height / extents_[0], tangent * height / extents_[1]};
 
-  std::array<Sight, 4> sights;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vector3 way = point_of(shape, pose, n, {kSigns[k][0] * diagonal[0], kSigns[k][1] * diagonal[1]}) - support_point_;
-    sights[k] = {{axes_[0].dot(way), axes_[1].dot(way)}, std::max(0.0, -n.dot(way))};
-  }
+  const Observer observer(shape, normal, axes, to_body * (support_point - pose.position));
+  const std::array<Sight, 4> sights = observer.of_diagonals(diagonal);
+  evaluations_ = 4;
   const Tilt tilt = tilt_of_face(sights, diagonal);
   Along along;
   for (std::size_t a = 0; a < 2; ++a) along.upright[a] = ramp(std::abs(tilt[a]) / diagonal[a], kLeaningTooFar, kLeaning);
@@ -120,10 +160,11 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   };
   std::array<double, 3> share = shares(sights, {(1 - along.upright[0]) * tilt[0], (1 - along.upright[1]) * tilt[1]});
   if (share[0] > 1 / kFlatExponent) {
-    const Vector3 top = point_of(shape, pose, n, tilt) - support_point_;
+    const Sight top = observer.of(tilt);
+    ++evaluations_;
     std::array<Sight, 4> from_top;
     for (std::size_t k = 0; k < 4; ++k) {
-      from_top[k] = {{sights[k].way[0] - axes_[0].dot(top), sights[k].way[1] - axes_[1].dot(top)}, sights[k].drop + n.dot(top)};
+      from_top[k] = {{sights[k].way[0] - top.way[0], sights[k].way[1] - top.way[1]}, sights[k].drop - top.drop};
     }
     const std::array<double, 3> upright = shares(from_top, tilt);
     for (std::size_t i = 0; i < 3; ++i) share[i] = std::min(share[i], upright[i]);
@@ -133,13 +174,6 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   flatness_ = ramp(share[0], 1 / kRoundExponent, 1 / kFlatExponent) *
               std::max(along.flat[0] * along.upright[0], along.flat[1] * along.upright[1]);
   if (flatness_ > 0) place_vertices(sights, tilt, along, n, reach_of(depth));
-}
-
-Vector3 SupportPolygon::point_of(const Shape& shape, const Pose& pose, const Vector3& n, const Tilt& tilt) {
-  Jet jet;
-  shape.evaluate(pose.rotation.transpose() * (n + tilt[0] * axes_[0] + tilt[1] * axes_[1]).normalized(), Order::Point, jet);
-  ++evaluations_;
-  return pose.position + pose.rotation * jet.r;
 }
 
 // Of the plane that fits the four points best, as far as the diagonals reach; level along an axis along which they are all the same.

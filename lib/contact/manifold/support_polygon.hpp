@@ -69,7 +69,8 @@ class SupportPolygon {
   };
   using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
 
-  Vector3 point_of(const Shape& shape, const Pose& pose, const Vector3& n, const Tilt& tilt);
+  class Observer;
+
   Tilt tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const;
   void place_vertices(const std::array<Sight, 4>& sights, const Tilt& tilt, const Along& along, const Vector3& n, double reach);
 
