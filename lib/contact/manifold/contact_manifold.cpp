@@ -19,7 +19,7 @@ constexpr double kSamePlace = 0.01;
 
 // Corners are looked for from so many times the reach of the region: far enough to find those of a rectangle that is turned by
 // 30 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
-constexpr double kLookFrom = 4;
+constexpr double kLookFrom = 1.5;
 
 // Of the deepest: what a corner that is not deep counts where two are united.
 constexpr double kLeastShare = 0.01;
@@ -144,7 +144,10 @@ std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
 
 /// Up to four of the region that both sides have in common.
 void find_corners(const Side& side1, const Side& side2, const ContactFrame& frame, CornerList& corners) {
-  const ConvexPolygon region = side1.outline().intersected(side2.outline());
+  const ConvexPolygon outline1 = side1.outline();
+  const ConvexPolygon outline2 = side2.outline();
+  const bool thinner = outline1.area() < outline2.area();  // an edge of a box has no area
+  const ConvexPolygon region = thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
   if (region.size() == 0) return;
   double squared_reach = 0;
   for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());

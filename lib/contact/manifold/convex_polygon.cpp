@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace supernormal {
+
+double ConvexPolygon::area() const {
+  double twice = 0;
+  for (int k = 1; k + 1 < size_; ++k) twice += cross((*this)[k] - corners_[0], (*this)[k + 1] - corners_[0]);
+  return 0.5 * twice;
+}
+
 // Sutherland and Hodgman (1974): the other polygon's edges cut this one, one after the other.
 ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   ConvexPolygon rest = *this;

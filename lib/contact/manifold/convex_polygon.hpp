@@ -28,7 +28,10 @@ class ConvexPolygon {
   int size() const { return size_; }
   const Vector2& operator[](int k) const { return corners_[static_cast<std::size_t>(k)]; }
 
-  /// What both have in common. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm.
+  double area() const;  ///< m^2
+
+  /// What both have in common. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm. This one may
+  /// be a segment; the other one needs an inside.
   ConvexPolygon intersected(const ConvexPolygon& other) const;
 
   /// The point of the polygon that is nearest to a point outside of it. There must be a corner.

@@ -45,13 +45,6 @@ constexpr std::array<std::array<std::size_t, 4>, 2> kFacing = {{{1, 0, 3, 2}, {3
 /// 0 up to `zero`, 1 from `one` on, either of which may be the larger.
 double ramp(double value, double zero, double one) { return std::clamp((value - zero) / (one - zero), 0.0, 1.0); }
 
-/// Of the drop in the sum of drop and rise. `turn` is the way from p to q times the tilt, and what exceeds the drop the rise times
-/// the length of the tilted normal, `stretch`, in units of the half-extents: so an ellipsoid has 1/2 at any tilt.
-double share_of_drop(double drop, double turn, double stretch) {
-  const double rise = std::max(0.0, turn - drop) / stretch;
-  return drop + rise > 0 ? drop / (drop + rise) : 0;
-}
-
 /// The axes of a body as they lie in the tangent plane: two directions at right angles, so that those of all its axes, and of their
 /// opposites, are near one of them or its opposite. As complex numbers to the power of four they are all the same, and added up. So
 /// it depends on the normal continuously, except where the three are alike, towards the vertices of a box. All in the body's frame.
@@ -123,6 +116,42 @@ class SupportPolygon::Observer {
   Vector3 support_point_;
 };
 
+/// Compares the drops of the four points with the turns, the ways to them times the tilts.
+class SupportPolygon::View {
+ public:
+  View(const Tilt& diagonal, double tangent)
+      : diagonal_(diagonal), along_one_(std::sqrt(1 + tangent * tangent)), along_both_(std::sqrt(1 + 2 * tangent * tangent)) {}
+
+  /// As they are seen from the point of the body whose tangent plane has that tilt.
+  Shares shares_of(const std::array<Sight, 4>& points, const Sight& from, const Tilt& tilt) const {
+    double drop = 0;
+    std::array<double, 2> turn{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      double below = points[k].drop - from.drop;
+      for (std::size_t a = 0; a < 2; ++a) {
+        const double way = points[k].way[a] - from.way[a];
+        below -= tilt[a] * way;
+        turn[a] += std::max(0.0, (kSigns[k][a] * diagonal_[a] - tilt[a]) * way);
+      }
+      drop += std::max(0.0, below);
+    }
+    return {share_of_drop(drop, turn[0] + turn[1], along_both_),
+            {share_of_drop(drop, turn[0], along_one_), share_of_drop(drop, turn[1], along_one_)}};
+  }
+
+ private:
+  /// Of the drop in the sum of drop and rise. What the turn exceeds the drop by is the rise times the length of the tilted normal,
+  /// `stretch`, in units of the half-extents: so an ellipsoid has 1/2 at any tilt.
+  static double share_of_drop(double drop, double turn, double stretch) {
+    const double rise = std::max(0.0, turn - drop) / stretch;
+    return drop + rise > 0 ? drop / (drop + rise) : 0;
+  }
+
+  Tilt diagonal_;
+  double along_one_;
+  double along_both_;
+};
+
 SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth)
     : support_point_(support_point) {
   const Matrix3 to_body = pose.rotation.transpose();
@@ -141,42 +170,29 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   const std::array<Sight, 4> sights = observer.of_diagonals(diagonal);
   evaluations_ = 4;
   const Tilt tilt = tilt_of_face(sights, diagonal);
-  Along along;
-  for (std::size_t a = 0; a < 2; ++a) along.upright[a] = ramp(std::abs(tilt[a]) / diagonal[a], kLeaningTooFar, kLeaning);
+  std::array<double, 2> upright{};
+  Tilt tilt_that_counts{};
+  for (std::size_t a = 0; a < 2; ++a) {
+    upright[a] = ramp(std::abs(tilt[a]) / diagonal[a], kLeaningTooFar, kLeaning);
+    tilt_that_counts[a] = upright[a] * tilt[a];
+  }
+  std::array<Sight, 4> points = drawn_in(sights, upright);
 
-  const double along_both = std::sqrt(1 + 2 * tangent * tangent);
-  const double along_one = std::sqrt(1 + tangent * tangent);
-  const auto shares = [&](const std::array<Sight, 4>& of, const Tilt& removed) {
-    double drop = 0;
-    std::array<double, 2> turn{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      drop += std::max(0.0, of[k].drop - removed[0] * of[k].way[0] - removed[1] * of[k].way[1]);
-      for (std::size_t a = 0; a < 2; ++a) {
-        turn[a] += along.upright[a] * std::max(0.0, (kSigns[k][a] * diagonal[a] - removed[a]) * of[k].way[a]);
-      }
-    }
-    return std::array<double, 3>{share_of_drop(drop, turn[0] + turn[1], along_both), share_of_drop(drop, turn[0], along_one),
-                                 share_of_drop(drop, turn[1], along_one)};
-  };
-  std::array<double, 3> share = shares(sights, {(1 - along.upright[0]) * tilt[0], (1 - along.upright[1]) * tilt[1]});
-  if (share[0] > 1 / kFlatExponent) {
-    const Sight top = observer.of(tilt);
+  const View view(diagonal, tangent);
+  Shares shares = view.shares_of(points, {}, {});
+  if (shares.both > 1 / kFlatExponent || std::max(shares.along[0], shares.along[1]) > 2 / kFlatExponent) {
+    shares = shares.lesser_of(view.shares_of(points, observer.of(tilt_that_counts), tilt_that_counts));
     ++evaluations_;
-    std::array<Sight, 4> from_top;
-    for (std::size_t k = 0; k < 4; ++k) {
-      from_top[k] = {{sights[k].way[0] - top.way[0], sights[k].way[1] - top.way[1]}, sights[k].drop - top.drop};
-    }
-    const std::array<double, 3> upright = shares(from_top, tilt);
-    for (std::size_t i = 0; i < 3; ++i) share[i] = std::min(share[i], upright[i]);
   }
   // Along one axis at a time the drop is still that of both.
-  for (std::size_t a = 0; a < 2; ++a) along.flat[a] = ramp(share[1 + a], 2 / kRoundExponent, 2 / kFlatExponent);
-  flatness_ = ramp(share[0], 1 / kRoundExponent, 1 / kFlatExponent) *
-              std::max(along.flat[0] * along.upright[0], along.flat[1] * along.upright[1]);
-  if (flatness_ > 0) place_vertices(sights, tilt, along, n, reach_of(depth));
+  std::array<double, 2> flat{};
+  for (std::size_t a = 0; a < 2; ++a) flat[a] = ramp(shares.along[a], 2 / kRoundExponent, 2 / kFlatExponent);
+  flatness_ = ramp(shares.both, 1 / kRoundExponent, 1 / kFlatExponent) * std::max(flat[0] * upright[0], flat[1] * upright[1]);
+  if (flatness_ > 0) place_vertices(drawn_in(points, flat), n, reach_of(depth));
 }
 
-// Of the plane that fits the four points best, as far as the diagonals reach; level along an axis along which they are all the same.
+// Of the plane that fits the four points best, as far as the diagonals reach; level along an axis along which they are all the
+// same.
 SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const {
   const auto way_of = [&](const Sight& sight) { return Vector2(sight.way[0] / extents_[0], sight.way[1] / extents_[1]); };
   Vector2 mean = Vector2::Zero();
@@ -198,29 +214,27 @@ SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<Sight, 4>& si
           std::clamp(slope.y() / extents_[1], -diagonal[1], diagonal[1])};
 }
 
-// All that happens to the four points happens along chords of the body, so that they stay in it.
-void SupportPolygon::place_vertices(const std::array<Sight, 4>& sights, const Tilt& tilt, const Along& along, const Vector3& n,
-                                    double reach) {
-  // Where the body is round along an axis, the two points that face one another along it become one, halfway between them.
-  std::array<Sight, 4> points = sights;
+// Where the body is round along an axis, or leans too far, it stands on the line through the support point: there the chord between
+// two points that face one another crosses it. In between they are drawn in along this chord, so that they stay in the body.
+std::array<SupportPolygon::Sight, 4> SupportPolygon::drawn_in(std::array<Sight, 4> points, const std::array<double, 2>& widths) {
   for (std::size_t a = 0; a < 2; ++a) {
-    const double own = 1 - 0.5 * along.upright[a] * (1 - std::max(along.flat[a], kThinnest));
+    const double width = std::max(widths[a], kThinnest);
     const std::array<Sight, 4> apart = points;
-    for (std::size_t k = 0; k < 4; ++k) points[k] = apart[k].mixed_with(apart[kFacing[a][k]], own);
-  }
-  // Where it leans too far along an axis, the points above are drawn in to the support point, the others to the line through it.
-  std::array<double, 2> farthest{};
-  for (const Sight& point : points) {
-    for (std::size_t a = 0; a < 2; ++a) farthest[a] = std::max(farthest[a], tilt[a] * point.way[a]);
-  }
-  for (std::size_t k = 0; k < 4; ++k) {
-    auto [way, drop] = points[k];
-    double share = flatness_ * (drop > reach ? reach / drop : 1);
-    for (std::size_t a = 0; a < 2; ++a) {
-      const double above = tilt[a] * points[k].way[a] > 0 ? tilt[a] * points[k].way[a] / farthest[a] : 0;
-      share *= 1 - (1 - along.upright[a]) * above;
-      way[a] *= 1 - (1 - along.upright[a]) * (1 - above);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Sight& facing = apart[kFacing[a][k]];
+      const double chord = apart[k].way[a] - facing.way[a];
+      const double on_line = chord != 0 ? std::clamp(-facing.way[a] / chord, 0.0, 1.0) : 0.5;
+      points[k] = apart[k].mixed_with(facing, width + (1 - width) * on_line);
     }
+  }
+  return points;
+}
+
+// Those with a larger drop than the one that counts are drawn in to the support point.
+void SupportPolygon::place_vertices(const std::array<Sight, 4>& points, const Vector3& n, double reach) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& [way, drop] = points[k];
+    const double share = flatness_ * (drop > reach ? reach / drop : 1);
     vertices_[k] = {share * (way[0] * axes_[0] + way[1] * axes_[1] - drop * n), share * drop};
   }
 }

@@ -59,20 +59,27 @@ class SupportPolygon {
     double drop;
 
     Sight mixed_with(const Sight& other, double own) const {
-      return {{own * way[0] + (1 - own) * other.way[0], own * way[1] + (1 - own) * other.way[1]}, own * drop + (1 - own) * other.drop};
+      return {{own * way[0] + (1 - own) * other.way[0], own * way[1] + (1 - own) * other.way[1]},
+              own * drop + (1 - own) * other.drop};
     }
   };
-  /// Along either axis, 0 to 1: whether the body is flat, and whether its face leans no farther than the diagonals.
-  struct Along {
-    std::array<double, 2> flat{};
-    std::array<double, 2> upright{};
+  /// Of the drop in the sum of drop and rise: along both axes, and along either one.
+  struct Shares {
+    double both;
+    std::array<double, 2> along;
+
+    Shares lesser_of(const Shares& other) const {
+      return {std::min(both, other.both), {std::min(along[0], other.along[0]), std::min(along[1], other.along[1])}};
+    }
   };
   using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
 
   class Observer;
+  class View;
 
   Tilt tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const;
-  void place_vertices(const std::array<Sight, 4>& sights, const Tilt& tilt, const Along& along, const Vector3& n, double reach);
+  static std::array<Sight, 4> drawn_in(std::array<Sight, 4> points, const std::array<double, 2>& widths);
+  void place_vertices(const std::array<Sight, 4>& points, const Vector3& n, double reach);
 
   Vector3 support_point_;
   std::array<Vector3, 2> axes_;
