@@ -9,12 +9,14 @@
 namespace resting {
 namespace {
 
-constexpr double kDensity = 1000;      // kg/m^3
-constexpr double kGravity = 9.81;      // m/s^2
-constexpr double kLongest = 10;        // s
-constexpr double kFloorSize = 40;      // half-heights, from the middle to the border
-constexpr int kMostRoom = 8;           // contacts
-constexpr int kSamples = 9;            // of the heightfield, along each side
+constexpr double kDensity = 1000;     // kg/m^3
+constexpr double kGravity = 9.81;     // m/s^2
+constexpr double kLongest = 10;       // s
+constexpr double kFloorSize = 40;     // half-heights, from the middle to the border
+constexpr int kMostRoom = 8;          // contacts
+constexpr double kLeastTilt = 1;      // degrees
+constexpr double kGoldenAngle = 2.4;  // rad; no two drops turn about the same axis
+constexpr int kSamples = 9;           // of the heightfield, along each side
 
 /// The floor with its top at z = 0; ODE refers to the arrays of a mesh or a heightfield for as long as the geom lives.
 class Floor {
@@ -22,10 +24,18 @@ class Floor {
   Floor(FloorKind kind, dSpaceID space, double size) {
     const auto s = static_cast<dReal>(size);
     switch (kind) {
-      case FloorKind::Plane: dCreatePlane(space, 0, 0, 1, 0); break;
-      case FloorKind::Box: dGeomSetPosition(dCreateBox(space, 2 * s, 2 * s, s), 0, 0, s / -2); break;
-      case FloorKind::Mesh: add_mesh(space, size); break;
-      case FloorKind::Heightfield: add_heightfield(space, s); break;
+      case FloorKind::Plane:
+        dCreatePlane(space, 0, 0, 1, 0);
+        break;
+      case FloorKind::Box:
+        dGeomSetPosition(dCreateBox(space, 2 * s, 2 * s, s), 0, 0, s / -2);
+        break;
+      case FloorKind::Mesh:
+        add_mesh(space, size);
+        break;
+      case FloorKind::Heightfield:
+        add_heightfield(space, s);
+        break;
       case FloorKind::Superellipsoid:
         dGeomSetPosition(snCreateSuperellipsoid(space, s, s, s / 2, 60, 60), 0, 0, s / -2);
         break;
@@ -78,7 +88,8 @@ class Scene {
     dMass mass;
     dGeomID geom = nullptr;
     if (row.exponent > 0) {
-      geom = snCreateSuperellipsoid(space_, 2 * c, c * 14 / 10, c, static_cast<dReal>(row.exponent), static_cast<dReal>(row.exponent));
+      geom =
+          snCreateSuperellipsoid(space_, 2 * c, c * 14 / 10, c, static_cast<dReal>(row.exponent), static_cast<dReal>(row.exponent));
       if (geom == nullptr || snMassSet(&mass, static_cast<dReal>(kDensity), geom) == 0) throw std::runtime_error(snLastError());
     } else {
       geom = dCreateBox(space_, 4 * c, c * 28 / 10, 2 * c);
@@ -130,13 +141,15 @@ class Scene {
 
 }  // namespace
 
-Rest drop(const Row& row, int number) {
+Rest drop(const Row& row, const Attitudes& attitudes, int number) {
   Scene scene(row);
   const dBodyID body = scene.body();
   dBodySetPosition(body, 0, 0, static_cast<dReal>(3 * row.half_height));
+  const double direction = kGoldenAngle * (number + kDrops * attitudes.draw);
+  const double tilt = kLeastTilt + (attitudes.largest_tilt - kLeastTilt) * number / (kDrops - 1);
   dMatrix3 attitude;
-  dRFromAxisAndAngle(attitude, static_cast<dReal>(std::cos(2.4 * number)), static_cast<dReal>(std::sin(2.4 * number)), 0,
-                     static_cast<dReal>(0.02 + 0.004 * number));
+  dRFromAxisAndAngle(attitude, static_cast<dReal>(std::cos(direction)), static_cast<dReal>(std::sin(direction)), 0,
+                     static_cast<dReal>(tilt * M_PI / 180));
   dBodySetRotation(body, attitude);
   int step = 0;
   while (step * row.step < kLongest && dBodyIsEnabled(body) != 0) scene.step(++step);

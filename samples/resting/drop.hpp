@@ -20,6 +20,12 @@ struct Row {
   double correcting_velocity = 0;  ///< m/s; 0: without limit
 };
 
+/// In which attitudes it is dropped.
+struct Attitudes {
+  int draw = 0;             ///< another number turns about other axes
+  double largest_tilt = 6;  ///< degrees; the drops of a row are tilted by 1 degree to this
+};
+
 /// How one drop ended.
 struct Rest {
   bool is_asleep = false;  ///< within ten seconds
@@ -29,7 +35,7 @@ struct Rest {
 
 inline constexpr int kDrops = 24;  ///< which start in different attitudes
 
-/// Drops the body from three half-heights, turned by 1 to 6.5 degrees, number 0 to kDrops - 1, onto a floor of Coulomb friction 0.5.
-Rest drop(const Row& row, int number);
+/// Drops the body, number 0 to kDrops - 1, from three half-heights onto a floor of Coulomb friction 0.5.
+Rest drop(const Row& row, const Attitudes& attitudes, int number);
 
 }  // namespace resting

@@ -40,6 +40,7 @@ struct Options {
   std::vector<double> steps = {0.002, 0.005, 0.01, 0.0167, 0.02, 0.05};
   std::vector<int> rooms = {3, 4, 8};
   std::vector<double> correcting_velocities = {0, 0.1};
+  Attitudes attitudes;
   bool prints_all = false;
 };
 
@@ -50,12 +51,12 @@ struct Summary {
   double lowest = 0;  ///< of the centre at the end, half-heights
 };
 
-Summary summarise(const Row& row) {
+Summary summarise(const Row& row, const Attitudes& attitudes) {
   Summary summary;
   summary.lowest = HUGE_VAL;
   std::vector<double> times;
   for (int number = 0; number < kDrops; ++number) {
-    const Rest rest = drop(row, number);
+    const Rest rest = drop(row, attitudes, number);
     summary.asleep += rest.is_asleep ? 1 : 0;
     summary.lowest = std::min(summary.lowest, rest.height);
     times.push_back(rest.time);
@@ -92,17 +93,17 @@ class Matrix {
 
  private:
   void compare(const std::string& floor, Row row) {
-    const Summary box = summarise(row);
+    const Summary box = summarise(row, options_.attitudes);
     for (const double exponent : options_.exponents) {
       row.exponent = exponent;
-      const Summary ours = summarise(row);
+      const Summary ours = summarise(row, options_.attitudes);
       const bool is_good = is_as_good(ours, box);
       ++rows_;
       worse_ += is_good ? 0 : 1;
       if (is_good && !options_.prints_all) continue;
-      std::printf("%-11s %5.3f %6.4f %d %3.1f %3.0f: %2d %6.3f %6.3f (%2d %6.3f %6.3f)%s\n", floor.c_str(), row.half_height, row.step,
-                  row.room, row.correcting_velocity, exponent, ours.asleep, ours.median, ours.lowest, box.asleep, box.median,
-                  box.lowest, is_good ? "" : " worse");
+      std::printf("%-11s %5.3f %6.4f %d %3.1f %3.0f: %2d %6.3f %6.3f (%2d %6.3f %6.3f)%s\n", floor.c_str(), row.half_height,
+                  row.step, row.room, row.correcting_velocity, exponent, ours.asleep, ours.median, ours.lowest, box.asleep,
+                  box.median, box.lowest, is_good ? "" : " worse");
       std::fflush(stdout);
     }
   }
@@ -127,12 +128,16 @@ int main(int argc, char** argv) {
   try {
     Options options;
     CLI::App app("Whether flat bodies come to rest as a dBox does; exit status 1 if some do not");
-    app.add_option("--floors", options.floors, "plane, box, mesh, heightfield, ours")->check(CLI::IsMember(kFloors))->delimiter(',');
+    app.add_option("--floors", options.floors, "plane, box, mesh, heightfield, ours")
+        ->check(CLI::IsMember(kFloors))
+        ->delimiter(',');
     app.add_option("--exponents", options.exponents, "of the bodies")->delimiter(',');
     app.add_option("--half-heights", options.half_heights, "m")->delimiter(',');
     app.add_option("--steps", options.steps, "s")->delimiter(',');
     app.add_option("--rooms", options.rooms, "contacts a pair, 1 to 8")->check(CLI::Range(1, 8))->delimiter(',');
     app.add_option("--correcting-velocities", options.correcting_velocities, "m/s; 0: without limit")->delimiter(',');
+    app.add_option("--draw", options.attitudes.draw, "another number drops them in other attitudes");
+    app.add_option("--largest-tilt", options.attitudes.largest_tilt, "degrees, 1 to 90")->check(CLI::Range(1, 90));
     app.add_flag("--all", options.prints_all, "print the other rows, too");
     CLI11_PARSE(app, argc, argv);
     return run(options);

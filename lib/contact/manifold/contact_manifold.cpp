@@ -177,7 +177,7 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   find_corners(Side(polygon1, frame, false), Side(polygon2, frame, true), frame, corners);
   if (!corners.is_empty()) corners.write(kSamePlace * std::min(polygon1.size(), polygon2.size()), manifold);
   manifold.flatness = polygon1.flatness() * polygon2.flatness();
-  manifold.margin = 2 * SupportPolygon::reach_of(depth) - depth;
+  manifold.margin = polygon1.reach() + polygon2.reach() - depth;
   return manifold;
 }
 
@@ -192,7 +192,7 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
   for (const SupportPolygon::Vertex& vertex : polygon.vertices()) corners.add(proximity.point1 + vertex.offset, vertex.drop);
   corners.write(kSamePlace * polygon.size(), manifold);
   manifold.flatness = polygon.flatness();
-  manifold.margin = SupportPolygon::reach_of(depth) - depth;
+  manifold.margin = polygon.reach() - depth;
   return manifold;
 }
 

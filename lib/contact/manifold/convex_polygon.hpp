@@ -30,8 +30,8 @@ class ConvexPolygon {
 
   double area() const;  ///< m^2
 
-  /// What both have in common. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm. This one may
-  /// be a segment; the other one needs an inside.
+  /// What both have in common. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm. This one
+  /// may be a segment; the other one needs an inside.
   ConvexPolygon intersected(const ConvexPolygon& other) const;
 
   /// The point of the polygon that is nearest to a point outside of it. There must be a corner.

@@ -19,8 +19,11 @@ constexpr double kReach = 12;
 // it makes little difference.
 constexpr double kFaceExponent = 8;
 
-// Of the half-height: of a larger reach the vertices would be on the sides of the body.
-constexpr double kLargestReach = 0.2;
+// Of the half-height: from there on the vertices overlap themselves. In a fall they would else hold a body that leans in the air.
+constexpr double kLargestReach = 0.07;
+
+// Of the half-height: at a larger one the vertices would be on the sides of the body.
+constexpr double kLargestDepth = 0.2;
 
 // Of faces like |x|^e: up to here the body is round, from there on flat. The closed forms of rocking bodies hold for the first, and
 // bodies come to rest with the second.
@@ -59,16 +62,17 @@ std::array<Vector3, 2> axes_in_plane(const Vector3& n) {
   return {plane.lift(first), plane.lift({-first.y(), first.x()})};
 }
 
+/// The largest drop of a vertex.
+double reach_of(double depth, double height) { return std::max(depth, std::min(kReach * depth, kLargestReach * height)); }
+
 // (kFaceExponent reach / (2 height))^(1 - 1 / kFaceExponent): the slope, in units of height over extent, where a face of that
 // exponent has half of the reach as its drop along either axis.
 double tangent_of_tilt(double reach, double height) {
-  const double x = 0.5 * kFaceExponent * std::min(reach / height, kLargestReach);
+  const double x = 0.5 * kFaceExponent * std::min(reach / height, kLargestDepth);
   return x / std::sqrt(std::sqrt(std::sqrt(x)));
 }
 
 }  // namespace
-
-double SupportPolygon::reach_of(double depth) { return kReach * depth; }
 
 /// Looks at points of a body from its support point, all in the body's frame.
 class SupportPolygon::Observer {
@@ -163,7 +167,8 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
   extents_ = {extent(axes[0]), extent(axes[1])};
   const double height = extent(normal);
-  const double tangent = tangent_of_tilt(reach_of(depth), height);
+  reach_ = reach_of(depth, height);
+  const double tangent = tangent_of_tilt(reach_, height);
   const Tilt diagonal = {tangent * height / extents_[0], tangent * height / extents_[1]};
 
   const Observer observer(shape, normal, axes, to_body * (support_point - pose.position));
@@ -188,7 +193,7 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   std::array<double, 2> flat{};
   for (std::size_t a = 0; a < 2; ++a) flat[a] = ramp(shares.along[a], 2 / kRoundExponent, 2 / kFlatExponent);
   flatness_ = ramp(shares.both, 1 / kRoundExponent, 1 / kFlatExponent) * std::max(flat[0] * upright[0], flat[1] * upright[1]);
-  if (flatness_ > 0) place_vertices(drawn_in(points, flat), n, reach_of(depth));
+  if (flatness_ > 0) place_vertices(drawn_in(points, flat), n);
 }
 
 // Of the plane that fits the four points best, as far as the diagonals reach; level along an axis along which they are all the
@@ -231,10 +236,10 @@ std::array<SupportPolygon::Sight, 4> SupportPolygon::drawn_in(std::array<Sight, 
 }
 
 // Those with a larger drop than the one that counts are drawn in to the support point.
-void SupportPolygon::place_vertices(const std::array<Sight, 4>& points, const Vector3& n, double reach) {
+void SupportPolygon::place_vertices(const std::array<Sight, 4>& points, const Vector3& n) {
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& [way, drop] = points[k];
-    const double share = flatness_ * (drop > reach ? reach / drop : 1);
+    const double share = flatness_ * (drop > reach_ ? reach_ / drop : 1);
     vertices_[k] = {share * (way[0] * axes_[0] + way[1] * axes_[1] - drop * n), share * drop};
   }
 }

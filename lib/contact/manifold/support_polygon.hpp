@@ -32,8 +32,8 @@ class SupportPolygon {
   /// overlap, m.
   SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth);
 
-  /// A larger depth does not count: between the bodies there is at most the difference at a vertex, m.
-  static double reach_of(double depth);
+  /// No vertex has a larger drop: between the bodies there is at most what this exceeds the depth by, m.
+  double reach() const { return reach_; }
 
   /// 0: the body is round at the support point, which is its only one; 1: it is flat.
   double flatness() const { return flatness_; }
@@ -79,11 +79,12 @@ class SupportPolygon {
 
   Tilt tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const;
   static std::array<Sight, 4> drawn_in(std::array<Sight, 4> points, const std::array<double, 2>& widths);
-  void place_vertices(const std::array<Sight, 4>& points, const Vector3& n, double reach);
+  void place_vertices(const std::array<Sight, 4>& points, const Vector3& n);
 
   Vector3 support_point_;
   std::array<Vector3, 2> axes_;
   std::array<double, 2> extents_{};
+  double reach_;
   double flatness_ = 0;
   std::array<Vertex, 4> vertices_;
   int evaluations_ = 0;
