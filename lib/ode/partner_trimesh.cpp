@@ -1,6 +1,5 @@
 // Our bodies and dTriMesh: what is behind its triangles is solid.
 #include <cmath>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -131,16 +130,19 @@ int collide_with_trimesh(dGeomID ours, dGeomID partner, int flags, dContactGeom*
     const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
     std::vector<LocatedManifold>& manifolds = scratch().manifolds;
     manifolds.clear();
-    // The deepest contact is the first, and none has a greater margin.
-    std::optional<std::span<const MeshTriangle>> near;
+    std::span<const MeshTriangle> near;
+    double margin = -1;  // within which they were looked for
     for (const MeshContact& contact : found) {
       manifolds.push_back({contact.proximity, contact.triangle});
       if (out.room() < 2) continue;
       ContactManifold& manifold = manifolds.back().manifold;
       manifold = find_plane_contact_manifold(visit.body.shape(), visit.pose, contact.proximity);
       if (manifold.corner_count == 0) continue;
-      if (!near) near = visit.triangles_within(manifold.margin);
-      draw_in_corners(manifold, *near);
+      if (manifold.margin > margin) {
+        margin = manifold.margin;
+        near = visit.triangles_within(margin);
+      }
+      draw_in_corners(manifold, near);
     }
     return write_contacts(manifolds, out);
   });
