@@ -11,12 +11,11 @@ namespace supernormal {
 namespace {
 
 // The vertices are where the bodies would overlap if the overlap were so many times as deep. A body at rest overlaps by
-// micrometres; what is round in the last digit must not make it rock. With 3 a body with exponents 8 takes longer than twice the
-// time of a box to fall asleep at steps of 2 ms, with 30 bodies with little room for contacts fall asleep while they lean.
+// micrometres; what is round in the last digit must not make it rock. With less, bodies with small exponents rock for longer; with
+// more, bodies with little room for contacts fall asleep while they lean.
 constexpr double kReach = 12;
 
-// A face like |x|^e with this exponent has its vertices just there; a flatter one has them nearer to its end. Between 4 and 16
-// it makes little difference.
+// A face like |x|^e with this exponent has its vertices just there; a flatter one has them nearer to its end.
 constexpr double kFaceExponent = 8;
 
 // Of the half-height: from there on the vertices overlap themselves. In a fall they would else hold a body that leans in the air.

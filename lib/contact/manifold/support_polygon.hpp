@@ -15,10 +15,10 @@ namespace supernormal {
 ///  2. The drop of q below the plane and the rise of p above the tilted plane are the two Bregman divergences of the support
 ///     function between n and n + w. The share of the drop in their sum says how flat the body is there, in every scale: 1/e of a
 ///     face like |x|^e, 1/2 where the body is as round as an ellipsoid, whatever its half-axes.
-///  3. A plane that is tilted against a flat face has a drop, too. So where the share is not small, the face is judged by the
-///     tangent plane that is parallel to the plane through the four points, for one more evaluation.
-///  4. The vertices are the four points, drawn in to p as the body becomes round, and to where the drop is that of the overlap that
-///     counts. A chord of the body lies in it, so that none of them has a larger drop than it says.
+///  3. A plane that is tilted against a flat face has a drop, too. So where the share is not small, the face is judged once more by
+///     the tangent plane that is parallel to the plane through the four points, for one more evaluation.
+///  4. Along an axis along which the body is round, or leans too far, it stands on the line through p, and the points are drawn in
+///     to it along chords of the body; then all to p, as the body becomes round, or where their drop is too large.
 ///
 /// lib/contact/README.md has the proofs and figures.
 class SupportPolygon {
