@@ -42,8 +42,8 @@ struct ContactManifold {
 
 /// The manifold of two bodies whose proximity is known. Corners are only looked for when they overlap; they lie in the plane of
 /// proximity.contact. Symmetric under swapping the bodies.
-SUPERNORMAL_API ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
-                                                      const Proximity& proximity);
+SUPERNORMAL_API ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2,
+                                                      const Pose& pose2, const Proximity& proximity);
 
 /// The manifold of a body and a plane, from find_plane_proximity(); the corners are points of the body.
 SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity);

@@ -34,7 +34,8 @@ ContactManifold BodyPair::solve_in_order(const Remembered& remembered, Goal goal
   count_query(result, warm);
   last.is_known = result.status != Status::InvalidInput;
   last.normal = pose1.rotation.transpose() * result.normal;
-  return goal == Goal::Contacts ? find_contact_manifold(body1_->shape(), pose1, body2_->shape(), pose2, result) : ContactManifold(result);
+  return goal == Goal::Contacts ? find_contact_manifold(body1_->shape(), pose1, body2_->shape(), pose2, result)
+                                : ContactManifold(result);
 }
 
 ContactManifold BodyPair::solve(const Remembered& remembered, Goal goal, LastNormal& last) const {

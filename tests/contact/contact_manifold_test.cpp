@@ -62,7 +62,8 @@ double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
   for (int i = 0; i < a.corner_count; ++i) {
     double nearest = HUGE_VAL;
     for (int k = 0; k < b.corner_count; ++k) {
-      nearest = std::min(nearest, (a.corners[static_cast<std::size_t>(i)].point - b.corners[static_cast<std::size_t>(k)].point).norm());
+      nearest =
+          std::min(nearest, (a.corners[static_cast<std::size_t>(i)].point - b.corners[static_cast<std::size_t>(k)].point).norm());
     }
     largest = std::max(largest, nearest);
   }
@@ -82,7 +83,8 @@ TEST_CASE("ellipsoids have one contact, however deep") {
     Pose pose2{Vector3{uniform(random, -1, 1), uniform(random, -1, 1), 5}, random_rotation(random)};
     const Proximity apart = find_proximity(first, pose1, second, pose2);
     pose2.position -= (apart.gap + depth) * apart.normal;
-    const ContactManifold manifold = find_contact_manifold(first, pose1, second, pose2, find_proximity(first, pose1, second, pose2));
+    const ContactManifold manifold =
+        find_contact_manifold(first, pose1, second, pose2, find_proximity(first, pose1, second, pose2));
     CHECK(manifold.deepest.gap < 0);
     CHECK(manifold.corner_count == 0);
   }

@@ -147,7 +147,8 @@ TEST_CASE("what carries a flat body does not jump while it tilts, nor while it c
       double largest = 0;
       const auto weigh = [&](bool is_first) {
         const Load load = scale.weigh();
-        if (!is_first) largest = std::max(largest, std::max(norm(load.force - previous.force), norm(load.torque - previous.torque)));
+        if (!is_first)
+          largest = std::max(largest, std::max(norm(load.force - previous.force), norm(load.torque - previous.torque)));
         previous = load;
       };
       for (int step = 0; step <= kSteps; ++step) {
@@ -180,7 +181,8 @@ TEST_CASE("a face has as many contacts at any depth up to 30 % of its half-heigh
       for (const double depth : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 4e-3, 7e-3, 0.01, 0.015}) {
         CAPTURE(depth);
         dGeomSetPosition(brick, 0, 0, dReal(0.05 - depth));
-        for (int room = 2; room <= 8; ++room) CHECK(collide(brick, under, room).size() == static_cast<std::size_t>(std::min(room, 5)));
+        for (int room = 2; room <= 8; ++room)
+          CHECK(collide(brick, under, room).size() == static_cast<std::size_t>(std::min(room, 5)));
       }
     }
   }
