@@ -3,17 +3,15 @@
 #include <supernormal/supernormal.h>
 
 #include <cmath>
-#include <stdexcept>
 #include <vector>
+
+#include "world.hpp"
 
 namespace resting {
 namespace {
 
-constexpr double kDensity = 1000;     // kg/m^3
-constexpr double kGravity = 9.81;     // m/s^2
 constexpr double kLongest = 10;       // s
 constexpr double kFloorSize = 40;     // half-heights, from the middle to the border
-constexpr int kMostRoom = 8;          // contacts
 constexpr double kLeastTilt = 1;      // degrees
 constexpr double kGoldenAngle = 2.4;  // rad; no two drops turn about the same axis
 constexpr int kSamples = 9;           // of the heightfield, along each side
@@ -21,7 +19,18 @@ constexpr int kSamples = 9;           // of the heightfield, along each side
 /// The floor with its top at z = 0; ODE refers to the arrays of a mesh or a heightfield for as long as the geom lives.
 class Floor {
  public:
-  Floor(FloorKind kind, dSpaceID space, double size) {
+  Floor() = default;
+  ~Floor() {
+    if (mesh_ != nullptr) dGeomTriMeshDataDestroy(mesh_);
+    if (field_ != nullptr) dGeomHeightfieldDataDestroy(field_);
+  }
+  Floor(const Floor&) = delete;
+  Floor(Floor&&) = delete;
+  Floor& operator=(const Floor&) = delete;
+  Floor& operator=(Floor&&) = delete;
+
+  /// `size`: from the middle to the border, m.
+  void lay(FloorKind kind, dSpaceID space, double size) {
     const auto s = static_cast<dReal>(size);
     switch (kind) {
       case FloorKind::Plane:
@@ -41,14 +50,6 @@ class Floor {
         break;
     }
   }
-  ~Floor() {
-    if (mesh_ != nullptr) dGeomTriMeshDataDestroy(mesh_);
-    if (field_ != nullptr) dGeomHeightfieldDataDestroy(field_);
-  }
-  Floor(const Floor&) = delete;
-  Floor(Floor&&) = delete;
-  Floor& operator=(const Floor&) = delete;
-  Floor& operator=(Floor&&) = delete;
 
  private:
   void add_mesh(dSpaceID space, double size) {
@@ -77,73 +78,14 @@ class Floor {
   dHeightfieldDataID field_ = nullptr;
 };
 
-/// Everything of one drop, in the order in which it has to be destroyed.
-class Scene {
- public:
-  explicit Scene(const Row& row) : row_(row), floor_(row.floor, space_, kFloorSize * row.half_height) {
-    dWorldSetGravity(world_, 0, 0, static_cast<dReal>(-kGravity));
-    dWorldSetAutoDisableFlag(world_, 1);
-    if (row.correcting_velocity > 0) dWorldSetContactMaxCorrectingVel(world_, static_cast<dReal>(row.correcting_velocity));
-    const auto c = static_cast<dReal>(row.half_height);
-    dMass mass;
-    dGeomID geom = nullptr;
-    if (row.exponent > 0) {
-      geom =
-          snCreateSuperellipsoid(space_, 2 * c, c * 14 / 10, c, static_cast<dReal>(row.exponent), static_cast<dReal>(row.exponent));
-      if (geom == nullptr || snMassSet(&mass, static_cast<dReal>(kDensity), geom) == 0) throw std::runtime_error(snLastError());
-    } else {
-      geom = dCreateBox(space_, 4 * c, c * 28 / 10, 2 * c);
-      dMassSetBox(&mass, static_cast<dReal>(kDensity), 4 * c, c * 28 / 10, 2 * c);
-    }
-    body_ = dBodyCreate(world_);
-    dBodySetMass(body_, &mass);
-    dGeomSetBody(geom, body_);
-  }
-  ~Scene() {
-    dJointGroupDestroy(joints_);
-    dSpaceDestroy(space_);
-    dWorldDestroy(world_);
-  }
-  Scene(const Scene&) = delete;
-  Scene(Scene&&) = delete;
-  Scene& operator=(const Scene&) = delete;
-  Scene& operator=(Scene&&) = delete;
-
-  dBodyID body() const { return body_; }
-
-  void step(int number) {
-    dSpaceCollide(space_, this, near_callback);
-    dRandSetSeed(static_cast<unsigned long>(number));
-    dWorldQuickStep(world_, static_cast<dReal>(row_.step));
-    dJointGroupEmpty(joints_);
-  }
-
- private:
-  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
-    const Scene& scene = *static_cast<Scene*>(self);
-    std::array<dContact, kMostRoom> found;
-    const int count = dCollide(o1, o2, scene.row_.room, &found[0].geom, sizeof(dContact));
-    for (int i = 0; i < count; ++i) {
-      dContact& contact = found[static_cast<std::size_t>(i)];
-      contact.surface.mode = dContactApprox1;
-      contact.surface.mu = static_cast<dReal>(0.5);
-      dJointAttach(dJointCreateContact(scene.world_, scene.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
-    }
-  }
-
-  Row row_;
-  dWorldID world_ = dWorldCreate();
-  dSpaceID space_ = dSimpleSpaceCreate(nullptr);
-  dJointGroupID joints_ = dJointGroupCreate(0);
-  Floor floor_;
-  dBodyID body_ = nullptr;
-};
-
 }  // namespace
 
 Rest drop(const Row& row, const Attitudes& attitudes, int number) {
-  Scene scene(row);
-  const dBodyID body = scene.body();
+  Floor floor;  // outlives the geom that refers to it
+  World world(dSimpleSpaceCreate(nullptr), row.step, row.room);
+  floor.lay(row.floor, world.space(), kFloorSize * row.half_height);
+  if (row.correcting_velocity > 0) dWorldSetContactMaxCorrectingVel(world.id(), static_cast<dReal>(row.correcting_velocity));
+  const dBodyID body = world.add(row.exponent, {2 * row.half_height, row.half_height * 14 / 10, row.half_height});
   dBodySetPosition(body, 0, 0, static_cast<dReal>(3 * row.half_height));
   const double direction = kGoldenAngle * (number + kDrops * attitudes.draw);
   const double tilt = kLeastTilt + (attitudes.largest_tilt - kLeastTilt) * number / (kDrops - 1);
@@ -152,7 +94,7 @@ Rest drop(const Row& row, const Attitudes& attitudes, int number) {
                      static_cast<dReal>(tilt * M_PI / 180));
   dBodySetRotation(body, attitude);
   int step = 0;
-  while (step * row.step < kLongest && dBodyIsEnabled(body) != 0) scene.step(++step);
+  while (step * row.step < kLongest && dBodyIsEnabled(body) != 0) world.step(++step);
   return {dBodyIsEnabled(body) == 0, step * row.step, double{dBodyGetPosition(body)[2]} / row.half_height};
 }
 

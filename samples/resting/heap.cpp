@@ -1,21 +1,16 @@
 #include "heap.hpp"
 
-#include <supernormal/supernormal.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
-#include <stdexcept>
 #include <vector>
+
+#include "world.hpp"
 
 namespace resting {
 namespace {
 
-constexpr double kDensity = 1000;  // kg/m^3
-constexpr double kGravity = 9.81;  // m/s^2
-constexpr double kLongest = 10;    // s
-constexpr int kMostRoom = 8;       // contacts
+constexpr double kLongest = 10;  // s
 constexpr int kNeedles = 60;
 constexpr double kSlenderness = 40;  // half-length to half-thickness
 constexpr double kHeavy = 62;        // the mass of the body that three light ones carry, of one of them
@@ -25,37 +20,21 @@ struct Place {
   double yaw, pitch;  // rad
 };
 
-/// Everything of one heap, in the order in which it has to be destroyed.
+/// A heap that falls.
 class Scene {
  public:
-  Scene(const HeapRow& row, int number) : row_(row), random_(static_cast<unsigned>(number + 1)) {
-    dWorldSetGravity(world_, 0, 0, static_cast<dReal>(-kGravity));
-    dWorldSetAutoDisableFlag(world_, 1);
-    dWorldSetQuickStepNumIterations(world_, row.iterations);
-    dCreatePlane(space_, 0, 0, 1, 0);
+  Scene(const HeapRow& row, int number)
+      : row_(row), random_(static_cast<unsigned>(number + 1)), world_(dHashSpaceCreate(nullptr), row.step, row.room) {
+    dWorldSetQuickStepNumIterations(world_.id(), row.iterations);
+    dCreatePlane(world_.space(), 0, 0, 1, 0);
     if (row.heap == Heap::OnThree) {
       add_cubes();
     } else {
       add_needles();
     }
   }
-  ~Scene() {
-    dJointGroupDestroy(joints_);
-    dSpaceDestroy(space_);
-    dWorldDestroy(world_);
-  }
-  Scene(const Scene&) = delete;
-  Scene(Scene&&) = delete;
-  Scene& operator=(const Scene&) = delete;
-  Scene& operator=(Scene&&) = delete;
 
-  void step(int number) {
-    overlap_ = 0;
-    dSpaceCollide(space_, this, near_callback);
-    dRandSetSeed(static_cast<unsigned long>(number));
-    dWorldQuickStep(world_, static_cast<dReal>(row_.step));
-    dJointGroupEmpty(joints_);
-  }
+  void step(int number) { world_.step(number); }
 
   int awake() const {
     return static_cast<int>(std::count_if(bodies_.begin(), bodies_.end(), [](dBodyID body) { return dBodyIsEnabled(body) != 0; }));
@@ -67,7 +46,7 @@ class Scene {
     return sum / static_cast<double>(bodies_.size());
   }
 
-  double overlap() const { return overlap_; }
+  double overlap() const { return world_.overlap(); }
 
  private:
   void add_needles() {
@@ -96,20 +75,7 @@ class Scene {
   }
 
   void add(const Place& place, double slenderness, double size) {
-    const auto a = static_cast<dReal>(slenderness * size);
-    const auto c = static_cast<dReal>(size);
-    dMass mass;
-    dGeomID geom = nullptr;
-    if (row_.exponent > 0) {
-      geom = snCreateSuperellipsoid(space_, a, c, c, static_cast<dReal>(row_.exponent), static_cast<dReal>(row_.exponent));
-      if (geom == nullptr || snMassSet(&mass, static_cast<dReal>(kDensity), geom) == 0) throw std::runtime_error(snLastError());
-    } else {
-      geom = dCreateBox(space_, 2 * a, 2 * c, 2 * c);
-      dMassSetBox(&mass, static_cast<dReal>(kDensity), 2 * a, 2 * c, 2 * c);
-    }
-    const dBodyID body = dBodyCreate(world_);
-    dBodySetMass(body, &mass);
-    dGeomSetBody(geom, body);
+    const dBodyID body = world_.add(row_.exponent, {slenderness * size, size, size});
     dMatrix3 attitude;
     dRFromEulerAngles(attitude, 0, static_cast<dReal>(place.pitch), static_cast<dReal>(place.yaw));
     dBodySetRotation(body, attitude);
@@ -120,26 +86,10 @@ class Scene {
   /// From -largest to largest.
   double uniform(double largest) { return std::uniform_real_distribution<double>(-largest, largest)(random_); }
 
-  static void near_callback(void* self, dGeomID o1, dGeomID o2) {
-    Scene& scene = *static_cast<Scene*>(self);
-    std::array<dContact, kMostRoom> found;
-    const int count = dCollide(o1, o2, scene.row_.room, &found[0].geom, sizeof(dContact));
-    for (int i = 0; i < count; ++i) {
-      dContact& contact = found[static_cast<std::size_t>(i)];
-      contact.surface.mode = dContactApprox1;
-      contact.surface.mu = static_cast<dReal>(0.5);
-      scene.overlap_ = std::max(scene.overlap_, double{contact.geom.depth});
-      dJointAttach(dJointCreateContact(scene.world_, scene.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
-    }
-  }
-
   HeapRow row_;
   std::mt19937 random_;
-  dWorldID world_ = dWorldCreate();
-  dSpaceID space_ = dHashSpaceCreate(nullptr);
-  dJointGroupID joints_ = dJointGroupCreate(0);
+  World world_;
   std::vector<dBodyID> bodies_;
-  double overlap_ = 0;  // m; of the last step
 };
 
 }  // namespace

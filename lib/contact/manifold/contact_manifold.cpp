@@ -17,8 +17,8 @@ constexpr double kLeastDepth = 1e-12;
 // Corners that are nearer to each other than this share of the body's extent are one.
 constexpr double kSamePlace = 0.01;
 
-// Corners are looked for from so many times the reach of the region: far enough to find those of a rectangle that is turned by
-// 30 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
+// Corners are looked for from so many times the reach of the region: far enough to find those of a square that is turned by
+// 25 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
 constexpr double kLookFrom = 1.5;
 
 // Of the deepest: what a corner that is not deep counts where two are united.

@@ -1,0 +1,44 @@
+// A world of bodies that fall, as a first program of ODE has it.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+
+namespace resting {
+
+/// ODE's defaults, gravity along -z, auto-disable, and Coulomb friction of 0.5 between all surfaces.
+class World {
+ public:
+  /// `space` is destroyed with the world; `step` in s; `room` for contacts a pair, 1 to 8.
+  World(dSpaceID space, double step, int room);
+  ~World();
+  World(const World&) = delete;
+  World(World&&) = delete;
+  World& operator=(const World&) = delete;
+  World& operator=(World&&) = delete;
+
+  dWorldID id() const { return world_; }
+  dSpaceID space() const { return space_; }
+
+  /// A superellipsoid with that exponent in both sections, or a dBox where it is 0; half-axes in m. Throws std::runtime_error.
+  dBodyID add(double exponent, const std::array<double, 3>& half_axes);
+
+  /// `number` seeds quickstep's order of rows, so that a run repeats.
+  void step(int number);
+
+  /// m; of the deepest contact in the last step.
+  double overlap() const { return overlap_; }
+
+ private:
+  static void near_callback(void* self, dGeomID o1, dGeomID o2);
+
+  dWorldID world_ = dWorldCreate();
+  dSpaceID space_;
+  dJointGroupID joints_ = dJointGroupCreate(0);
+  double step_;
+  int room_;
+  double overlap_ = 0;
+};
+
+}  // namespace resting
