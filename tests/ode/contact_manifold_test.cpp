@@ -28,7 +28,8 @@ class Scale {
  public:
   Scale(dGeomID geom, dGeomID under) : geom_(geom), under_(under), world_(dWorldCreate()), joints_(dJointGroupCreate(0)) {
     dWorldSetGravity(world_, 0, 0, -1);
-    dWorldSetERP(world_, 0);  // without what pushes the bodies apart
+    dWorldSetERP(world_, 0);             // without what pushes the bodies apart
+    dWorldSetCFM(world_, dReal(1e-10));  // ODE's default with double precision; that with single is softer than the body is heavy
     dWorldSetQuickStepNumIterations(world_, 300);
     body_ = dBodyCreate(world_);
     dMass mass;
