@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -53,6 +54,14 @@ int open_mark(const fs::path& folder, int flags) {
 
 bool lock(int mark) { return flock(mark, LOCK_EX | LOCK_NB) == 0; }
 
+/// Whether another run took the mark for a leftover's before we had locked it: that run holds the lock, or has removed the file.
+bool is_taken_away(int mark) {
+  // Where the file system has no locks nobody removes anything, and what is left behind stays.
+  if (!lock(mark)) return errno == EWOULDBLOCK;
+  struct stat status {};
+  return fstat(mark, &status) == 0 && status.st_nlink == 0;
+}
+
 /// Whether it holds our mark and, besides, nothing but what a run writes.
 bool is_unfinished_run(const fs::path& folder) {
   if (!fs::is_directory(fs::symlink_status(folder)) || !fs::is_regular_file(fs::symlink_status(folder / kMarkFile))) return false;
@@ -100,17 +109,18 @@ OutputFolder::OutputFolder(const fs::path& parent, const std::string& name)
 
 void OutputFolder::create_staging() {
   fs::create_directories(target_.parent_path());
-  fs::path folder;
   for (int number = 1;; ++number) {
-    folder = target_.parent_path() / (unfinished_prefix(target_) + std::to_string(number));
-    if (fs::create_directory(folder)) break;
+    const fs::path folder = target_.parent_path() / (unfinished_prefix(target_) + std::to_string(number));
+    if (!fs::create_directory(folder)) continue;
+    staging_ = folder;
+    mark_ = open_mark(staging_, O_CREAT);
+    if (mark_ < 0 || write(mark_, kMarkText.data(), kMarkText.size()) != static_cast<ssize_t>(kMarkText.size())) {
+      throw fs::filesystem_error("", staging_, std::error_code(errno, std::generic_category()));
+    }
+    if (!is_taken_away(mark_)) return;
+    close(mark_);
+    staging_.clear();
   }
-  staging_ = folder;
-  mark_ = open_mark(staging_, O_CREAT);
-  if (mark_ < 0 || write(mark_, kMarkText.data(), kMarkText.size()) != static_cast<ssize_t>(kMarkText.size())) {
-    throw fs::filesystem_error("", staging_, std::error_code(errno, std::generic_category()));
-  }
-  lock(mark_);  // where the file system has no locks, leftovers stay
 }
 
 OutputFolder::~OutputFolder() { discard(); }

@@ -137,7 +137,9 @@ start_long_run() {
   "$program" --scene "$work/scenes/$1.toml" --out "$work/stopped" >"$work/log" 2>&1 &
   pid=$!
   set +m
-  until [ "$(cat "$work/stopped/$1".unfinished-*/energies.csv 2>/dev/null | wc -l)" -ge 3 ]; do
+  # The file that this process writes: another run's, or a killed one's, may lie beside it.
+  local energies=
+  until energies=$(readlink "/proc/$pid/fd/"* 2>/dev/null | grep '/energies.csv$') && [ "$(wc -l <"$energies")" -ge 3 ]; do
     kill -0 "$pid" 2>/dev/null || { cat "$work/log" >&2; fail "ended before it was interrupted"; }
     sleep 0.05
   done
