@@ -34,7 +34,8 @@ struct ContactManifold {
 
   Proximity deepest;                                  ///< the contact with the depth of the overlap
   std::array<ManifoldCorner, kMaxCorners> corners{};  ///< the first corner_count of them, around the contact
-  int corner_count = 0;                               ///< 0, or 2 to 4
+  int corner_count = 0;                               ///< 0 or 4, some of which may be at the same place; see reduced_to()
+  double same_place = 0;                              ///< m; corners that are nearer to each other are one contact
   double flatness = 0;  ///< 0 to 1: the share of their depths that corners have beside the deepest point. Without it, all of it
   double margin = 0;    ///< m; at a corner there is no more than this between the bodies
   int evaluations = 0;  ///< boundary points of one body that finding the corners took
@@ -48,8 +49,13 @@ SUPERNORMAL_API ContactManifold find_contact_manifold(const Shape& shape1, const
 /// The manifold of a body and a plane, from find_plane_proximity(); the corners are points of the body.
 SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity);
 
-/// The same with at most that many corners, two or more: neighbours are united at a place between them. For a caller with too
-/// little room, for whom the corners take the place of the deepest point.
-SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int corner_count);
+/// Whether a caller with room for so many contacts gets the deepest point beside the corners, whose depths then count `flatness`
+/// times. With less room the corners take its place, at their full depths: the body rests on what is around it.
+constexpr bool has_room_for_deepest(int room) { return room > ContactManifold::kMaxCorners; }
+
+/// What a caller with room for so many contacts gets: the corners that are not at the same place; none, or two to four. Those that
+/// take the place of the deepest point begin with the deepest. With room for two or three neighbours are united at a place between
+/// them. Continuous as the manifold is.
+SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 
 }  // namespace supernormal

@@ -13,9 +13,6 @@ constexpr double kLevel = 1e-5;
 // Of the length of the way to a corner: what is between triangles that were meant to meet.
 constexpr double kCrack = 1e-6;
 
-// A corner that is nearer to the deepest point than this share of its way is none of its own.
-constexpr double kLeastShare = 1e-3;
-
 /// The plane of a contact with a face, seen from the point of it under the body's deepest.
 struct Floor {
   Vector3 normal;  // unit, out of the surface
@@ -82,18 +79,16 @@ void draw_in_corners(ContactManifold& patch, std::span<const MeshTriangle> trian
   const Vector3& contact = patch.deepest.contact;
   const double depth = -patch.deepest.gap;
   const Floor floor{-patch.deepest.normal, patch.deepest.point2, depth};
-  const int found = patch.corner_count;
-  patch.corner_count = 0;
-  for (int k = 0; k < found; ++k) {
-    ManifoldCorner corner = patch.corners[static_cast<std::size_t>(k)];
+  bool is_on_face = false;
+  for (int k = 0; k < patch.corner_count; ++k) {
+    ManifoldCorner& corner = patch.corners[static_cast<std::size_t>(k)];
     const double share = share_on_floor(floor, triangles, corner.point);
-    if (share < kLeastShare) continue;
-    if (share < 1) {
-      corner.point = contact + share * (corner.point - contact);
-      corner.depth = depth + share * (corner.depth - depth);
-    }
-    patch.corners[static_cast<std::size_t>(patch.corner_count++)] = corner;
+    is_on_face = is_on_face || share > 0;
+    if (share >= 1) continue;
+    corner.point = contact + share * (corner.point - contact);
+    corner.depth = depth + share * (corner.depth - depth);
   }
+  if (!is_on_face) patch.corner_count = 0;
 }
 
 }  // namespace supernormal

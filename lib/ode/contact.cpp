@@ -46,53 +46,58 @@ int append_corners(const ContactManifold& manifold, double share_of_depth, const
   return count;
 }
 
-// The corners take the place of the deepest point where there is room for no more than them, or fewer.
-bool has_room_for_all(const ContactManifold& manifold, int room) { return room == 1 || manifold.corner_count < room; }
-
 /// Shares out the room for contacts: one for each manifold, and of what is left a fair share for its corners.
 class Shares {
  public:
-  Shares(std::span<const LocatedManifold> manifolds, int room)
-      : left_(static_cast<int>(manifolds.size())), spare_(std::max(0, room - left_)) {}
+  Shares(std::size_t manifolds, int room) : left_(static_cast<int>(manifolds)), spare_(std::max(0, room - left_)) {}
 
-  /// Of the next one.
+  /// The room for the next manifold; as much as anyone may want where it gets what it wants.
   int next(const ContactManifold& manifold) {
-    const int share = std::min(manifold.corner_count, (spare_ + left_ - 1) / left_);
+    const int wanted = reduced_to(manifold, kAllTheRoom).corner_count;
+    const int share = std::min(wanted, (spare_ + left_ - 1) / left_);
     spare_ -= share;
     --left_;
-    return 1 + share;
+    return share == wanted ? kAllTheRoom : 1 + share;
   }
 
  private:
+  static constexpr int kAllTheRoom = 1 + ContactManifold::kMaxCorners;
+
   int left_;
   int spare_;
 };
 
+bool lists_deepest(const ContactManifold& reduced, int room) { return reduced.corner_count == 0 || has_room_for_deepest(room); }
+
 }  // namespace
 
-int write_contacts(const ContactManifold& manifold, const ContactArray& out) {
-  const LocatedManifold located{manifold, -1};
-  return write_contacts({&located, 1}, out);
+int write_contacts(const ContactManifold& manifold, const ContactArray& out, int side2) {
+  if (!is_contact(manifold.deepest)) return 0;
+  const ContactManifold reduced = reduced_to(manifold, out.room());
+  if (!lists_deepest(reduced, out.room())) return append_corners(reduced, 1, out, 0, side2);
+  const int count = append_contact(manifold.deepest, out, 0, side2);
+  return append_corners(reduced, manifold.flatness, out, count, side2);
 }
 
-int write_contacts(std::span<const LocatedManifold> manifolds, const ContactArray& out) {
+int write_contacts(std::span<LocatedManifold> manifolds, const ContactArray& out) {
+  if (manifolds.size() == 1) return write_contacts(manifolds.front().manifold, out, manifolds.front().side2);
   int count = 0;
+  Shares shares(manifolds.size(), out.room());
   // First the deepest point of each, so that the deepest of all comes first.
-  Shares shares(manifolds, out.room());
-  for (const auto& [manifold, side2] : manifolds) {
-    const int room = shares.next(manifold);
-    if (has_room_for_all(manifold, room)) {
-      count = append_contact(manifold.deepest, out, count, side2);
+  for (LocatedManifold& located : manifolds) {
+    ContactManifold& manifold = located.manifold;
+    located.room = shares.next(manifold);
+    manifold = reduced_to(manifold, located.room);
+    if (lists_deepest(manifold, located.room)) {
+      count = append_contact(manifold.deepest, out, count, located.side2);
     } else if (is_contact(manifold.deepest)) {
-      count = append_corners(reduced_to(manifold, room), 1, out, count, side2);
+      count = append_corners(manifold, 1, out, count, located.side2);
     }
   }
-  // Then the corners of those that have room for all of theirs.
-  shares = Shares(manifolds, out.room());
-  for (const auto& [manifold, side2] : manifolds) {
-    const int room = shares.next(manifold);
-    if (room == 1 || !has_room_for_all(manifold, room) || !is_contact(manifold.deepest)) continue;
-    count = append_corners(manifold, manifold.flatness, out, count, side2);
+  // Then the corners beside them.
+  for (const LocatedManifold& located : manifolds) {
+    if (!lists_deepest(located.manifold, located.room) || !is_contact(located.manifold.deepest)) continue;
+    count = append_corners(located.manifold, located.manifold.flatness, out, count, located.side2);
   }
   return count;
 }

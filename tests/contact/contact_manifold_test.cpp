@@ -139,7 +139,7 @@ TEST_CASE("a can rests on two points on its side and on four on its end") {
   const Superellipsoid can(Vector3(0.03, 0.03, 0.06), 2, 30);
   const ContactManifold upright = manifold_on_floor(can, Matrix3::Identity(), 1e-5);
   REQUIRE(upright.corner_count == 4);
-  const ContactManifold lying = manifold_on_floor(can, tilt(0.5 * std::numbers::pi, 0), 1e-5);
+  const ContactManifold lying = reduced_to(manifold_on_floor(can, tilt(0.5 * std::numbers::pi, 0), 1e-5), 8);
   REQUIRE(lying.corner_count == 2);
   const Vector3 between = lying.corners[1].point - lying.corners[0].point;
   CHECK(std::abs(between.y()) >= 0.1);
@@ -181,7 +181,8 @@ TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 30, 30);
   const Capsule capsule(0.02, 0.06);
   Pose pose{Vector3(0, 0, 0.07 - 1e-5), Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitY()).toRotationMatrix()};
-  const ContactManifold along = find_contact_manifold(brick, {}, capsule, pose, find_proximity(brick, {}, capsule, pose));
+  const ContactManifold along =
+      reduced_to(find_contact_manifold(brick, {}, capsule, pose, find_proximity(brick, {}, capsule, pose)), 8);
   REQUIRE(along.corner_count == 2);
   CHECK((along.corners[1].point - along.corners[0].point).norm() == test::relative(0.12).epsilon(0.05));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "contact/manifold/convex_polygon.hpp"
 #include "contact/manifold/support_polygon.hpp"
@@ -14,12 +15,19 @@ namespace {
 // Of the smallest half-extent: a lesser depth is rounding.
 constexpr double kLeastDepth = 1e-12;
 
-// Corners that are nearer to each other than this share of the body's extent are one.
+// Corners that are nearer to each other than this share of the body's extent are one; from twice that on they are two, and in
+// between they move together.
 constexpr double kSamePlace = 0.01;
+
+// Of that length: closer together, two corners are at the same place but for rounding.
+constexpr double kMoved = 0.01;
 
 // Corners are looked for from so many times the reach of the region: far enough to find those of a square that is turned by
 // 25 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
 constexpr double kLookFrom = 1.5;
+
+// Of the depth: what two corners that are equally deep may differ by in rounding.
+constexpr double kSameDepth = 1e-9;
 
 // Of the deepest: what a corner that is not deep counts where two are united.
 constexpr double kLeastShare = 0.01;
@@ -31,41 +39,20 @@ bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   return is_answer && !shape.is_round() && thickness >= kMinLength && -proximity.gap > kLeastDepth * thickness;
 }
 
-/// Points on which the bodies may rest, how far their surfaces are below the tangent planes there, and from that the corners.
-class CornerList {
- public:
-  void add(const Vector3& point, double drop) {
-    points_[count_] = point;
-    drops_[count_++] = drop;
-  }
-
-  bool is_empty() const { return count_ == 0; }
+/// Points on which the bodies may rest, and how far their surfaces are below the tangent planes there.
+struct CornerList {
+  std::array<Vector3, ContactManifold::kMaxCorners> points;
+  std::array<double, ContactManifold::kMaxCorners> drops;
 
   /// What a flat face has as its drop everywhere is its rounding: the face as a whole is as deep as the deepest point. What one
   /// corner has more than another is the lean.
-  void write(double same_place, ContactManifold& manifold) const {
-    const double least = *std::min_element(drops_.begin(), drops_.begin() + static_cast<std::ptrdiff_t>(count_));
-    for (std::size_t k = 0; k < count_; ++k) {
-      unite_or_add({points_[k], std::max(0.0, -manifold.deepest.gap - (drops_[k] - least))}, same_place, manifold);
+  void write(ContactManifold& manifold) const {
+    const double least = *std::min_element(drops.begin(), drops.end());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      manifold.corners[k] = {points[k], std::max(0.0, -manifold.deepest.gap - (drops[k] - least))};
     }
-    if (manifold.corner_count == 1) manifold.corner_count = 0;  // beside the deepest point
+    manifold.corner_count = ContactManifold::kMaxCorners;
   }
-
- private:
-  static void unite_or_add(const ManifoldCorner& corner, double same_place, ContactManifold& manifold) {
-    for (int k = 0; k < manifold.corner_count; ++k) {
-      ManifoldCorner& other = manifold.corners[static_cast<std::size_t>(k)];
-      if ((other.point - corner.point).squaredNorm() > same_place * same_place) continue;
-      other.point = 0.5 * (other.point + corner.point);
-      other.depth = std::max(other.depth, corner.depth);
-      return;
-    }
-    manifold.corners[static_cast<std::size_t>(manifold.corner_count++)] = corner;
-  }
-
-  std::array<Vector3, 4> points_;
-  std::array<double, 4> drops_{};
-  std::size_t count_ = 0;
 };
 
 /// A support polygon in the coordinates of the contact, counter-clockwise.
@@ -142,21 +129,72 @@ std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
   return {first, Vector2(-first.y(), first.x())};
 }
 
-/// Up to four of the region that both sides have in common.
-void find_corners(const Side& side1, const Side& side2, const ContactFrame& frame, CornerList& corners) {
+/// Four of the region that both sides have in common; false if there is none.
+bool find_corners(const Side& side1, const Side& side2, const ContactFrame& frame, CornerList& corners) {
   const ConvexPolygon outline1 = side1.outline();
   const ConvexPolygon outline2 = side2.outline();
   const bool thinner = outline1.area() < outline2.area();  // an edge of a box has no area
   const ConvexPolygon region = thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
-  if (region.size() == 0) return;
+  if (region.size() == 0) return false;
   double squared_reach = 0;
   for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
   const double reach = std::sqrt(squared_reach);
   const auto [u, v] = common_axes(side1, side2);
-  for (const Vector2& diagonal : {Vector2(u + v), Vector2(v - u), Vector2(-u - v), Vector2(u - v)}) {
-    const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonal);
-    corners.add(frame.lift(corner), side1.drop_at(corner) + side2.drop_at(corner));
+  const std::array<Vector2, 4> diagonals = {u + v, v - u, -u - v, u - v};
+  for (std::size_t k = 0; k < diagonals.size(); ++k) {
+    const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonals[k]);
+    corners.points[k] = frame.lift(corner);
+    corners.drops[k] = side1.drop_at(corner) + side2.drop_at(corner);
   }
+  return true;
+}
+
+/// Takes both to one place between them. The deeper of two counts more: where the body leans, it is its place that matters.
+void unite(ManifoldCorner& corner, ManifoldCorner& other, double least_depth) {
+  const double weight = std::pow(corner.depth + least_depth, 2);
+  const double weight_of_other = std::pow(other.depth + least_depth, 2);
+  const double share = weight_of_other / (weight + weight_of_other);
+  corner.point += share * (other.point - corner.point);
+  corner.depth += share * (other.depth - corner.depth);
+  other = corner;
+}
+
+/// Takes two that are near to each other to the middle between them, with the depth of the deeper one: not at all from twice the
+/// distance on, to one place within it.
+void draw_together(ManifoldCorner& corner, ManifoldCorner& other, double distance) {
+  const Vector3 way = other.point - corner.point;
+  const double share = std::min(1.0, 2 - way.norm() / distance);
+  if (!(share > 0)) return;
+  corner.point += 0.5 * share * way;
+  other.point -= 0.5 * share * way;
+  const double depth = std::max(corner.depth, other.depth);
+  corner.depth += share * (depth - corner.depth);
+  other.depth += share * (depth - other.depth);
+}
+
+/// Leaves one of those that are at the same place.
+void remove_repeated(ContactManifold& manifold, bool deepest_counts) {
+  const double distance = kMoved * manifold.same_place;
+  const auto is_at = [&](const Vector3& place, const Vector3& point) {
+    return (place - point).squaredNorm() <= distance * distance;
+  };
+  const auto kept = manifold.corners.begin();
+  auto end = kept;
+  for (const ManifoldCorner& corner : manifold.corners) {
+    const bool is_repeated = std::any_of(kept, end, [&](const ManifoldCorner& other) { return is_at(other.point, corner.point); });
+    if (is_repeated || (deepest_counts && is_at(manifold.deepest.contact, corner.point))) continue;
+    *end++ = corner;
+  }
+  manifold.corner_count = static_cast<int>(end - kept);
+}
+
+/// Programs expect that. Of those that are as deep but for rounding the first one is the deepest: quickstep's forces depend on the
+/// order.
+void put_deepest_first(std::span<ManifoldCorner> corners) {
+  double depth = 0;
+  for (const ManifoldCorner& corner : corners) depth = std::max(depth, corner.depth);
+  const auto is_deepest = [&](const ManifoldCorner& corner) { return corner.depth >= (1 - kSameDepth) * depth; };
+  std::rotate(corners.begin(), std::find_if(corners.begin(), corners.end(), is_deepest), corners.end());
 }
 
 }  // namespace
@@ -174,8 +212,8 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   if (polygon2.flatness() == 0) return manifold;
   const ContactFrame frame{TangentPlane(proximity.normal, polygon1.axis()), proximity.contact};
   CornerList corners;
-  find_corners(Side(polygon1, frame, false), Side(polygon2, frame, true), frame, corners);
-  if (!corners.is_empty()) corners.write(kSamePlace * std::min(polygon1.size(), polygon2.size()), manifold);
+  if (find_corners(Side(polygon1, frame, false), Side(polygon2, frame, true), frame, corners)) corners.write(manifold);
+  manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.flatness = polygon1.flatness() * polygon2.flatness();
   manifold.margin = polygon1.reach() + polygon2.reach() - depth;
   return manifold;
@@ -189,31 +227,34 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
   manifold.evaluations = polygon.evaluations();
   if (polygon.flatness() == 0) return manifold;
   CornerList corners;
-  for (const SupportPolygon::Vertex& vertex : polygon.vertices()) corners.add(proximity.point1 + vertex.offset, vertex.drop);
-  corners.write(kSamePlace * polygon.size(), manifold);
+  for (std::size_t k = 0; k < 4; ++k) {
+    corners.points[k] = proximity.point1 + polygon.vertices()[k].offset;
+    corners.drops[k] = polygon.vertices()[k].drop;
+  }
+  corners.write(manifold);
+  manifold.same_place = kSamePlace * polygon.size();
   manifold.flatness = polygon.flatness();
   manifold.margin = polygon.reach() - depth;
   return manifold;
 }
 
-// The deeper of two counts more: where the body leans, it is its place that matters.
-ContactManifold reduced_to(ContactManifold manifold, int corner_count) {
-  const double least = -kLeastShare * manifold.deepest.gap;
-  for (int k = 0; manifold.corner_count > corner_count && k + 1 < manifold.corner_count; ++k) {
-    ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
-    const ManifoldCorner& next = manifold.corners[static_cast<std::size_t>(k) + 1];
-    const double weight = std::pow(corner.depth + least, 2);
-    const double weight_of_next = std::pow(next.depth + least, 2);
-    const double share = weight_of_next / (weight + weight_of_next);
-    corner.point += share * (next.point - corner.point);
-    corner.depth += share * (next.depth - corner.depth);
-    std::copy(manifold.corners.begin() + k + 2, manifold.corners.begin() + manifold.corner_count, manifold.corners.begin() + k + 1);
-    --manifold.corner_count;
+// Which corners are united does not depend on where they are, and those that come near to each other are drawn together before they
+// are one: so no force jumps.
+ContactManifold reduced_to(ContactManifold manifold, int room) {
+  if (room < 2) manifold.corner_count = 0;
+  if (manifold.corner_count == 0) return manifold;
+  std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
+  const double least_depth = -kLeastShare * manifold.deepest.gap;
+  if (room < 4) unite(corners[0], corners[1], least_depth);
+  if (room < 3) unite(corners[2], corners[3], least_depth);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    for (std::size_t other = k + 1; other < corners.size(); ++other) {
+      draw_together(corners[k], corners[other], manifold.same_place);
+    }
   }
-  // Programs expect the deepest contact first.
-  const auto end = manifold.corners.begin() + manifold.corner_count;
-  const auto is_less_deep = [](const ManifoldCorner& one, const ManifoldCorner& other) { return one.depth < other.depth; };
-  std::rotate(manifold.corners.begin(), std::max_element(manifold.corners.begin(), end, is_less_deep), end);
+  remove_repeated(manifold, has_room_for_deepest(room));
+  if (manifold.corner_count == 1) manifold.corner_count = 0;  // beside the deepest point
+  if (!has_room_for_deepest(room)) put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)});
   return manifold;
 }
 
