@@ -45,11 +45,15 @@ struct CornerList {
   std::array<double, ContactManifold::kMaxCorners> drops;
 
   /// What a flat face has as its drop everywhere is its rounding: the face as a whole is as deep as the deepest point. What one
-  /// corner has more than another is the lean.
-  void write(ContactManifold& manifold) const {
+  /// corner has more than another is the lean. A corner that leans by more than `largest_lean` (m) is drawn in to the deepest
+  /// point, as the square of what it exceeds that by: it is in the air, and would hold the body there.
+  void write(double largest_lean, ContactManifold& manifold) const {
     const double least = *std::min_element(drops.begin(), drops.end());
+    const Vector3& deepest = manifold.deepest.contact;
     for (std::size_t k = 0; k < points.size(); ++k) {
-      manifold.corners[k] = {points[k], std::max(0.0, -manifold.deepest.gap - (drops[k] - least))};
+      const double lean = drops[k] - least;
+      const double excess = std::max(1.0, lean / largest_lean);
+      manifold.corners[k] = {deepest + (points[k] - deepest) / (excess * excess), std::max(0.0, -manifold.deepest.gap - lean)};
     }
     manifold.corner_count = ContactManifold::kMaxCorners;
   }
@@ -212,7 +216,9 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   if (polygon2.flatness() == 0) return manifold;
   const ContactFrame frame{TangentPlane(proximity.normal, polygon1.axis()), proximity.contact};
   CornerList corners;
-  if (find_corners(Side(polygon1, frame, false), Side(polygon2, frame, true), frame, corners)) corners.write(manifold);
+  if (find_corners(Side(polygon1, frame, false), Side(polygon2, frame, true), frame, corners)) {
+    corners.write(std::min(polygon1.largest_lean(), polygon2.largest_lean()), manifold);
+  }
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.flatness = polygon1.flatness() * polygon2.flatness();
   manifold.margin = polygon1.reach() + polygon2.reach() - depth;
@@ -231,7 +237,7 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
     corners.points[k] = proximity.point1 + polygon.vertices()[k].offset;
     corners.drops[k] = polygon.vertices()[k].drop;
   }
-  corners.write(manifold);
+  corners.write(polygon.largest_lean(), manifold);
   manifold.same_place = kSamePlace * polygon.size();
   manifold.flatness = polygon.flatness();
   manifold.margin = polygon.reach() - depth;

@@ -21,6 +21,10 @@ constexpr double kFaceExponent = 8;
 // Of the half-height: from there on the vertices overlap themselves. In a fall they would else hold a body that leans in the air.
 constexpr double kLargestReach = 0.07;
 
+// Of the half-height: with more, the far corners of a body that leans hold it in the air, and a stack of bodies leans a little more
+// with every step; with less, bodies with small exponents rock for longer.
+constexpr double kLargestLean = 0.035;
+
 // Of the half-height: at a larger one the vertices would be on the sides of the body.
 constexpr double kLargestDepth = 0.2;
 
@@ -61,8 +65,8 @@ std::array<Vector3, 2> axes_in_plane(const Vector3& n) {
   return {plane.lift(first), plane.lift({-first.y(), first.x()})};
 }
 
-/// The largest drop of a vertex.
-double reach_of(double depth, double height) { return std::max(depth, std::min(kReach * depth, kLargestReach * height)); }
+/// kReach times the depth, up to a share of the height; but for the depth itself.
+double reach_of(double depth, double height, double largest) { return std::max(depth, std::min(kReach * depth, largest * height)); }
 
 // (kFaceExponent reach / (2 height))^(1 - 1 / kFaceExponent): the slope, in units of height over extent, where a face of that
 // exponent has half of the reach as its drop along either axis.
@@ -166,7 +170,8 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
   extents_ = {extent(axes[0]), extent(axes[1])};
   const double height = extent(normal);
-  reach_ = reach_of(depth, height);
+  reach_ = reach_of(depth, height, kLargestReach);
+  largest_lean_ = reach_of(depth, height, kLargestLean);
   const double tangent = tangent_of_tilt(reach_, height);
   const Tilt diagonal = {tangent * height / extents_[0], tangent * height / extents_[1]};
 

@@ -35,6 +35,9 @@ class SupportPolygon {
   /// No vertex has a larger drop: between the bodies there is at most what this exceeds the depth by, m.
   double reach() const { return reach_; }
 
+  /// m; a vertex whose drop exceeds that of another by more is too far in the air to rest on.
+  double largest_lean() const { return largest_lean_; }
+
   /// 0: the body is round at the support point, which is its only one; 1: it is flat.
   double flatness() const { return flatness_; }
 
@@ -85,6 +88,7 @@ class SupportPolygon {
   std::array<Vector3, 2> axes_;
   std::array<double, 2> extents_{};
   double reach_;
+  double largest_lean_;
   double flatness_ = 0;
   std::array<Vertex, 4> vertices_;
   int evaluations_ = 0;
