@@ -177,6 +177,37 @@ TEST_CASE("what hangs over is not supported") {
   CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= 0.8 * std::hypot(0.1, 0.14));
 }
 
+TEST_CASE("the deepest point of a face that hangs over is on both bodies") {
+  Random random(5);
+  // 1 on the surface of a superellipsoid, less inside.
+  const auto gauge = [](const Superellipsoid& body, const Pose& pose, const Vector3& point) {
+    const Vector3 local = (pose.rotation.transpose() * (point - pose.position)).cwiseQuotient(body.half_axes()).cwiseAbs();
+    const double largest = local.maxCoeff();
+    return largest * std::pow((local / largest).array().pow(body.delta()).sum(), 1 / body.delta());
+  };
+  int moved = 0;
+  for (int repetition = 0; repetition < 3000; ++repetition) {
+    const auto brick = [&](double exponent) {
+      return Superellipsoid({uniform(random, 0.1, 1), uniform(random, 0.1, 1), uniform(random, 0.1, 1)}, exponent, exponent);
+    };
+    const Superellipsoid lower = brick(repetition % 2 == 0 ? 8 : 60);
+    const Superellipsoid upper = brick(repetition % 3 == 0 ? 8 : 60);
+    const Pose pose1{Vector3(uniform(random, -1, 1), 0, 0), random_rotation(random)};
+    const double overlap = 1e-3 * lower.half_axes().z() * std::pow(10, uniform(random, -4, 0));
+    const Vector3 beside{uniform(random, -1, 1) * lower.half_axes().x(), uniform(random, -1, 1) * lower.half_axes().y(),
+                         lower.half_axes().z() + upper.half_axes().z() - overlap};
+    const Matrix3 yaw = Eigen::AngleAxisd(uniform(random, 0, 6), Vector3::UnitZ()).toRotationMatrix();
+    const Pose pose2{pose1.position + pose1.rotation * beside, pose1.rotation * yaw};
+    const Proximity proximity = find_proximity(lower, pose1, upper, pose2);
+    if (proximity.gap >= 0) continue;
+    const ContactManifold manifold = find_contact_manifold(lower, pose1, upper, pose2, proximity);
+    moved += (manifold.deepest.contact - proximity.contact).norm() > 0.01 ? 1 : 0;
+    CHECK(gauge(lower, pose1, manifold.deepest.contact) <= 1.02);
+    CHECK(gauge(upper, pose2, manifold.deepest.contact) <= 1.02);
+  }
+  CHECK(moved > 30);
+}
+
 TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of the brick") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 30, 30);
   const Capsule capsule(0.02, 0.06);

@@ -72,6 +72,9 @@ class Side {
     for (std::size_t k = 0; k < 4; ++k) inverse_areas_[k] = inverse_area(spokes_[k], spokes_[(k + 1) % 4]);
   }
 
+  /// The support point, which its polygon need not contain.
+  const Vector2& apex() const { return apex_; }
+
   ConvexPolygon outline() const {
     ConvexPolygon outline;
     for (const Vector2& spoke : spokes_) outline.add(apex_ + spoke);
@@ -133,24 +136,35 @@ std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
   return {first, Vector2(-first.y(), first.x())};
 }
 
-/// Four of the region that both sides have in common; false if there is none.
-bool find_corners(const Side& side1, const Side& side2, const ContactFrame& frame, CornerList& corners) {
-  const ConvexPolygon outline1 = side1.outline();
-  const ConvexPolygon outline2 = side2.outline();
+/// What both have in common; may be empty.
+ConvexPolygon common_region(const ConvexPolygon& outline1, const ConvexPolygon& outline2) {
   const bool thinner = outline1.area() < outline2.area();  // an edge of a box has no area
-  const ConvexPolygon region = thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
-  if (region.size() == 0) return false;
+  return thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
+}
+
+/// Where the deepest point belongs that is at the origin: into what both sides and their support points have in common. Of two
+/// faces the query knows the normal, but it knows the place of the support points on them to no digit, and the contact between
+/// these may be beside a body that the other one hangs over.
+Vector2 place_of_deepest(const ConvexPolygon& region, const Side& side1, const Side& side2) {
+  if (region.contains(Vector2::Zero())) return Vector2::Zero();
+  const ConvexPolygon whole = common_region(side1.outline().with(side1.apex()), side2.outline().with(side2.apex()));
+  return whole.size() == 0 || whole.contains(Vector2::Zero()) ? Vector2::Zero() : whole.nearest_to(Vector2::Zero());
+}
+
+/// Four of a region that is not empty.
+CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side& side2, const ContactFrame& frame) {
   double squared_reach = 0;
   for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
   const double reach = std::sqrt(squared_reach);
   const auto [u, v] = common_axes(side1, side2);
   const std::array<Vector2, 4> diagonals = {u + v, v - u, -u - v, u - v};
+  CornerList corners;
   for (std::size_t k = 0; k < diagonals.size(); ++k) {
     const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonals[k]);
     corners.points[k] = frame.lift(corner);
     corners.drops[k] = side1.drop_at(corner) + side2.drop_at(corner);
   }
-  return true;
+  return corners;
 }
 
 /// Takes both to one place between them. The deeper of two counts more: where the body leans, it is its place that matters.
@@ -215,12 +229,15 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   manifold.evaluations += polygon2.evaluations();
   if (polygon2.flatness() == 0) return manifold;
   const ContactFrame frame{TangentPlane(proximity.normal, polygon1.axis()), proximity.contact};
-  CornerList corners;
-  if (find_corners(Side(polygon1, frame, false), Side(polygon2, frame, true), frame, corners)) {
-    corners.write(std::min(polygon1.largest_lean(), polygon2.largest_lean()), manifold);
+  const Side side1(polygon1, frame, false);
+  const Side side2(polygon2, frame, true);
+  const ConvexPolygon region = common_region(side1.outline(), side2.outline());
+  manifold.flatness = polygon1.flatness() * polygon2.flatness();
+  manifold.deepest.contact = frame.lift(manifold.flatness * place_of_deepest(region, side1, side2));
+  if (region.size() > 0) {
+    corners_of(region, side1, side2, frame).write(std::min(polygon1.largest_lean(), polygon2.largest_lean()), manifold);
   }
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
-  manifold.flatness = polygon1.flatness() * polygon2.flatness();
   manifold.margin = polygon1.reach() + polygon2.reach() - depth;
   return manifold;
 }
