@@ -7,12 +7,6 @@
 namespace supernormal {
 namespace {
 
-// Triangles whose normals differ by less than this (radians) are of one face.
-const double kSameFaceCosine = std::cos(1e-3);
-
-// A triangle that is narrower than this many steps of the lattice may be the work of rounding and point anywhere.
-constexpr double kNarrowest = 64;
-
 LatticePoint difference(const LatticePoint& a, const LatticePoint& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 LatticePoint cross(const LatticePoint& a, const LatticePoint& b) {
@@ -162,43 +156,6 @@ void ConvexHull::grow(std::size_t face) {
       const std::size_t next = next_outside_[point];
       if (point != apex) hand_over(point, first_new);
       point = next;
-    }
-  }
-}
-
-void ConvexHull::add_face_normals(std::vector<Vector3>& normals) {
-  const auto area = [&](std::size_t face) { return to_vector(faces_[face].normal).squaredNorm(); };
-  const auto is_narrow = [&](const Face& face) {
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const LatticePoint edge = difference(points_[face.vertices[(k + 1) % 3]], points_[face.vertices[k]]);
-      longest = std::max(longest, to_vector(edge).norm());
-    }
-    return to_vector(face.normal).norm() < kNarrowest * longest;
-  };
-  order_.clear();
-  for (std::size_t k = 0; k < faces_.size(); ++k) {
-    faces_[k].is_visited = false;
-    if (!faces_[k].is_removed) order_.push_back(k);
-  }
-  // As a stable sort, which would allocate.
-  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-    const double area_a = area(a), area_b = area(b);
-    return area_a > area_b || (area_a == area_b && a < b);
-  });
-  for (const std::size_t largest : order_) {
-    if (faces_[largest].is_visited || is_narrow(faces_[largest])) continue;
-    const Vector3 normal = to_vector(faces_[largest].normal).normalized();
-    normals.push_back(normal);
-    visible_.assign(1, largest);  // and those of its plane, from neighbour to neighbour
-    faces_[largest].is_visited = true;
-    for (std::size_t k = 0; k < visible_.size(); ++k) {
-      for (const std::size_t neighbour : faces_[visible_[k]].neighbours) {
-        if (neighbour == kNone || faces_[neighbour].is_visited) continue;
-        if (to_vector(faces_[neighbour].normal).normalized().dot(normal) < kSameFaceCosine) continue;
-        faces_[neighbour].is_visited = true;
-        visible_.push_back(neighbour);
-      }
     }
   }
 }

@@ -1,4 +1,4 @@
-// The faces of the convex hull of some points, as starting directions for solvers.
+// The faces of the convex hull of some points.
 #pragma once
 
 #include <array>
@@ -29,7 +29,6 @@ class ConvexHull {
     LatticePoint normal;                    ///< outward, twice as long as the area is large
     std::size_t first_outside;              ///< a list of the points in front of it while the hull grows
     bool is_removed;
-    bool is_visited;
   };
 
   /// Replaces the hull. The order of the points makes no difference.
@@ -46,10 +45,6 @@ class ConvexHull {
       if (!face.is_removed) visit(face);
     }
   }
-
-  /// Adds the unit normals of the faces to `normals`, the largest face first, triangles of one plane once. Small faces that the
-  /// lattice is too coarse for are left out.
-  void add_face_normals(std::vector<Vector3>& normals);
 
  private:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -73,7 +68,6 @@ class ConvexHull {
   std::vector<std::size_t> face_from_;     // for each point: the new face whose edge of the horizon starts there
   std::vector<std::size_t> visible_;
   std::vector<Edge> horizon_;
-  std::vector<std::size_t> order_;
 };
 
 }  // namespace supernormal

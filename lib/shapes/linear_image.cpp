@@ -23,7 +23,6 @@ LinearImage::LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matr
   largest_ = require_in("largest singular value of matrix", svd.singularValues()[0], kMinLength, kMaxLength);
   smallest_ = require_in("smallest singular value of matrix", svd.singularValues()[2], largest_ / kLargestRatio, largest_);
   inverse_ = matrix.inverse();
-  for (const Vector3& normal : shape_->face_normals()) face_normals_.push_back((inverse_.transpose() * normal).normalized());
   half_extents_ = Shape::half_extents();
 }
 

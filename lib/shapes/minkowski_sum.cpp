@@ -33,10 +33,6 @@ void add_highest_pairs(const Vector3& n, const Corners& first, const Corners& se
 MinkowskiSum::MinkowskiSum(std::shared_ptr<const Shape> first, std::shared_ptr<const Shape> second)
     : first_(std::move(first)), second_(std::move(second)) {
   if (!first_ || !second_) throw std::invalid_argument(std::string(first_ ? "second" : "first") + " is null; a shape is needed");
-  for (const Shape* part : {first_.get(), second_.get()}) {
-    const auto normals = part->face_normals();
-    face_normals_.insert(face_normals_.end(), normals.begin(), normals.end());
-  }
 }
 
 void MinkowskiSum::evaluate(const Vector3& n, Order order, Jet& jet) const {

@@ -1,6 +1,5 @@
 #include "supernormal/shapes/polytope.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -9,8 +8,7 @@
 
 namespace supernormal {
 
-Polytope::Polytope(std::span<const Vector3> points, std::span<const Vector3> face_normals)
-    : points_(points), face_normals_(face_normals) {
+Polytope::Polytope(std::span<const Vector3> points) : points_(points) {
   if (points.empty()) throw std::invalid_argument("points is empty; at least one is needed");
   Vector3 low = points.front();
   Vector3 high = low;
@@ -20,12 +18,6 @@ Polytope::Polytope(std::span<const Vector3> points, std::span<const Vector3> fac
     high = high.cwiseMax(point);
   }
   half_extents_ = 0.5 * (high - low);
-  if (points.size() != 3) return;
-  const Vector3 across = (points[1] - points[0]).cross(points[2] - points[0]);
-  const double length = across.norm();
-  if (!(length > 0)) return;
-  sides_ = {across / length, -across / length};
-  side_count_ = 2;
 }
 
 void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {

@@ -140,11 +140,7 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
   for (int i = 0; i < 3000; ++i) {
     CAPTURE(i);
     const TriangleMesh& mesh = meshes[static_cast<std::size_t>(i) % meshes.size()];
-    std::vector<Vector3> face_normals;
-    for (const MeshTriangle& t : mesh.placed()) {
-      face_normals.push_back((t.vertices[1] - t.vertices[0]).cross(t.vertices[2] - t.vertices[0]).normalized());
-    }
-    const Polytope hull(mesh.vertices, face_normals);
+    const Polytope hull(mesh.vertices);
     const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
     const std::unique_ptr<Shape> body = draw.body();
     const double smallest = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());

@@ -39,7 +39,7 @@ std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, s
     case 3:
       points.clear();
       for (int i = 0; i < 3 + k % 20; ++i) points.emplace_back(size * random.direction());
-      return std::make_shared<Polytope>(points, std::span<const Vector3>());
+      return std::make_shared<Polytope>(points);
     case 4:
       return std::make_shared<Superellipsoid>(Vector3{length(), length(), length()}, std::exp(random.uniform(0.01, 6.9)),
                                               std::exp(random.uniform(0.01, 6.9)));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "supernormal/shapes/shape.hpp"
 
@@ -23,7 +22,6 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   bool has_kinks() const override { return shape_->has_kinks(); }
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
-  std::span<const Vector3> face_normals() const override { return face_normals_; }
   bool is_symmetric() const override { return shape_->is_symmetric(); }
   Vector3 half_extents() const override { return half_extents_; }
   double sharpest_radius() const override;
@@ -41,7 +39,6 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   std::shared_ptr<const Shape> shape_;
   Matrix3 matrix_, inverse_;
   double largest_, smallest_;  // stretch
-  std::vector<Vector3> face_normals_;
   Vector3 half_extents_;
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "supernormal/shapes/shape.hpp"
 
@@ -24,9 +23,6 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
   bool has_kinks() const override { return first_->has_kinks() || second_->has_kinks(); }
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
-
-  /// Those of both; of the sum of two polytopes the faces that an edge of one makes with an edge of the other are missing.
-  std::span<const Vector3> face_normals() const override { return face_normals_; }
   bool is_symmetric() const override { return first_->is_symmetric() && second_->is_symmetric(); }
   Vector3 half_extents() const override { return first_->half_extents() + second_->half_extents(); }
   double sharpest_radius() const override;
@@ -37,7 +33,6 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
 
  private:
   std::shared_ptr<const Shape> first_, second_;
-  std::vector<Vector3> face_normals_;
 };
 
 }  // namespace supernormal

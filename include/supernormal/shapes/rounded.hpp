@@ -20,7 +20,6 @@ class SUPERNORMAL_API Rounded final : public Shape {
   bool has_kinks() const override { return core_->has_kinks(); }
   void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
-  std::span<const Vector3> face_normals() const override { return core_->face_normals(); }
   bool is_round() const override { return core_->is_round(); }
   bool is_symmetric() const override { return core_->is_symmetric(); }
   Vector3 half_extents() const override;

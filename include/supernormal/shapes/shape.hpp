@@ -98,9 +98,6 @@ class SUPERNORMAL_API Shape {
   /// announce; then `face` is that normal.
   virtual bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const;
 
-  /// The normals of the flat faces of a polytope, as far as they are known; otherwise none.
-  virtual std::span<const Vector3> face_normals() const { return {}; }
-
   /// Whether no cap of the body is wider than one of an ellipsoid is, but for a little: it never rests on more than one point
   /// (contact_manifold.hpp). False where it is not known.
   virtual bool is_round() const { return false; }
