@@ -140,7 +140,7 @@ SUPERNORMAL_API void snSetWarmStart(int on);
 
 typedef struct snProximity {
   dReal gap;               /* m; < 0: overlap depth = -gap */
-  dReal error;             /* m; bound on |gap - local maximum of s|, >= tolerance unless is_global; 0 for closed forms */
+  dReal error;             /* m; estimate of |gap - local maximum of s|; a bound where it is proved (is_global); 0 for closed forms */
   dVector3 normal;         /* unit, from g1 to g2, world frame */
   dVector3 point1, point2; /* m, world frame, on the two boundaries */
   int evaluations;         /* of the gap function; 0 for closed forms */
@@ -211,7 +211,7 @@ typedef struct snStatistics {
   snCount evaluations_cold, evaluations_warm; /* of the gap function, in those queries */
   snCount closed_forms;                       /* pairs settled without iteration, such as body and plane */
   snCount contacts;                           /* emitted */
-  snCount not_converged;                      /* queries whose error bound exceeds the tolerance */
+  snCount not_converged;                      /* queries whose error exceeds the tolerance */
 } snStatistics;
 SUPERNORMAL_API void snGetStatistics(snStatistics* out);
 SUPERNORMAL_API void snResetStatistics(void);

@@ -5,9 +5,13 @@
 #include <limits>
 
 #include "solvers/local_model.hpp"
+#include "solvers/regular_hessian.hpp"
 
 namespace supernormal {
 namespace {
+
+// A radius of curvature beyond this, in units of the pair's length, drowns those across it unless the basis is aligned with it.
+constexpr double kFlat = 1e4;
 
 /// What rounding leaves of the radii of curvature, m: the basis is aligned with the flatter body, not with the other.
 double curvature_rounding(const Symmetric2& A1, const Symmetric2& A2) {
@@ -16,19 +20,17 @@ double curvature_rounding(const Symmetric2& A1, const Symmetric2& A2) {
 
 /// How far the contact lies from the middle of the witness points. Where edges are nearly parallel, the place where they would meet
 /// may be outside the bodies; it cannot be farther from the witness points than these are apart and the smaller body is long.
-Vector2 within_reach(const GapFunction& gap, const Vector2& shift, double half_distance) {
+template <typename Vector>
+Vector within_reach(const GapFunction& gap, const Vector& shift, double half_distance) {
   const double length = shift.norm();
   if (length <= half_distance) return shift;
   const double radius = std::min(gap.shape1().half_extents().norm(), gap.shape2().half_extents().norm());
   const double reach = half_distance + 2 * radius;
-  return length <= reach ? shift : Vector2(shift * (reach / length));
+  return length <= reach ? shift : Vector(shift * (reach / length));
 }
 
-}  // namespace
-
-Vector3 contact_point(const GapFunction& gap, const GapJet& jet) {
-  const Vector3 middle = jet.jet1.r + 0.5 * jet.d;
-  if (!gap.has_curvature()) return middle;
+/// The contact in a basis of the tangent plane that is aligned with the flattest face.
+Vector3 contact_of_flat_bodies(const GapFunction& gap, const GapJet& jet, const Vector3& middle) {
   const LocalModel local = LocalModel::of(gap, jet);
   // The same added to both gives half the weight to each where neither has a curvature that is known.
   const double rounding = curvature_rounding(local.A1, local.A2);
@@ -40,8 +42,23 @@ Vector3 contact_point(const GapFunction& gap, const GapJet& jet) {
   if (!std::isfinite(turn.x()) || !std::isfinite(turn.y())) return middle;
   const Vector2 from_point1 = A1 * turn;
   if (!std::isfinite(from_point1.x()) || !std::isfinite(from_point1.y())) return middle;
-  const Vector2 from_middle = within_reach(gap, from_point1 - 0.5 * across, 0.5 * across.norm());
+  const Vector2 from_middle = within_reach(gap, Vector2(from_point1 - 0.5 * across), 0.5 * across.norm());
   return jet.jet1.r + local.plane1.lift(0.5 * across + from_middle) + 0.5 * jet.s * jet.n;
+}
+
+}  // namespace
+
+Vector3 contact_point(const GapFunction& gap, const GapJet& jet) {
+  const Vector3 middle = jet.jet1.r + 0.5 * jet.d;
+  if (!gap.has_curvature()) return middle;
+  const Matrix3 H2 = gap.rotation() * jet.jet2.H * gap.rotation().transpose();
+  const RegularHessian sum(jet.jet1.H + H2, 0, jet.n, gap.length_unit(), kFlat);
+  if (sum.is_regular()) {
+    const Vector3 across = jet.d - jet.s * jet.n;
+    // H1 times the turn of the normal that would bring both points together: how far it moves point 1.
+    return middle + within_reach(gap, Vector3(jet.jet1.H * sum.solve(across) - 0.5 * across), 0.5 * across.norm());
+  }
+  return contact_of_flat_bodies(gap, jet, middle);
 }
 
 }  // namespace supernormal

@@ -119,6 +119,16 @@ Status Ascent::climb(const Vector3& start, double worth) {
   forget_steps();
   evaluate(start, current(), corners_[now_]);
   if (!gap_.has_curvature()) secant_.restart(current());
+  return climb_on(worth);
+}
+
+Status Ascent::climb(const GapJet& start) {
+  forget_steps();
+  current() = start;
+  return climb_on(-std::numeric_limits<double>::infinity());
+}
+
+Status Ascent::climb_on(double worth) {
   Status status = Status::Converged;
   while (true) {
     if (!current().is_finite()) return Status::InvalidInput;

@@ -33,6 +33,9 @@ class Ascent {
   /// will not get higher than `worth` (m).
   Status climb(const Vector3& start, double worth = -std::numeric_limits<double>::infinity());
 
+  /// The same from a normal that has been evaluated, with curvature, and whose cut is known; not for bodies with kinks.
+  Status climb(const GapJet& start);
+
   /// The highest normal of the last climb, with its curvature() in the tangent plane.
   const GapJet& best() const { return current(); }
 
@@ -58,6 +61,7 @@ class Ascent {
   GapJet& current() { return jets_[now_]; }
   const GapJet& trial() const { return jets_[1 - now_]; }
   GapJet& trial() { return jets_[1 - now_]; }
+  Status climb_on(double worth);
   /// The next step is as good as the first of a climb.
   void forget_steps();
   LocalModel local_model(const GapJet& jet) const;

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <limits>
 
 #include "contact/contact_point.hpp"
 #include "solvers/answer.hpp"
 #include "solvers/ascent.hpp"
+#include "solvers/certified_newton.hpp"
 #include "solvers/first_guess.hpp"
 #include "solvers/global_proof.hpp"
 #include "solvers/known_corners.hpp"
@@ -79,13 +81,12 @@ Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Se
   return out;
 }
 
-}  // namespace
-
-// Steps: climb from the start; if the bodies overlap so deeply against their sharpest edges that there may be other maxima, look
-// for a higher one, but leave the branch of an earlier pose only when it has stopped being nearly the best.
-Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
+/// Climbs from the start, a normal or what was evaluated there; if the bodies overlap so deeply against their sharpest edges that
+/// there may be other maxima, looks for a higher one, but leaves the branch of an earlier pose only when it has stopped being
+/// nearly the best.
+template <typename Start>
+Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPlanes& cuts, const Start& start, Branch branch) {
   const double tolerance = absolute_tolerance(gap, settings);
-  CuttingPlanes cuts;
   Ascent ascent(gap, cuts, settings, tolerance);
   Status status = ascent.climb(start);
   GapJet best = ascent.best();
@@ -96,6 +97,20 @@ Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3
   }
   out.contact = contact_point(gap, best);
   if (gap.shape2().has_kinks() && status != Status::InvalidInput) out.normal = KnownCorners(gap).held_normal(best);
+  return out;
+}
+
+}  // namespace
+
+Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
+  CuttingPlanes cuts;
+  if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, cuts, start, branch);
+  CertifiedNewton newton(gap, cuts, settings, absolute_tolerance(gap, settings));
+  const CertifiedNewton::End end = newton.run(start, branch);
+  if (end == CertifiedNewton::End::Open) return climb_and_search(gap, settings, cuts, newton.best(), branch);
+  const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
+  Proximity out = answer(gap, settings, newton.best(), std::numeric_limits<double>::infinity(), status);
+  out.contact = contact_point(gap, newton.best());
   return out;
 }
 

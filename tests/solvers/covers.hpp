@@ -1,4 +1,4 @@
-// Whether a normal that is known to be higher is within what an answer reports.
+// Whether a normal that is known to be higher is within the interval that an answer proves.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -16,11 +16,11 @@ inline double gap_at(const Shape& shape1, const Pose& pose1, const Shape& shape2
   return jet.s;
 }
 
-/// What the answer reports must cover the gap at this normal; body 1 is at the origin.
+/// The proved interval must cover the gap at this normal; body 1 is at the origin.
 inline void check_covers(const Shape& body1, const Shape& body2, const Pose& pose2, const Vector3& higher,
                          const Settings& settings = {}, const Vector3* first_normal = nullptr) {
   const Proximity answer = find_proximity(body1, {}, body2, pose2, settings, first_normal);
-  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
+  CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.global_error);
 }
 
 }  // namespace supernormal::test

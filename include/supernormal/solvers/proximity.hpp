@@ -15,9 +15,9 @@ enum class Solver {
 
 /// How a query ended.
 enum class Status {
-  Converged,        ///< the error bound is within the tolerance
+  Converged,        ///< the error is within the tolerance
   Apart,            ///< stopped early, as asked: the bodies are separated by `gap` or more
-  Stalled,          ///< no further ascent in double precision although the error bound exceeds the tolerance
+  Stalled,          ///< no further ascent in double precision although the error exceeds the tolerance
   EvaluationLimit,  ///< Settings::max_evaluations reached
   Diverged,         ///< an unguarded solver (Newton, fixed point) left the domain: singular system or coincident centres
   InvalidInput,     ///< a pose or a shape gave a number that is not finite; the result holds no answer
@@ -37,8 +37,8 @@ struct Settings {
 /// The common normal of two bodies. Points and the normal are in the frame that the query was asked in.
 struct Proximity {
   double gap = 0;                                     ///< m; distance when positive, minus the penetration depth when negative
-  double error = 0;                                   ///< m; bound on |gap - the local maximum of the gap function|. Where that is
-                                                      ///< not proved to be the only one, it is not less than the tolerance
+  double error = 0;                                   ///< m; estimate of what is left to the local maximum of the gap function. A
+                                                      ///< bound where is_global; elsewhere not less than the tolerance
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, from body 1 to body 2
   Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
   Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
@@ -52,10 +52,10 @@ struct Proximity {
   /// Settings::certify_depth unless the evaluations ran out; without that, of overlapping bodies it is true when the depth is
   /// within the proved smallest radii of curvature of both (Shape::rolling_radius).
   bool is_global = false;
-  /// m; proved bound on how much larger than `gap` the largest value of the gap function can be: when is_global the
-  /// larger of `error` and the tolerance. Where the hybrid has looked for other maxima, 1 % of the depth (more where a shallow
-  /// overlap ended the search), a third of it when it followed an earlier normal. Infinite of contacts with meshes, where a part of
-  /// the surface counts.
+  /// m; proved bound on how much larger than `gap` the largest value of the gap function can be, so that this lies within
+  /// [gap, gap + global_error]: when is_global the larger of `error` and the tolerance. Where the hybrid has looked for other
+  /// maxima, 1 % of the depth (more where a shallow overlap ended the search), a third of it when it followed an earlier normal.
+  /// Infinite of contacts with meshes, where a part of the surface counts.
   double global_error = std::numeric_limits<double>::infinity();
 };
 
