@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "supernormal/solvers/proximity.hpp"
+#include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal::test {
 

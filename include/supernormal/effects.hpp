@@ -34,21 +34,21 @@ constexpr Material kLastMaterial = 63;
 /// Which contacts an effect is for. A pair of materials takes the values listed for the pair; if there are none, the values of both
 /// materials, combined; a material without values of its own takes those listed for all. How values combine is said with
 /// each effect. Without a value for one of the two the effect is absent, except where it says otherwise.
-class Surfaces {
+class MaterialSelector {
  public:
-  constexpr Surfaces() = default;  ///< all
-  static constexpr Surfaces of(Material material) { return Surfaces(material, kAll); }
-  static constexpr Surfaces between(Material first, Material second) { return Surfaces(first, second); }
+  constexpr MaterialSelector() = default;  ///< all
+  static constexpr MaterialSelector of(Material material) { return MaterialSelector(material, kAll); }
+  static constexpr MaterialSelector between(Material first, Material second) { return MaterialSelector(first, second); }
 
   constexpr bool is_all() const { return first_ == kAll; }
   constexpr bool is_pair() const { return second_ != kAll; }
   constexpr Material first() const { return first_; }
   constexpr Material second() const { return second_; }
-  constexpr bool operator==(const Surfaces&) const = default;
+  constexpr bool operator==(const MaterialSelector&) const = default;
 
  private:
   static constexpr Material kAll = -1;
-  constexpr Surfaces(Material first, Material second) : first_(first), second_(second) {}
+  constexpr MaterialSelector(Material first, Material second) : first_(first), second_(second) {}
   Material first_ = kAll;
   Material second_ = kAll;
 };
@@ -61,7 +61,7 @@ class Surfaces {
 /// direction; across that direction the square holds 1/sqrt(2) of it.
 struct Friction {
   double coefficient = 0;  ///< (0, 100]
-  Surfaces on;
+  MaterialSelector on;
 };
 
 /// Friction that depends on the direction of the slip on the body that carries the material: `along` is the coefficient for slip
@@ -74,7 +74,7 @@ struct AnisotropicFriction {
   double along = 0;                      ///< [0, 100]
   double across = 0;                     ///< [0, 100]; not both 0
   Vector3 direction = Vector3::UnitX();  ///< in the frame of the body (of the geom, where it has no body); not 0
-  Surfaces on;
+  MaterialSelector on;
 };
 
 /// Resistance to rolling and to spinning: torques of at most the lengths times the normal force, against the relative angular
@@ -83,7 +83,7 @@ struct AnisotropicFriction {
 struct RollingResistance {
   double rolling = 0;   ///< m, [0, 1e3]
   double spinning = 0;  ///< m, [0, 1e3]; not both 0
-  Surfaces on;
+  MaterialSelector on;
 };
 
 /// Newton's restitution of rigid contacts: separating velocity over approach velocity where that is above `threshold`. Combined by
@@ -91,7 +91,7 @@ struct RollingResistance {
 struct Restitution {
   double coefficient = 0;  ///< (0, 1]
   double threshold = 0;    ///< m/s, [0, 100]
-  Surfaces on;
+  MaterialSelector on;
 };
 
 /// A linear spring and damper for each pair that touches, in place of rigid contact: k depth + c approach velocity, never pulling.
@@ -105,7 +105,7 @@ struct Restitution {
 struct Compliance {
   double stiffness = 0;  ///< k, N/m, (0, 1e15]
   double damping = 0;    ///< c, N s/m, [0, 1e15]
-  Surfaces on;
+  MaterialSelector on;
 };
 
 /// Hertz's elastic contact in place of rigid contact: 4/3 E* sqrt(R) depth^(3/2) for a round contact, with elliptic integrals for
@@ -118,7 +118,7 @@ struct Hertz {
   double youngs_modulus = 0;  ///< E, Pa, (0, 1e15]
   double poisson_ratio = 0;   ///< nu, [0, 0.5]
   double restitution = 1;     ///< [0.05, 1]
-  Surfaces on;
+  MaterialSelector on;
 };
 
 /// An attraction of constant force while in contact: to pull a pair apart takes `pull_off` newtons. Combined by the geometric mean;
@@ -126,7 +126,7 @@ struct Hertz {
 /// bodies stick with an overlap of 1e-4 of the smaller mean half-extent. No row, a force.
 struct Adhesion {
   double pull_off = 0;  ///< N, (0, 1e9]
-  Surfaces on;
+  MaterialSelector on;
 };
 
 // --- bodies: forces on those added with add_body -------------------------------------------------------------------------------

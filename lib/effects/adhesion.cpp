@@ -25,7 +25,7 @@ void keep_in_touch(Patch& patch) {
 }  // namespace
 
 // A contact joint cannot pull, so the attraction is a force from outside that the joint has to hold.
-void add_adhesion(const Law& law, Patch& patch) {
+void add_adhesion(const PairMaterial& law, Patch& patch) {
   const dBodyID body1 = patch.body1();
   const dBodyID body2 = patch.body2();
   const auto is_awake = [](dBodyID body) { return body != nullptr && dBodyIsEnabled(body) != 0; };

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "effects/motion.hpp"
-#include "ode/body.hpp"
+#include "ode/geom/body.hpp"
 #include "supernormal/shapes/silhouette.hpp"
 
 namespace supernormal::effects {

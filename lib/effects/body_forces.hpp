@@ -8,7 +8,7 @@
 
 #include "effects/law.hpp"
 #include "supernormal/effects.hpp"
-#include "supernormal/shapes/immersion.hpp"
+#include "supernormal/shapes/submerged_volume.hpp"
 
 namespace supernormal::effects {
 
@@ -34,8 +34,8 @@ class BodyForces {
   struct Part {
     dGeomID geom;
     const Shape* shape;
-    double surface = 0;                  // m^2, for Stokes
-    std::optional<Immersion> immersion;  // for buoyancy
+    double surface = 0;                        // m^2, for Stokes
+    std::optional<SubmergedVolume> immersion;  // for buoyancy
   };
   struct Entry {
     dBodyID body;

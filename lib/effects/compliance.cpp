@@ -15,7 +15,7 @@
 #include "effects/hertz.hpp"
 #include "effects/law.hpp"
 #include "effects/motion.hpp"
-#include "supernormal/contact_curvature.hpp"
+#include "supernormal/contact/contact_curvature.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -76,12 +76,12 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
 
 }  // namespace
 
-void set_spring(const Law& law, Patch& patch) {
+void set_spring(const PairMaterial& law, Patch& patch) {
   const double depth = greatest_depth(patch);
   set_rows({law.stiffness * depth, law.stiffness, law.damping}, effective_mass(patch), patch);
 }
 
-void set_hertz(const Law& law, Patch& patch) {
+void set_hertz(const PairMaterial& law, Patch& patch) {
   const dContactGeom& geom = patch.deepest().geom;
   const Vector3 n = ode::to_vector(geom.normal);  // into g1
   const ContactCurvature curvature = find_contact_curvature(curvature_of(geom.g1, -n) + curvature_of(geom.g2, n), n);

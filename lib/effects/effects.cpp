@@ -10,8 +10,8 @@
 #include "effects/body_forces.hpp"
 #include "effects/law.hpp"
 #include "effects/validate.hpp"
-#include "ode/convert.hpp"
-#include "ode/require.hpp"
+#include "ode/api/require.hpp"
+#include "ode/geom/convert.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -73,7 +73,7 @@ struct Effects::State {
     seconds[effect] += std::chrono::duration<double>(Clock::now() - start).count();
   }
 
-  int run_passes(Law& law, std::span<dContact> contacts);
+  int run_passes(PairMaterial& law, std::span<dContact> contacts);
 
   std::vector<Effect> list;
   double step;
@@ -86,7 +86,7 @@ struct Effects::State {
 
 // One pass after the other over the contacts with the same normal, which follow one another; those to be attached move to the
 // front.
-int Effects::State::run_passes(Law& law, std::span<dContact> contacts) {
+int Effects::State::run_passes(PairMaterial& law, std::span<dContact> contacts) {
   std::size_t kept = 0;
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
     while (end < contacts.size() && is_same_normal(contacts[first], contacts[end])) ++end;
@@ -111,7 +111,7 @@ void Effects::set_up(dWorldID world) const {
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, Material material2) {
-  Law& law = state_->laws.of(material1, material2);
+  PairMaterial& law = state_->laws.of(material1, material2);
   for (dContact& contact : contacts) contact.surface = law.surface;
   const int kept = law.passes.empty() ? static_cast<int>(contacts.size()) : state_->run_passes(law, contacts);
   law.contacts += static_cast<unsigned long long>(kept);
@@ -136,13 +136,13 @@ void Effects::measure() { state_->is_measuring = true; }
 
 std::vector<Cost> Effects::costs() const {
   std::vector<Cost> costs = {{.name = "rigid_contact"}};
-  for (const Law& law : state_->laws.all()) costs.front().contacts += law.contacts;
+  for (const PairMaterial& law : state_->laws.all()) costs.front().contacts += law.contacts;
   costs.front().rows = costs.front().contacts;
   for (EffectIndex index = 0; index < std::variant_size_v<Effect>; ++index) {
     const bool is_listed = std::ranges::any_of(state_->list, [&](const Effect& effect) { return effect.index() == index; });
     if (!is_listed) continue;
     Cost cost{.name = descriptions()[index].name, .bodies = state_->visits[index], .seconds = state_->seconds[index]};
-    for (const Law& law : state_->laws.all()) {
+    for (const PairMaterial& law : state_->laws.all()) {
       if (std::ranges::find(law.listed, index) == law.listed.end()) continue;
       cost.contacts += law.contacts;
       cost.rows += law.contacts * static_cast<unsigned long long>(law.rows[index]);

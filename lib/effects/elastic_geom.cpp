@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "ode/body.hpp"
-#include "ode/convert.hpp"
-#include "supernormal/contact_curvature.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "supernormal/contact/contact_curvature.hpp"
 #include "supernormal/shapes/sphere.hpp"
 
 namespace supernormal::effects {

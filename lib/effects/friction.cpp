@@ -21,7 +21,7 @@ void align_corner(const Slip& slip, dContact& contact) {
 }
 
 /// The direction in the world, of the body or, without one, of the geom.
-Vector3 world_direction(const Grain& grain, const dContactGeom& geom) {
+Vector3 world_direction(const FrictionAxes& grain, const dContactGeom& geom) {
   const dGeomID carrier = grain.is_on_second ? geom.g2 : geom.g1;
   const Vector3& d = grain.direction;
   dVector3 world;
@@ -33,7 +33,7 @@ Vector3 world_direction(const Grain& grain, const dContactGeom& geom) {
   return ode::to_vector(world);
 }
 
-void set_ellipse(const Grain& grain, const Slip& slip, dContact& contact) {
+void set_ellipse(const FrictionAxes& grain, const Slip& slip, dContact& contact) {
   const Vector3 n = ode::to_vector(contact.geom.normal);
   Vector3 first = world_direction(grain, contact.geom);
   first -= n.dot(first) * n;
@@ -50,19 +50,19 @@ void set_ellipse(const Grain& grain, const Slip& slip, dContact& contact) {
 
 }  // namespace
 
-void align_friction(const Law& /*law*/, Patch& patch) {
+void align_friction(const PairMaterial& /*law*/, Patch& patch) {
   const Slip slip(patch);
   for (dContact& contact : patch.contacts) align_corner(slip, contact);
 }
 
-void align_anisotropic_friction(const Law& law, Patch& patch) {
+void align_anisotropic_friction(const PairMaterial& law, Patch& patch) {
   const Slip slip(patch);
   for (dContact& contact : patch.contacts) set_ellipse(law.grain, slip, contact);
 }
 
 // The axes are those of friction (fdir1). Torques are limited one by one too. At rest it is the torque of what pulls the bodies
 // along that would set them rolling, about the axis n x slip.
-void align_rolling(const Law& law, Patch& patch) {
+void align_rolling(const PairMaterial& law, Patch& patch) {
   const Slip slip(patch);
   const Vector3 spin = spin_of(patch.body1()) - spin_of(patch.body2());
   for (dContact& contact : patch.contacts) {

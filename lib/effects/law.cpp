@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "effects/hertz.hpp"
-#include "ode/convert.hpp"
+#include "ode/geom/convert.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -34,17 +34,17 @@ class Entries {
 
   /// Listed for the pair itself.
   const E* between(Material a, Material b) const {
-    return find([&](const Surfaces& on) {
+    return find([&](const MaterialSelector& on) {
       return on.is_pair() && ((on.first() == a && on.second() == b) || (on.first() == b && on.second() == a));
     });
   }
   /// Listed for the material, or for all.
   const E* of(Material m) const {
     const E* const own = own_of(m);
-    return own != nullptr ? own : find([](const Surfaces& on) { return on.is_all(); });
+    return own != nullptr ? own : find([](const MaterialSelector& on) { return on.is_all(); });
   }
   const E* own_of(Material m) const {
-    return find([&](const Surfaces& on) { return !on.is_all() && !on.is_pair() && on.first() == m; });
+    return find([&](const MaterialSelector& on) { return !on.is_all() && !on.is_pair() && on.first() == m; });
   }
 
  private:
@@ -94,9 +94,10 @@ std::optional<E> find_common(const std::vector<Effect>& list, Material a, Materi
 }
 
 /// Writes the law of one ordered pair.
-class LawWriter {
+class PairMaterialWriter {
  public:
-  LawWriter(const std::vector<Effect>& list, Material a, Material b, Law& law) : list_(list), a_(a), b_(b), law_(law) {}
+  PairMaterialWriter(const std::vector<Effect>& list, Material a, Material b, PairMaterial& law)
+      : list_(list), a_(a), b_(b), law_(law) {}
 
   // Adhesion adds to the forces that friction foresees; springs come last, they sort the contacts.
   void write() {
@@ -110,7 +111,7 @@ class LawWriter {
 
  private:
   template <typename E>
-  void add(int rows, void (*pass)(const Law&, Patch&)) {
+  void add(int rows, void (*pass)(const PairMaterial&, Patch&)) {
     constexpr EffectIndex kIndex = index_of<E>();
     law_.listed.push_back(kIndex);
     law_.rows[kIndex] = rows;
@@ -214,7 +215,7 @@ class LawWriter {
 
   const std::vector<Effect>& list_;
   Material a_, b_;
-  Law& law_;
+  PairMaterial& law_;
 };
 
 Material last_listed(const std::vector<Effect>& list) {
@@ -235,7 +236,7 @@ Laws::Laws(const std::vector<Effect>& list) : size_(static_cast<std::size_t>(las
   const auto material = [&](std::size_t slot) { return slot + 1 == size_ ? kOther : static_cast<Material>(slot); };
   for (std::size_t row = 0; row < size_; ++row) {
     for (std::size_t column = 0; column < size_; ++column) {
-      LawWriter(list, material(row), material(column), laws_[row * size_ + column]).write();
+      PairMaterialWriter(list, material(row), material(column), laws_[row * size_ + column]).write();
     }
   }
 }

@@ -15,7 +15,7 @@ namespace supernormal::effects {
 /// The place of an effect in Effect, which is also its place in descriptions().
 using EffectIndex = std::size_t;
 
-struct Law;
+struct PairMaterial;
 
 /// Contacts of one pair with the same normal: the deepest point and the corners that share its load.
 struct Patch {
@@ -36,20 +36,20 @@ struct Patch {
 
 struct Pass {
   EffectIndex effect;
-  void (*run)(const Law& law, Patch& patch);
+  void (*run)(const PairMaterial& law, Patch& patch);
 };
 
 /// What depends on the direction of slip on one of the bodies.
-struct Grain {
+struct FrictionAxes {
   double along = 0;
   double across = 0;
   Vector3 direction = Vector3::UnitX();
   bool is_on_second = false;  ///< fixed to the body of geom.g2
 };
 
-struct Law {
+struct PairMaterial {
   dSurfaceParameters surface{};  ///< that all contacts start from
-  Grain grain;
+  FrictionAxes grain;
   double rolling = 0;                      ///< m
   double spinning = 0;                     ///< m
   EffectIndex spring = std::variant_npos;  ///< the effect that makes the contact soft, if any
@@ -73,8 +73,8 @@ class Laws {
   /// std::invalid_argument when two effects of a pair exclude each other.
   explicit Laws(const std::vector<Effect>& list);
 
-  Law& of(Material material1, Material material2) { return laws_[slot(material1) * size_ + slot(material2)]; }
-  const std::vector<Law>& all() const { return laws_; }
+  PairMaterial& of(Material material1, Material material2) { return laws_[slot(material1) * size_ + slot(material2)]; }
+  const std::vector<PairMaterial>& all() const { return laws_; }
 
  private:
   std::size_t slot(Material material) const {
@@ -82,15 +82,15 @@ class Laws {
     return number < size_ ? number : size_ - 1;
   }
   std::size_t size_ = 1;
-  std::vector<Law> laws_;
+  std::vector<PairMaterial> laws_;
 };
 
 // The passes: friction.cpp, compliance.cpp, adhesion.cpp.
-void align_friction(const Law& law, Patch& patch);
-void align_anisotropic_friction(const Law& law, Patch& patch);
-void align_rolling(const Law& law, Patch& patch);
-void set_spring(const Law& law, Patch& patch);
-void set_hertz(const Law& law, Patch& patch);
-void add_adhesion(const Law& law, Patch& patch);
+void align_friction(const PairMaterial& law, Patch& patch);
+void align_anisotropic_friction(const PairMaterial& law, Patch& patch);
+void align_rolling(const PairMaterial& law, Patch& patch);
+void set_spring(const PairMaterial& law, Patch& patch);
+void set_hertz(const PairMaterial& law, Patch& patch);
+void add_adhesion(const PairMaterial& law, Patch& patch);
 
 }  // namespace supernormal::effects

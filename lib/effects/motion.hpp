@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "ode/convert.hpp"
+#include "ode/geom/convert.hpp"
 
 namespace supernormal::effects {
 

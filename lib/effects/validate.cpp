@@ -29,7 +29,7 @@ class Check {
     if (value1 > 0 || value2 > 0) return;
     throw BadEffect(name_, first, full(first) + " and " + second + " are both 0; one must be above 0, or the effect left out");
   }
-  void materials(const Surfaces& on) const {
+  void materials(const MaterialSelector& on) const {
     if (!on.is_all()) closed("material", on.first(), 0, kLastMaterial);
     if (on.is_pair()) closed("material", on.second(), 0, kLastMaterial);
   }
@@ -97,9 +97,9 @@ class Check {
 };
 
 /// Null for effects that are not of surfaces.
-const Surfaces* surfaces_of(const Effect& effect) {
+const MaterialSelector* surfaces_of(const Effect& effect) {
   return std::visit(
-      [](const auto& e) -> const Surfaces* {
+      [](const auto& e) -> const MaterialSelector* {
         if constexpr (requires { e.on; }) {
           return &e.on;
         } else {
@@ -109,12 +109,12 @@ const Surfaces* surfaces_of(const Effect& effect) {
       effect);
 }
 
-bool is_same(const Surfaces& a, const Surfaces& b) {
+bool is_same(const MaterialSelector& a, const MaterialSelector& b) {
   return a == b || (a.is_pair() && b.is_pair() && a.first() == b.second() && a.second() == b.first());
 }
 
 void require_listed_once(const std::vector<Effect>& list, const Effect& effect) {
-  const Surfaces* const on = surfaces_of(effect);
+  const MaterialSelector* const on = surfaces_of(effect);
   for (const Effect& other : list) {
     if (&other == &effect || other.index() != effect.index()) continue;
     if (on == nullptr || is_same(*on, *surfaces_of(other))) {
@@ -148,7 +148,7 @@ void require_company(const std::vector<Effect>& list) {
 void require_valid(const std::vector<Effect>& list) {
   for (const Effect& effect : list) {
     const Check check(effect);
-    if (const Surfaces* const on = surfaces_of(effect)) check.materials(*on);
+    if (const MaterialSelector* const on = surfaces_of(effect)) check.materials(*on);
     std::visit(check, effect);
     require_listed_once(list, effect);
   }

@@ -19,7 +19,7 @@ void Box::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H.setZero();
 }
 
-void Box::add_corners(const Vector3& /*n*/, const Vector3& /*toward*/, Corners& corners) const {
+void Box::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/, ActiveVertices& corners) const {
   for (const double x : {-half_lengths_.x(), half_lengths_.x()}) {
     for (const double y : {-half_lengths_.y(), half_lengths_.y()}) {
       for (const double z : {-half_lengths_.z(), half_lengths_.z()}) corners.add(Vector3(x, y, z));
@@ -27,7 +27,7 @@ void Box::add_corners(const Vector3& /*n*/, const Vector3& /*toward*/, Corners& 
   }
 }
 
-double Box::sharpest_radius() const { return 0; }
+double Box::min_curvature_radius_estimate() const { return 0; }
 
 MassProperties Box::mass_properties() const {
   MassProperties mass;

@@ -21,13 +21,13 @@ void Capsule::evaluate(const Vector3& n, Order order, Jet& jet) const {
 }
 
 // The sphere's share of the boundary point follows the normal: it is the same for both ends.
-void Capsule::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners& corners) const {
+void Capsule::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& corners) const {
   const Vector3 end(0, 0, half_length_);
   corners.add(radius_ * n - end);
   corners.add(radius_ * n + end);
 }
 
-double Capsule::sharpest_radius() const { return radius_; }
+double Capsule::min_curvature_radius_estimate() const { return radius_; }
 
 MassProperties Capsule::mass_properties() const {
   const double r = radius_;

@@ -35,7 +35,7 @@ void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H = across < kCap ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
 }
 
-void Cylinder::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
+void Cylinder::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
   const Vector3 end(0, 0, half_length_);
   const double across = std::hypot(n.x(), n.y());
   if (across < kCap) {
@@ -60,7 +60,7 @@ bool Cylinder::crosses_curved_face(const Vector3& from, const Vector3& to, Vecto
   return true;
 }
 
-double Cylinder::sharpest_radius() const { return 0; }
+double Cylinder::min_curvature_radius_estimate() const { return 0; }
 
 MassProperties Cylinder::mass_properties() const {
   MassProperties mass;

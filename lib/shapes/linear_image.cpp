@@ -33,7 +33,7 @@ void LinearImage::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.h *= length;
   if (order == Order::Value) return;
   jet.r = matrix_ * jet.r;
-  if (order == Order::Point || !has_curvature()) return;
+  if (order == Order::Point || !has_hessian()) return;
   const Matrix3 half = matrix_ * (jet.H / length);
   jet.H = half * matrix_.transpose();
   // The same products in another order differ by rounding.
@@ -51,9 +51,9 @@ Vector3 LinearImage::advance_normal(const Vector3& n, const Jet& jet, const Vect
   return inverse_.transpose() * shape_->advance_normal(covector / length, original, matrix_.transpose() * dn / length);
 }
 
-void LinearImage::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
-  Corners originals;
-  shape_->add_corners((matrix_.transpose() * n).normalized(), inverse_ * toward, originals);
+void LinearImage::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
+  ActiveVertices originals;
+  shape_->add_active_vertices((matrix_.transpose() * n).normalized(), inverse_ * toward, originals);
   for (int k = 0; k < originals.size(); ++k) corners.add(matrix_ * originals[k]);
   if (originals.is_partial()) corners.set_partial();
 }
@@ -65,7 +65,9 @@ bool LinearImage::crosses_curved_face(const Vector3& from, const Vector3& to, Ve
   return true;
 }
 
-double LinearImage::sharpest_radius() const { return shape_->sharpest_radius() * smallest_ * (smallest_ / largest_); }
+double LinearImage::min_curvature_radius_estimate() const {
+  return shape_->min_curvature_radius_estimate() * smallest_ * (smallest_ / largest_);
+}
 
 MassProperties LinearImage::mass_properties() const {
   MassProperties mass = shape_->mass_properties();

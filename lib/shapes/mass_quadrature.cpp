@@ -63,7 +63,7 @@ class AffineView {
     const Vector3 covector = inverse_.transpose() * m;
     const double length = covector.norm();
     Jet in, out;
-    shape_.evaluate(covector / length, hessian ? Order::Curvature : Order::Point, in);
+    shape_.evaluate(covector / length, hessian ? Order::Hessian : Order::Point, in);
     out.r = inverse_ * (in.r - centre_);
     out.h = m.dot(out.r);
     if (hessian) out.H = inverse_ * in.H * inverse_.transpose() / length;
@@ -160,14 +160,14 @@ struct Sums {
   bool is_finite() const { return std::isfinite(volume + escaped) && first.allFinite() && second.allFinite(); }
 };
 
-Sums integrate(const AffineView& view, bool has_curvature, int rule) {
+Sums integrate(const AffineView& view, bool has_hessian, int rule) {
   Sums sums;
   double width = 0, sum_of_radii = 0, area = 0, mixed_area = 0, reach = 0;
   const double step = 0.25 / rule;  // in proportion to the nodes' distance: refinement shows the error of both
   for (const Node& node : sphere_rule(rule)) {
-    const Jet jet = view.jet(node.m, has_curvature);
+    const Jet jet = view.jet(node.m, has_hessian);
     const Tangents t = tangents(node.m);
-    const Eigen::Matrix2d H = has_curvature ? Eigen::Matrix2d(t.transpose() * jet.H * t) : differences(view, node.m, t, step);
+    const Eigen::Matrix2d H = has_hessian ? Eigen::Matrix2d(t.transpose() * jet.H * t) : differences(view, node.m, t, step);
     const double skew = 0.5 * (H(0, 1) + H(1, 0));
     const double D = node.weight * (H(0, 0) * H(1, 1) - skew * skew);
     const double T = node.weight * H.trace();
@@ -213,11 +213,11 @@ MassProperties quadrature_mass_properties(const Shape& shape) {
   AffineView view(shape);
   balance(view);
 
-  Sums sums = integrate(view, shape.has_curvature(), kMinRule);
+  Sums sums = integrate(view, shape.has_hessian(), kMinRule);
   double last = std::numeric_limits<double>::infinity();
   double before_last = last;
   for (int rule = 2 * kMinRule; rule <= kMaxRule && last > kTolerance; rule *= 2) {
-    const Sums finer = integrate(view, shape.has_curvature(), rule);
+    const Sums finer = integrate(view, shape.has_hessian(), rule);
     if (!finer.is_finite()) throw std::domain_error("mass properties: the shape delivers values that are not finite");
     before_last = std::exchange(last, change(sums, finer));
     sums = finer;

@@ -9,12 +9,12 @@ namespace supernormal {
 namespace {
 
 /// Both parts have kinks: their corners in pairs, the highest along n.
-void add_highest_pairs(const Vector3& n, const Corners& first, const Corners& second, Corners& corners) {
+void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const ActiveVertices& second, ActiveVertices& corners) {
   struct Pair {
     double height;
     Vector3 point;
   };
-  std::array<Pair, std::size_t{Corners::kCapacity} * Corners::kCapacity> pairs;
+  std::array<Pair, std::size_t{ActiveVertices::kCapacity} * ActiveVertices::kCapacity> pairs;
   std::size_t count = 0;
   for (int i = 0; i < first.size(); ++i) {
     for (int j = 0; j < second.size(); ++j) {
@@ -23,7 +23,7 @@ void add_highest_pairs(const Vector3& n, const Corners& first, const Corners& se
     }
   }
   const auto end = pairs.begin() + count;
-  const auto kept = std::min<std::ptrdiff_t>(end - pairs.begin(), Corners::kCapacity);
+  const auto kept = std::min<std::ptrdiff_t>(end - pairs.begin(), ActiveVertices::kCapacity);
   std::partial_sort(pairs.begin(), pairs.begin() + kept, end, [](const Pair& a, const Pair& b) { return a.height > b.height; });
   for (auto pair = pairs.begin(); pair != pairs.begin() + kept; ++pair) corners.add(pair->point);
 }
@@ -42,7 +42,7 @@ void MinkowskiSum::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.h += other.h;
   if (order == Order::Value) return;
   jet.r += other.r;
-  if (order == Order::Point || !has_curvature()) return;
+  if (order == Order::Point || !has_hessian()) return;
   jet.H += other.H;
 }
 
@@ -62,12 +62,12 @@ Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vec
 
 // The corners of a part without kinks are its boundary point. A list that names only some of the corners counts as all of them,
 // because those of the sum need not be the same points for every normal.
-void MinkowskiSum::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
-  std::array<Corners, 2> parts;
+void MinkowskiSum::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
+  std::array<ActiveVertices, 2> parts;
   const std::array<const Shape*, 2> shapes = {first_.get(), second_.get()};
   for (std::size_t i = 0; i < 2; ++i) {
     if (shapes[i]->has_kinks()) {
-      shapes[i]->add_corners(n, toward - shapes[1 - i]->point(n), parts[i]);
+      shapes[i]->add_active_vertices(n, toward - shapes[1 - i]->point(n), parts[i]);
     } else {
       parts[i].add(shapes[i]->point(n));
     }
@@ -79,6 +79,8 @@ bool MinkowskiSum::crosses_curved_face(const Vector3& from, const Vector3& to, V
   return first_->crosses_curved_face(from, to, face) || second_->crosses_curved_face(from, to, face);
 }
 
-double MinkowskiSum::sharpest_radius() const { return first_->sharpest_radius() + second_->sharpest_radius(); }
+double MinkowskiSum::min_curvature_radius_estimate() const {
+  return first_->min_curvature_radius_estimate() + second_->min_curvature_radius_estimate();
+}
 
 }  // namespace supernormal

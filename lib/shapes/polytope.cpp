@@ -36,12 +36,12 @@ void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {
 }
 
 // The highest along n: the first that can take over.
-void Polytope::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners& corners) const {
+void Polytope::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& corners) const {
   struct Height {
     double height;
     const Vector3* point;
   };
-  std::array<Height, Corners::kCapacity> highest;
+  std::array<Height, ActiveVertices::kCapacity> highest;
   std::size_t count = 0;
   for (const Vector3& point : points_) {
     const double height = n.dot(point);
@@ -56,6 +56,6 @@ void Polytope::add_corners(const Vector3& n, const Vector3& /*toward*/, Corners&
 }
 
 // Its faces and edges are not the same from both sides.
-double Polytope::sharpest_radius() const { return 0; }
+double Polytope::min_curvature_radius_estimate() const { return 0; }
 
 }  // namespace supernormal

@@ -31,46 +31,46 @@ PowerNorm PowerNorm::dual_to_exponent(double exponent) {
 }
 
 template <std::size_t kCount>
-void PowerNorm::answer(std::array<PowerNormQuestion, kCount>& questions, Order order) {
+void PowerNorm::evaluate_requests(std::array<PowerNormRequest, kCount>& requests, Order order) {
   std::array<Ratio, kCount> f;
   for (std::size_t i = 0; i < kCount; ++i) {
-    const auto& [norm, x, y, jet] = questions[i];
+    const auto& [norm, x, y, jet] = requests[i];
     f[i].x_is_larger = x > y;
     f[i].larger = x > y ? x : y;
     f[i].k = f[i].larger > 0 ? (x > y ? y : x) / f[i].larger : 1;
   }
   for (std::size_t i = 0; i < kCount; ++i) {
-    const PowerNorm& norm = *questions[i].norm;
+    const PowerNorm& norm = *requests[i].norm;
     f[i].power = norm.is_euclidean_ ? f[i].k * f[i].k : std::pow(f[i].k, norm.p_);
     f[i].sum = 1 + f[i].power;
   }
   for (std::size_t i = 0; i < kCount; ++i) {
-    f[i].root = questions[i].norm->is_euclidean_ ? std::sqrt(f[i].sum) : std::log(f[i].sum);
+    f[i].root = requests[i].norm->is_euclidean_ ? std::sqrt(f[i].sum) : std::log(f[i].sum);
   }
   for (std::size_t i = 0; i < kCount; ++i) {
-    const PowerNorm& norm = *questions[i].norm;
+    const PowerNorm& norm = *requests[i].norm;
     if (!norm.is_euclidean_) f[i].root = std::exp(norm.inverse_p_ * f[i].root);
   }
   for (std::size_t i = 0; i < kCount; ++i) {
-    PowerNormQuestion& question = questions[i];
-    question.jet.value = f[i].larger * f[i].root;
-    if (order == Order::Point) question.norm->differentiate(f[i], question.jet);
-    if (order == Order::Curvature) question.norm->differentiate_twice(f[i], question.jet);
+    PowerNormRequest& request = requests[i];
+    request.jet.value = f[i].larger * f[i].root;
+    if (order == Order::Point) request.norm->differentiate(f[i], request.jet);
+    if (order == Order::Hessian) request.norm->differentiate_twice(f[i], request.jet);
   }
 }
 
-template void PowerNorm::answer(std::array<PowerNormQuestion, 1>& questions, Order order);
-template void PowerNorm::answer(std::array<PowerNormQuestion, 2>& questions, Order order);
-template void PowerNorm::answer(std::array<PowerNormQuestion, 4>& questions, Order order);
+template void PowerNorm::evaluate_requests(std::array<PowerNormRequest, 1>& requests, Order order);
+template void PowerNorm::evaluate_requests(std::array<PowerNormRequest, 2>& requests, Order order);
+template void PowerNorm::evaluate_requests(std::array<PowerNormRequest, 4>& requests, Order order);
 
 bool PowerNorm::is_plain(double x, double y, double z) { return std::min({x, y, z}) > kPlainRatio * std::max({x, y, z}); }
 
 template <std::size_t kCount>
-void PowerNorm::answer(std::array<PowerNorm3Question, kCount>& questions, Order order) {
+void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, kCount>& requests, Order order) {
   std::array<std::array<double, 3>, kCount> k, powers;
   std::array<double, kCount> largest, sum, root;
   for (std::size_t i = 0; i < kCount; ++i) {
-    const auto& [norm, x, value, slope, bend] = questions[i];
+    const auto& [norm, x, value, slope, bend] = requests[i];
     largest[i] = std::max({x[0], x[1], x[2]});
     for (std::size_t a = 0; a < 3; ++a) {
       k[i][a] = x[a] < largest[i] ? x[a] / largest[i] : 1;
@@ -78,13 +78,13 @@ void PowerNorm::answer(std::array<PowerNorm3Question, kCount>& questions, Order 
     }
     sum[i] = powers[i][0] + powers[i][1] + powers[i][2];
   }
-  for (std::size_t i = 0; i < kCount; ++i) root[i] = questions[i].norm->is_euclidean_ ? std::sqrt(sum[i]) : std::log(sum[i]);
+  for (std::size_t i = 0; i < kCount; ++i) root[i] = requests[i].norm->is_euclidean_ ? std::sqrt(sum[i]) : std::log(sum[i]);
   for (std::size_t i = 0; i < kCount; ++i) {
-    const PowerNorm& norm = *questions[i].norm;
+    const PowerNorm& norm = *requests[i].norm;
     if (!norm.is_euclidean_) root[i] = std::exp(norm.inverse_p_ * root[i]);
   }
   for (std::size_t i = 0; i < kCount; ++i) {
-    auto& [norm, x, value, slope, bend] = questions[i];
+    auto& [norm, x, value, slope, bend] = requests[i];
     value = largest[i] * root[i];
     if (order == Order::Value) continue;
     const double steepest = root[i] / sum[i];
@@ -99,9 +99,9 @@ void PowerNorm::answer(std::array<PowerNorm3Question, kCount>& questions, Order 
   }
 }
 
-template void PowerNorm::answer(std::array<PowerNorm3Question, 1>& questions, Order order);
-template void PowerNorm::answer(std::array<PowerNorm3Question, 2>& questions, Order order);
-template void PowerNorm::answer(std::array<PowerNorm3Question, 4>& questions, Order order);
+template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 1>& requests, Order order);
+template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 2>& requests, Order order);
+template void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, 4>& requests, Order order);
 
 void PowerNorm::differentiate(const Ratio& f, PowerNormJet& jet) const {
   jet.dx = f.root / f.sum;
@@ -128,23 +128,23 @@ void PowerNorm::differentiate_twice(const Ratio& f, PowerNormJet& jet) const {
 }
 
 double PowerNorm::value(double x, double y) const {
-  std::array<PowerNormQuestion, 1> question = {{{this, x, y, {}}}};
-  answer(question, Order::Value);
-  return question[0].jet.value;
+  std::array<PowerNormRequest, 1> request = {{{this, x, y, {}}}};
+  evaluate_requests(request, Order::Value);
+  return request[0].jet.value;
 }
 
 void PowerNorm::gradient(double x, double y, PowerNormJet& jet) const {
-  std::array<PowerNormQuestion, 1> question = {{{this, x, y, {}}}};
-  answer(question, Order::Point);
-  jet = question[0].jet;
+  std::array<PowerNormRequest, 1> request = {{{this, x, y, {}}}};
+  evaluate_requests(request, Order::Point);
+  jet = request[0].jet;
 }
 
 double PowerNorm::slope(double k) const { return is_euclidean_ || k == 1 ? k : std::pow(k, p_minus_1_); }
 
 void PowerNorm::curvature(double x, double y, PowerNormJet& jet) const {
-  std::array<PowerNormQuestion, 1> question = {{{this, x, y, {}}}};
-  answer(question, Order::Curvature);
-  jet = question[0].jet;
+  std::array<PowerNormRequest, 1> request = {{{this, x, y, {}}}};
+  evaluate_requests(request, Order::Hessian);
+  jet = request[0].jet;
 }
 
 }  // namespace supernormal

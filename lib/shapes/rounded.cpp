@@ -17,7 +17,7 @@ void Rounded::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.h += radius_;
   if (order == Order::Value) return;
   jet.r += radius_ * n;
-  if (order == Order::Point || !has_curvature()) return;
+  if (order == Order::Point || !has_hessian()) return;
   jet.H += radius_ * (Matrix3::Identity() - n * n.transpose());
 }
 
@@ -33,9 +33,9 @@ Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3&
 
 // As of a Capsule, the sphere's share is the same for all corners. It turns with the normal, so that a list that names only some of
 // the core's corners has to count as all of them.
-void Rounded::add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const {
-  Corners of_core;
-  core_->add_corners(n, toward - radius_ * n, of_core);
+void Rounded::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
+  ActiveVertices of_core;
+  core_->add_active_vertices(n, toward - radius_ * n, of_core);
   for (int k = 0; k < of_core.size(); ++k) corners.add(of_core[k] + radius_ * n);
 }
 
@@ -45,6 +45,6 @@ bool Rounded::crosses_curved_face(const Vector3& from, const Vector3& to, Vector
 
 Vector3 Rounded::half_extents() const { return core_->half_extents() + Vector3::Constant(radius_); }
 
-double Rounded::sharpest_radius() const { return core_->sharpest_radius() + radius_; }
+double Rounded::min_curvature_radius_estimate() const { return core_->min_curvature_radius_estimate() + radius_; }
 
 }  // namespace supernormal

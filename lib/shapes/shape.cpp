@@ -4,7 +4,7 @@ namespace supernormal {
 
 Vector3 Shape::advance_normal(const Vector3& n, const Jet& /*jet*/, const Vector3& dn) const { return n + dn; }
 
-void Shape::add_corners(const Vector3& /*n*/, const Vector3& /*toward*/, Corners& /*corners*/) const {}
+void Shape::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/, ActiveVertices& /*corners*/) const {}
 
 bool Shape::crosses_curved_face(const Vector3& /*from*/, const Vector3& /*to*/, Vector3& /*face*/) const { return false; }
 
@@ -17,7 +17,7 @@ Vector3 Shape::half_extents() const {
   return half;
 }
 
-double Shape::sharpest_radius() const {
+double Shape::min_curvature_radius_estimate() const {
   // The ellipsoid with half-axes of which c is the smallest and a the largest is sharpest at the ends of a: c^2/a.
   const Vector3 half = half_extents();
   return half.minCoeff() * (half.minCoeff() / half.maxCoeff());
@@ -37,7 +37,7 @@ Vector3 Shape::point(const Vector3& n) const {
 
 Jet Shape::jet(const Vector3& n) const {
   Jet out;
-  evaluate(n, Order::Curvature, out);
+  evaluate(n, Order::Hessian, out);
   return out;
 }
 

@@ -14,6 +14,6 @@ void Sphere::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H = radius_ * (Matrix3::Identity() - n * n.transpose());
 }
 
-double Sphere::sharpest_radius() const { return radius_; }
+double Sphere::min_curvature_radius_estimate() const { return radius_; }
 
 }  // namespace supernormal

@@ -67,18 +67,18 @@ bool Superellipsoid::is_one_norm_at(const Vector3& n) const {
 }
 
 template <std::size_t kCount>
-void Superellipsoid::answer_by_one_norm(const std::array<Question, kCount>& questions, Order order) {
-  std::array<PowerNorm3Question, kCount> norms;
+void Superellipsoid::evaluate_by_one_norm(const std::array<EvalRequest, kCount>& requests, Order order) {
+  std::array<PowerNorm3Request, kCount> norms;
   for (std::size_t i = 0; i < kCount; ++i) {
-    const Superellipsoid& body = *questions[i].body;
-    const Vector3 scaled = body.half_axes_.cwiseProduct(*questions[i].n).cwiseAbs();
+    const Superellipsoid& body = *requests[i].body;
+    const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
     norms[i] = {&body.inner_potential_, {scaled.x(), scaled.y(), scaled.z()}};
   }
-  PowerNorm::answer(norms, order);
-  for (std::size_t i = 0; i < kCount; ++i) questions[i].body->assemble(norms[i], *questions[i].n, order, *questions[i].jet);
+  PowerNorm::evaluate_requests(norms, order);
+  for (std::size_t i = 0; i < kCount; ++i) requests[i].body->assemble(norms[i], *requests[i].n, order, *requests[i].jet);
 }
 
-void Superellipsoid::assemble(const PowerNorm3Question& norm, const Vector3& n, Order order, Jet& jet) const {
+void Superellipsoid::assemble(const PowerNorm3Request& norm, const Vector3& n, Order order, Jet& jet) const {
   jet.h = norm.value;
   if (order == Order::Value) return;
   for (int i = 0; i < 3; ++i) jet.r[i] = std::copysign(half_axes_[i] * norm.slope[static_cast<std::size_t>(i)], n[i]);
@@ -93,44 +93,44 @@ void Superellipsoid::assemble(const PowerNorm3Question& norm, const Vector3& n, 
 
 // The inner norms of x and y; with them ("x") and z ("y") the outer ones.
 template <std::size_t kCount>
-void Superellipsoid::answer_by_two_norms(const std::array<Question, kCount>& questions, Order order) {
-  std::array<PowerNormQuestion, kCount> inner, outer;
+void Superellipsoid::evaluate_by_two_norms(const std::array<EvalRequest, kCount>& requests, Order order) {
+  std::array<PowerNormRequest, kCount> inner, outer;
   for (std::size_t i = 0; i < kCount; ++i) {
-    const Superellipsoid& body = *questions[i].body;
-    const Vector3 scaled = body.half_axes_.cwiseProduct(*questions[i].n).cwiseAbs();
+    const Superellipsoid& body = *requests[i].body;
+    const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
     inner[i] = {&body.inner_potential_, scaled.x(), scaled.y(), {}};
     outer[i] = {&body.outer_potential_, 0, scaled.z(), {}};
   }
-  PowerNorm::answer(inner, order);
+  PowerNorm::evaluate_requests(inner, order);
   for (std::size_t i = 0; i < kCount; ++i) outer[i].x = inner[i].jet.value;
-  PowerNorm::answer(outer, order);
+  PowerNorm::evaluate_requests(outer, order);
   for (std::size_t i = 0; i < kCount; ++i) {
-    questions[i].body->assemble(*questions[i].n, order, inner[i].jet, outer[i].jet, *questions[i].jet);
+    requests[i].body->assemble(*requests[i].n, order, inner[i].jet, outer[i].jet, *requests[i].jet);
   }
 }
 
 template <std::size_t kCount>
-void Superellipsoid::answer(const std::array<Question, kCount>& questions, Order order) {
-  const auto is_one_norm = [](const Question& question) { return question.body->is_one_norm_at(*question.n); };
-  const auto one_norms = static_cast<std::size_t>(std::ranges::count_if(questions, is_one_norm));
+void Superellipsoid::evaluate_requests(const std::array<EvalRequest, kCount>& requests, Order order) {
+  const auto is_one_norm = [](const EvalRequest& request) { return request.body->is_one_norm_at(*request.n); };
+  const auto one_norms = static_cast<std::size_t>(std::ranges::count_if(requests, is_one_norm));
   if (one_norms == kCount) {
-    answer_by_one_norm(questions, order);
+    evaluate_by_one_norm(requests, order);
   } else if (one_norms == 0) {
-    answer_by_two_norms(questions, order);
+    evaluate_by_two_norms(requests, order);
   } else {  // a body gives the same digits in any company
-    for (const Question& question : questions) answer(std::array<Question, 1>{question}, order);
+    for (const EvalRequest& request : requests) evaluate_requests(std::array<EvalRequest, 1>{request}, order);
   }
 }
 
 void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
-  answer(std::array<Question, 1>{{{this, &n, &jet}}}, order);
+  evaluate_requests(std::array<EvalRequest, 1>{{{this, &n, &jet}}}, order);
 }
 
-void Superellipsoid::evaluate_both(const Question& question1, const Question& question2, Order order) {
-  answer(std::array<Question, 2>{question1, question2}, order);
+void Superellipsoid::evaluate_both(const EvalRequest& request1, const EvalRequest& request2, Order order) {
+  evaluate_requests(std::array<EvalRequest, 2>{request1, request2}, order);
 }
 
-void Superellipsoid::evaluate_four(const std::array<Question, 4>& questions, Order order) { answer(questions, order); }
+void Superellipsoid::evaluate_four(const std::array<EvalRequest, 4>& requests, Order order) { evaluate_requests(requests, order); }
 
 void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const {
   jet.h = outer.value;
@@ -209,7 +209,7 @@ Vector3 Superellipsoid::along_gauge_gradient(const Vector3& gauge_point, const V
   return gradient.cwiseQuotient(half_axes_);
 }
 
-double Superellipsoid::sharpest_radius() const {
+double Superellipsoid::min_curvature_radius_estimate() const {
   const double smallest = half_axes_.minCoeff();
   return smallest * (smallest / half_axes_.maxCoeff()) * std::min(relative_radius(delta_), relative_radius(epsilon_));
 }

@@ -168,7 +168,7 @@ Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, d
   half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};
   // Where the section has shrunk to this share, the radius of its meridian has shrunk with its square.
   const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
-  sharpest_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).sharpest_radius() * narrowest * narrowest;
+  sharpest_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).min_curvature_radius_estimate() * narrowest * narrowest;
 }
 
 double Superovoid::max_taper(double epsilon) {

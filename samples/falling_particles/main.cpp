@@ -13,10 +13,10 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "input_error.hpp"
-#include "interrupt.hpp"
-#include "run.hpp"
-#include "scene.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene.hpp"
+#include "simulation/interrupt.hpp"
+#include "simulation/run.hpp"
 
 namespace {
 

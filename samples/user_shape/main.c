@@ -1,11 +1,11 @@
 /* An egg and a lens, given to the library only by their support functions (bodies.c), against every class of geom that ODE has:
- * and against bodies of this library, lowered onto the top of each partner by a little more than it takes to touch. Prints, for
+ * and against bodies of this library, lowered onto the top of each collider by a little more than it takes to touch. Prints, for
  * each pair, the gap, the contacts and the normal, and the mass of the two bodies. */
 #include <math.h>
 #include <stdio.h>
 
 #include "bodies.h"
-#include "partners.h"
+#include "colliders.h"
 
 enum { MAX_CONTACTS = 8 };
 
@@ -27,20 +27,20 @@ static int is_sound(const dContactGeom* contacts, int count, const snProximity* 
 static double unsigned_zero(double x) { return fabs(x) < 5e-4 ? 0 : x; }
 
 /* One line of the table. Returns whether the pair touches and agrees. */
-static int report(const char* name, dGeomID body, const Partner* partner) {
+static int report(const char* name, dGeomID body, const Collider* collider) {
   dContactGeom contacts[MAX_CONTACTS];
-  const int count = dCollide(body, partner->geom, MAX_CONTACTS, contacts, sizeof(dContactGeom));
+  const int count = dCollide(body, collider->geom, MAX_CONTACTS, contacts, sizeof(dContactGeom));
   snProximity gap = {0};
-  const int is_ray = dGeomGetClass(partner->geom) == dRayClass;
-  const int has_gap = snGeomProximity(body, partner->geom, &gap);
+  const int is_ray = dGeomGetClass(collider->geom) == dRayClass;
+  const int has_gap = snGeomProximity(body, collider->geom, &gap);
   if (count == 0) {
-    printf("%-5s | %-14s | no contact: %s\n", name, partner->name, snLastError());
+    printf("%-5s | %-14s | no contact: %s\n", name, collider->name, snLastError());
     return 0;
   }
   char distance[32] = "-";
   if (has_gap) snprintf(distance, sizeof distance, "%.6f", (double)gap.gap);
   const dReal* n = contacts[0].normal;
-  printf("%-5s | %-14s | %9s | %d | %8.6f | %6.3f %6.3f %6.3f | %d\n", name, partner->name, distance, count,
+  printf("%-5s | %-14s | %9s | %d | %8.6f | %6.3f %6.3f %6.3f | %d\n", name, collider->name, distance, count,
          (double)contacts[0].depth, unsigned_zero(n[0]), unsigned_zero(n[1]), unsigned_zero(n[2]), gap.evaluations);
   return is_sound(contacts, count, &gap, is_ray);
 }
@@ -66,8 +66,8 @@ static void print_masses(dGeomID egg, dGeomID lens_geom, Lens lens) {
 int main(void) {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateMaskAll);
-  Partner partners[PARTNER_COUNT];
-  create_partners(partners);
+  Collider colliders[COLLIDER_COUNT];
+  create_colliders(colliders);
 
   const Egg egg = {0.4, 0.1};
   const Lens lens = {0.6, 0.3};
@@ -77,7 +77,7 @@ int main(void) {
   dRFromAxisAndAngle(tilt, 1, 2, 0, (dReal)0.25);
 
   int sound = 1;
-  printf("body  | partner        | gap (m)   | contacts, the first one's depth (m) and normal | evaluations\n");
+  printf("body  | collider        | gap (m)   | contacts, the first one's depth (m) and normal | evaluations\n");
   for (int k = 0; k < 2; ++k) {
     if (bodies[k] == NULL) {
       printf("%s refused: %s\n", names[k], snLastError());
@@ -85,13 +85,13 @@ int main(void) {
     }
     dGeomSetRotation(bodies[k], tilt);
     lower_onto_origin(bodies[k]);
-    for (int i = 0; i < PARTNER_COUNT; ++i) sound &= report(names[k], bodies[k], &partners[i]);
+    for (int i = 0; i < COLLIDER_COUNT; ++i) sound &= report(names[k], bodies[k], &colliders[i]);
   }
   print_masses(bodies[0], bodies[1], lens);
   printf(sound ? "every pair touches and agrees\n" : "some pair does not touch or does not agree\n");
 
   for (int k = 0; k < 2; ++k) dGeomDestroy(bodies[k]);
-  destroy_partners(partners);
+  destroy_colliders(colliders);
   snClose();
   dCloseODE();
   return sound ? 0 : 1;

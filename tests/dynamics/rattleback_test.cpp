@@ -1,4 +1,4 @@
-// A rattleback against the published run of Kane and Levinson (samples/single_bodies/rattleback.hpp).
+// A rattleback against the published run of Kane and Levinson (samples/studies/single_bodies/rattleback.hpp).
 #include "rattleback.hpp"
 
 #include <doctest/doctest.h>

@@ -86,7 +86,7 @@ TEST_CASE("a contact has the rows of what is named and no more") {
 }
 
 TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and the rows counted are those asked for") {
-  fx::Effects smooth({fx::Friction{0.5, fx::Surfaces::of(1)}}, kStep);
+  fx::Effects smooth({fx::Friction{0.5, fx::MaterialSelector::of(1)}}, kStep);
   OdeSession session;
   Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -120,8 +120,8 @@ TEST_CASE("a list without forces visits no body and keeps nothing of it") {
 TEST_CASE("trajectories are the same to the bit with an effect that no contact has") {
   const std::vector<fx::Effect> plain = {earth(), fx::Friction{0.5, {}}, fx::Restitution{0.3, 0.1, {}}};
   std::vector<fx::Effect> more = plain;
-  more.emplace_back(fx::RollingResistance{0.01, 0.01, fx::Surfaces::of(7)});
-  more.emplace_back(fx::Adhesion{3, fx::Surfaces::between(7, 8)});
+  more.emplace_back(fx::RollingResistance{0.01, 0.01, fx::MaterialSelector::of(7)});
+  more.emplace_back(fx::Adhesion{3, fx::MaterialSelector::between(7, 8)});
   const auto all_zero = [](dGeomID) { return 0; };
   const std::vector<double> digits = tumble(plain, all_zero);
   CHECK(digits == tumble(plain, all_zero));

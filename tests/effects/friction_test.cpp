@@ -124,10 +124,10 @@ TEST_CASE("materials combine by the geometric mean, unless the pair is listed") 
   };
   const fx::Friction all{0.8, {}};
   const std::vector<Case> cases = {
-      {{earth(), fx::Friction{0.2, fx::Surfaces::of(1)}, fx::Friction{0.45, fx::Surfaces::of(2)}}, 0.3},
-      {{earth(), all, fx::Friction{0.2, fx::Surfaces::of(1)}}, 0.4},
-      {{earth(), all, fx::Friction{0.25, fx::Surfaces::between(2, 1)}}, 0.25},
-      {{earth(), fx::Friction{0.2, fx::Surfaces::of(1)}}, 0},
+      {{earth(), fx::Friction{0.2, fx::MaterialSelector::of(1)}, fx::Friction{0.45, fx::MaterialSelector::of(2)}}, 0.3},
+      {{earth(), all, fx::Friction{0.2, fx::MaterialSelector::of(1)}}, 0.4},
+      {{earth(), all, fx::Friction{0.25, fx::MaterialSelector::between(2, 1)}}, 0.25},
+      {{earth(), fx::Friction{0.2, fx::MaterialSelector::of(1)}}, 0},
   };
   for (const Case& c : cases) {
     OdeSession session;

@@ -134,11 +134,11 @@ TEST_CASE("springs of two materials are in series, also where both are the same;
   };
   const double k = 3000;
   const std::vector<Case> cases = {
-      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}, fx::Compliance{2 * k, 0, fx::Surfaces::of(2)}}, 2, 2 * k / 3},
-      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}}, 2, k},
-      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}}, 1, k / 2},
-      {{fx::Compliance{k, 0, fx::Surfaces::of(1)}, fx::Compliance{2 * k, 0, {}}}, 2, 2 * k / 3},
-      {{fx::Compliance{k, 0, fx::Surfaces::between(1, 2)}}, 2, k},
+      {{fx::Compliance{k, 0, fx::MaterialSelector::of(1)}, fx::Compliance{2 * k, 0, fx::MaterialSelector::of(2)}}, 2, 2 * k / 3},
+      {{fx::Compliance{k, 0, fx::MaterialSelector::of(1)}}, 2, k},
+      {{fx::Compliance{k, 0, fx::MaterialSelector::of(1)}}, 1, k / 2},
+      {{fx::Compliance{k, 0, fx::MaterialSelector::of(1)}, fx::Compliance{2 * k, 0, {}}}, 2, 2 * k / 3},
+      {{fx::Compliance{k, 0, fx::MaterialSelector::between(1, 2)}}, 2, k},
       {{fx::Compliance{k, 0, {}}}, 1, k},
   };
   const double v = 0.4;
@@ -162,7 +162,7 @@ TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
     CAPTURE(steps);
     const double step = hertz_time(mass, k, v) / steps;
     OdeSession session;
-    EffectsWorld scene({fx::Hertz{kModulus, kPoisson, 1, fx::Surfaces::of(1)}}, step);
+    EffectsWorld scene({fx::Hertz{kModulus, kPoisson, 1, fx::MaterialSelector::of(1)}}, step);
     scene.material_of = [](dGeomID geom) { return dGeomGetBody(geom) != nullptr ? 1 : 0; };
     scene.world.add_plane();
     const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 0.3 * v * step}), v, step);

@@ -32,8 +32,8 @@ TEST_CASE("bad parameters are refused with effect, parameter, value and range") 
   const std::vector<Case> cases = {
       {Friction{0, {}}, "friction: coefficient = 0 is outside (0, 100]"},
       {Friction{kNan, {}}, "friction: coefficient = nan is outside (0, 100]"},
-      {Friction{0.5, Surfaces::of(64)}, "friction: material = 64 is outside [0, 63]"},
-      {Friction{0.5, Surfaces::between(1, -3)}, "friction: material = -3 is outside [0, 63]"},
+      {Friction{0.5, MaterialSelector::of(64)}, "friction: material = 64 is outside [0, 63]"},
+      {Friction{0.5, MaterialSelector::between(1, -3)}, "friction: material = -3 is outside [0, 63]"},
       {AnisotropicFriction{-1, 0, {1, 0, 0}, {}}, "anisotropic_friction: along = -1 is outside [0, 100]"},
       {AnisotropicFriction{0, 0, {1, 0, 0}, {}}, "anisotropic_friction: along and across are both 0"},
       {AnisotropicFriction{1, 0, {0, 0, 0}, {}}, "anisotropic_friction: direction = (0, 0, 0) is no direction"},
@@ -65,16 +65,16 @@ TEST_CASE("bad parameters are refused with effect, parameter, value and range") 
 TEST_CASE("effects that exclude one another or lack another are refused") {
   const Gravity gravity{{0, 0, -9.81}};
   CHECK(refusal({gravity, gravity}) == "gravity is listed twice; it must be listed once");
-  CHECK(refusal({Friction{0.5, Surfaces::between(1, 2)}, Friction{0.4, Surfaces::between(2, 1)}}) ==
+  CHECK(refusal({Friction{0.5, MaterialSelector::between(1, 2)}, Friction{0.4, MaterialSelector::between(2, 1)}}) ==
         "friction is listed twice for the same surfaces; it must be listed once");
   CHECK(refusal({Buoyancy{1000, 0}}).find("buoyancy is listed without gravity") == 0);
   CHECK(refusal({Hertz{1e9, 0.3, 1, {}}, MaxCorrectingVelocity{1}})
             .find("max_correcting_velocity is listed with compliance or hertz") == 0);
   CHECK(refusal({Hertz{1e9, 0.3, 1, {}}, Restitution{0.5, 0, {}}})
             .find("hertz and restitution are both listed for contacts of materials the others") == 0);
-  CHECK(refusal({Compliance{1e9, 0, Surfaces::of(1)}, Hertz{1e9, 0.3, 1, Surfaces::of(2)}})
+  CHECK(refusal({Compliance{1e9, 0, MaterialSelector::of(1)}, Hertz{1e9, 0.3, 1, MaterialSelector::of(2)}})
             .find("hertz and compliance are both listed for contacts of materials 1 and 2") == 0);
-  CHECK(refusal({Compliance{1e9, 0, Surfaces::between(1, 1)}, Restitution{0.5, 0, Surfaces::of(2)}}).empty());
+  CHECK(refusal({Compliance{1e9, 0, MaterialSelector::between(1, 1)}, Restitution{0.5, 0, MaterialSelector::of(2)}}).empty());
 }
 
 TEST_CASE("every effect is described") {

@@ -227,7 +227,7 @@ void FuzzedBody::set_solver(ByteReader& bytes) {
   if (limit > kPatience) snGeomSetSolver(geom_, solver, tolerance, kPatience);
 }
 
-dGeomID create_partner(ByteReader& bytes) {
+dGeomID create_collider(ByteReader& bytes) {
   const unsigned kind = bytes.choice(6);
   // ODE asserts that lengths are not negative, which a NaN also fails. Zero and infinity pass.
   const auto length = [&] {

@@ -1,4 +1,4 @@
-// Bodies and partners for the fuzzer of the C interface, made from bytes, and what must hold for making them.
+// Bodies and colliders for the fuzzer of the C interface, made from bytes, and what must hold for making them.
 #pragma once
 
 #include <memory>
@@ -59,7 +59,7 @@ class FuzzedBody {
 };
 
 /// One of ODE's own: sphere, plane, box, capsule, cylinder or ray; only with what ODE's own assertions let pass.
-dGeomID create_partner(ByteReader& bytes);
+dGeomID create_collider(ByteReader& bytes);
 
 /// A pose of numbers of all kinds; the rotation is one, or holds something that is not finite.
 void place(dGeomID geom, ByteReader& bytes);

@@ -81,10 +81,10 @@ class Session {
       body.create(bytes);
       place(body.geom(), bytes);
     }
-    new_partner();
+    new_collider();
   }
   ~Session() {
-    if (partner_ != nullptr) dGeomDestroy(partner_);
+    if (collider_ != nullptr) dGeomDestroy(collider_);
     snSetWarmStart(1);
   }
   Session(const Session&) = delete;
@@ -95,7 +95,7 @@ class Session {
   void run() {
     for (int k = 0; k < kMostOperations && !bytes_.is_empty(); ++k) operate(bytes_.byte());
     ask_pair(bodies_[0].geom(), bodies_[1].geom());
-    ask_pair(bodies_[0].geom(), partner_);
+    ask_pair(bodies_[0].geom(), collider_);
   }
 
  private:
@@ -106,7 +106,7 @@ class Session {
       case 0:
         return place(geom, bytes_);
       case 1:
-        return place(partner_, bytes_);
+        return place(collider_, bytes_);
       case 2:
         return body.set_parameters(bytes_);
       case 3:
@@ -120,21 +120,21 @@ class Session {
       case 7:
         return ask_support(body);
       case 8:
-        return new_partner();
+        return new_collider();
       case 9:
         return change_warm_start();
       case 10:
-        return ask_pair(geom, bytes_.flag() ? partner_ : bodies_[1 - (code & 1U)].geom());
+        return ask_pair(geom, bytes_.flag() ? collider_ : bodies_[1 - (code & 1U)].geom());
       default:
         body.create(bytes_);
         return place(body.geom(), bytes_);
     }
   }
 
-  void new_partner() {
-    if (partner_ != nullptr) dGeomDestroy(partner_);
-    partner_ = create_partner(bytes_);
-    if (dGeomGetClass(partner_) != dRayClass) place(partner_, bytes_);  // a ray has its place already
+  void new_collider() {
+    if (collider_ != nullptr) dGeomDestroy(collider_);
+    collider_ = create_collider(bytes_);
+    if (dGeomGetClass(collider_) != dRayClass) place(collider_, bytes_);  // a ray has its place already
   }
 
   void change_warm_start() {
@@ -247,7 +247,7 @@ class Session {
 
   ByteReader& bytes_;
   FuzzedBody bodies_[2];
-  dGeomID partner_ = nullptr;
+  dGeomID collider_ = nullptr;
   bool is_warm_ = true;
   bool has_asked_mass_ = false;
 };

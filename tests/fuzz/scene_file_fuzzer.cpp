@@ -14,9 +14,9 @@
 #include <string_view>
 
 #include "expect.hpp"
-#include "input_error.hpp"
 #include "samples/temporary_folder.hpp"
-#include "scene.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene.hpp"
 
 namespace supernormal::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "invariants.hpp"
 #include "reference.hpp"
-#include "supernormal/solvers/gap_function.hpp"
+#include "supernormal/proximity/gap_function.hpp"
 
 using namespace supernormal;
 using namespace supernormal::samples;

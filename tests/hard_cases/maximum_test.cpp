@@ -5,8 +5,8 @@
 
 #include "cases/builders.hpp"
 #include "invariants.hpp"
-#include "supernormal/solvers/gap_function.hpp"
-#include "supernormal/solvers/solve.hpp"
+#include "supernormal/proximity/gap_function.hpp"
+#include "supernormal/proximity/solve.hpp"
 
 using namespace supernormal;
 using namespace supernormal::samples;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "catalogue.hpp"
-#include "supernormal/solvers/solve.hpp"
+#include "supernormal/proximity/solve.hpp"
 
 using namespace supernormal;
 using namespace supernormal::samples;

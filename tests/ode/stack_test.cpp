@@ -1,8 +1,8 @@
 // What was on the stack before does not decide what a program is told of a pair, in contacts or by snGeomProximity.
 #include <doctest/doctest.h>
 
+#include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
-#include "ode/partner_fixture.hpp"
 #include "ode/terrain.hpp"
 #include "painted_stack.hpp"
 #include "traps.hpp"
@@ -11,7 +11,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kPairs = 400;  // of each kind of partner
+constexpr int kPairs = 400;  // of each kind of collider
 
 struct Answer {
   bool is_told = false;
@@ -52,17 +52,17 @@ void check_pair(dGeomID g1, dGeomID g2, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("every kind of partner: the same digits over any stack, and nothing computed with what was not set") {
+TEST_CASE("every kind of collider: the same digits over any stack, and nothing computed with what was not set") {
   OdeSession session;
   snSetWarmStart(0);  // results are then a pure function of the pair
   Random random(17);
-  for (const PartnerKind kind : kPartnerKinds) {
+  for (const ColliderKind kind : kColliderKinds) {
     for (int k = 0; k < kPairs; ++k) {
       const Geom body(random_body(random));
-      const PartnerGeom partner(kind, random);
-      overlap(body, partner, random.uniform(-0.1, 0.3) * size_of(body), random);
-      check_pair(body, partner, name_of(kind) + " of pair " + std::to_string(k));
-      check_pair(partner, body, name_of(kind) + " first, of pair " + std::to_string(k));
+      const ColliderGeom collider(kind, random);
+      overlap(body, collider, random.uniform(-0.1, 0.3) * size_of(body), random);
+      check_pair(body, collider, name_of(kind) + " of pair " + std::to_string(k));
+      check_pair(collider, body, name_of(kind) + " first, of pair " + std::to_string(k));
     }
   }
 }

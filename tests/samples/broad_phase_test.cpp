@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "complaint.hpp"
-#include "placement.hpp"
-#include "random.hpp"
 #include "scenes.hpp"
-#include "stepper.hpp"
-#include "world.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/random.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/world.hpp"
 
 using namespace falling_particles;
 

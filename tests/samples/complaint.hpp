@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "input_error.hpp"
-#include "scene.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene.hpp"
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 

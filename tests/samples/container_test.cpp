@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "complaint.hpp"
-#include "leaks.hpp"
-#include "placement.hpp"
+#include "measure/leaks.hpp"
 #include "scenes.hpp"
-#include "world.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/world.hpp"
 
 using namespace falling_particles;
 

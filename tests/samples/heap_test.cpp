@@ -1,4 +1,4 @@
-#include "heap.hpp"
+#include "measure/heap.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,8 +11,8 @@
 #include "complaint.hpp"
 #include "relative.hpp"
 #include "scenes.hpp"
-#include "stepper.hpp"
-#include "world.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/world.hpp"
 
 using namespace falling_particles;
 

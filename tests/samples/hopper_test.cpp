@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "beverloo.hpp"
-#include "discharge.hpp"
-#include "leaks.hpp"
-#include "placement.hpp"
-#include "random.hpp"
+#include "measure/beverloo.hpp"
+#include "measure/discharge.hpp"
+#include "measure/leaks.hpp"
 #include "relative.hpp"
 #include "scenes.hpp"
-#include "stepper.hpp"
-#include "world.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/random.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/world.hpp"
 
 using namespace falling_particles;
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "catalogue.hpp"
 #include "complaint.hpp"
-#include "input_error.hpp"
 #include "relative.hpp"
+#include "scene/catalogue.hpp"
+#include "scene/input_error.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 

@@ -4,12 +4,12 @@
 #include <numbers>
 #include <vector>
 
-#include "bed.hpp"
-#include "energy.hpp"
-#include "overlap.hpp"
+#include "measure/bed.hpp"
+#include "measure/energy.hpp"
+#include "measure/overlap.hpp"
 #include "relative.hpp"
-#include "stepper.hpp"
-#include "world.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/world.hpp"
 
 using namespace falling_particles;
 namespace fx = supernormal::effects;

@@ -1,4 +1,4 @@
-#include "memory.hpp"
+#include "scene/memory.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "nearest_word.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <doctest/doctest.h>
 

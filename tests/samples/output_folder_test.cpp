@@ -1,4 +1,4 @@
-#include "output_folder.hpp"
+#include "output/output_folder.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "input_error.hpp"
+#include "scene/input_error.hpp"
 #include "temporary_folder.hpp"
 
 using namespace falling_particles;

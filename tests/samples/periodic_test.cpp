@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "complaint.hpp"
-#include "compression.hpp"
-#include "overlap.hpp"
-#include "placement.hpp"
-#include "random.hpp"
+#include "measure/overlap.hpp"
 #include "relative.hpp"
 #include "scenes.hpp"
-#include "stepper.hpp"
-#include "world.hpp"
+#include "simulation/compression.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/random.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/world.hpp"
 
 using namespace falling_particles;
 

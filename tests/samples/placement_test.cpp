@@ -1,4 +1,4 @@
-#include "placement.hpp"
+#include "simulation/placement.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "random.hpp"
 #include "relative.hpp"
 #include "scenes.hpp"
+#include "simulation/random.hpp"
 
 using namespace falling_particles;
 

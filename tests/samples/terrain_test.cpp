@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "leaks.hpp"
-#include "placement.hpp"
-#include "random.hpp"
+#include "measure/leaks.hpp"
 #include "relative.hpp"
 #include "scenes.hpp"
-#include "stepper.hpp"
-#include "world.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/random.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/world.hpp"
 
 using namespace falling_particles;
 

@@ -1,11 +1,11 @@
-#include "toml_string.hpp"
+#include "output/toml_string.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
+#include "scene/toml_input.hpp"
 #include "temporary_folder.hpp"
-#include "toml_input.hpp"
 
 using namespace falling_particles;
 

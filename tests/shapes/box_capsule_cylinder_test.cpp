@@ -38,8 +38,8 @@ void check_against(const Shape& shape, const std::vector<Vector3>& boundary, con
     for (const Vector3& m : normals) {
       if (!(m.dot(jet.r) <= shape.support(m) + 4e-15 * size)) FAIL_CHECK("r is not a point of the body: n ", text(n));
     }
-    Corners corners;
-    shape.add_corners(n, Vector3(0.3, -0.2, 0.1), corners);
+    ActiveVertices corners;
+    shape.add_active_vertices(n, Vector3(0.3, -0.2, 0.1), corners);
     double highest = -1e300;
     for (int k = 0; k < corners.size(); ++k) highest = std::max(highest, n.dot(corners[k]));
     if (shape.has_kinks() && !(std::abs(highest - jet.h) <= 4e-15 * size)) FAIL_CHECK("no corner is at h: n ", text(n));
@@ -144,8 +144,8 @@ TEST_CASE("cylinder: support and points against its rims; mass by slices") {
 TEST_CASE("cylinder: the corners of a cap have the point asked about between them, those of the side are its two ends") {
   const Cylinder cylinder(2, 1);
   for (const double sign : {1.0, -1.0}) {
-    Corners cap;
-    cylinder.add_corners(Vector3(0, 0, sign), Vector3(0.5, 0.7, 3), cap);
+    ActiveVertices cap;
+    cylinder.add_active_vertices(Vector3(0, 0, sign), Vector3(0.5, 0.7, 3), cap);
     REQUIRE(cap.size() == 3);
     Vector3 middle = Vector3::Zero();
     for (int k = 0; k < 3; ++k) {
@@ -156,8 +156,8 @@ TEST_CASE("cylinder: the corners of a cap have the point asked about between the
     CHECK((middle - Vector3(0, 0, sign)).norm() <= 1e-15);
     CHECK(cap[0].head<2>().normalized().dot(Eigen::Vector2d(0.5, 0.7).normalized()) == relative(1).epsilon(1e-15));
   }
-  Corners side;
-  cylinder.add_corners(Vector3(0.6, 0.8, 0), Vector3(5, 5, 0), side);
+  ActiveVertices side;
+  cylinder.add_active_vertices(Vector3(0.6, 0.8, 0), Vector3(5, 5, 0), side);
   REQUIRE(side.size() == 2);
   CHECK((side[0] - Vector3(1.2, 1.6, -1)).norm() <= 1e-15);
   CHECK((side[1] - Vector3(1.2, 1.6, 1)).norm() <= 1e-15);

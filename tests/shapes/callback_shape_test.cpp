@@ -42,8 +42,8 @@ void check_contains(const std::string& message, const std::string& part) {
 
 TEST_CASE("callbacks are passed on unchanged") {
   const CallbackShape with(kGoodSupport, kGoodPoint, kGoodHessian), without(kGoodSupport, kGoodPoint);
-  CHECK(with.has_curvature());
-  CHECK_FALSE(without.has_curvature());
+  CHECK(with.has_hessian());
+  CHECK_FALSE(without.has_hessian());
   CHECK_FALSE(with.has_flat_faces());
   CHECK(with.half_extents() == Vector3(3, 2, 1));
   for (const Vector3& n : random_normals(20, 41)) {
@@ -145,21 +145,21 @@ TEST_CASE("a Hessian that cannot be one is refused") {
 
 TEST_CASE("where the body is sharpest is found from its points") {
   const CallbackShape ball([](const Vector3&) { return 1.0; }, [](const Vector3& n) { return n; });
-  CHECK(ball.sharpest_radius() == relative(1).epsilon(1e-12));
+  CHECK(ball.min_curvature_radius_estimate() == relative(1).epsilon(1e-12));
   // An ellipsoid is sharpest, c^2/a, at the ends of its longest axis.
   const Ellipsoid ellipsoid(Vector3(3, 2, 1));
   const CallbackShape copy([&](const Vector3& n) { return ellipsoid.support(n); },
                            [&](const Vector3& n) { return ellipsoid.point(n); });
-  CHECK(copy.sharpest_radius() == relative(1.0 / 3).epsilon(1e-6));
+  CHECK(copy.min_curvature_radius_estimate() == relative(1.0 / 3).epsilon(1e-6));
   // A vertex is known by what is left of the radius near its normal: on five degrees still a hundredth of the body's size.
   const Superellipsoid octahedral(Vector3(1, 1, 1), 1.3, 1.3);
   const CallbackShape pointed([&](const Vector3& n) { return octahedral.support(n); },
                               [&](const Vector3& n) { return octahedral.point(n); });
-  CHECK(pointed.sharpest_radius() <= 1e-6);
+  CHECK(pointed.min_curvature_radius_estimate() <= 1e-6);
   // What two balls have in common: its edge, a circle around z, bends around the axes across z.
   const auto lens = [](const Vector3& n) -> Vector3 {
     if (std::abs(n.z()) > 0.5) return n - Vector3(0, 0, std::copysign(0.5, n.z()));
     return std::sqrt(0.75) * Vector3(n.x(), n.y(), 0).normalized();
   };
-  CHECK(CallbackShape([&](const Vector3& n) { return n.dot(lens(n)); }, lens).sharpest_radius() == 0);
+  CHECK(CallbackShape([&](const Vector3& n) { return n.dot(lens(n)); }, lens).min_curvature_radius_estimate() == 0);
 }

@@ -28,7 +28,7 @@ std::string raised() {
 void check_quiet(const Shape& shape, const Vector3& n, const std::string& name) {
   std::feclearexcept(kTrapped);
   Jet jet;
-  for (const Order order : {Order::Value, Order::Point, Order::Curvature}) {
+  for (const Order order : {Order::Value, Order::Point, Order::Hessian}) {
     shape.evaluate(n, order, jet);
     if (std::fetestexcept(kTrapped)) FAIL_CHECK(name, " n ", text(n), " order ", static_cast<int>(order), raised());
     std::feclearexcept(kTrapped);

@@ -8,12 +8,12 @@
 
 #include "relative.hpp"
 #include "shape_samples.hpp"
+#include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
-#include "supernormal/solvers/solve.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -51,7 +51,7 @@ TEST_CASE("linear image: the ellipsoid is that of the sphere, to rounding") {
   CHECK(a.volume == relative(b.volume).epsilon(1e-15));
   CHECK((a.second_moment - b.second_moment).norm() <= 1e-14 * b.second_moment.norm());
   CHECK(a.relative_error == 0);
-  CHECK(image.sharpest_radius() == relative(1.0 / 3).epsilon(1e-15));
+  CHECK(image.min_curvature_radius_estimate() == relative(1.0 / 3).epsilon(1e-15));
 }
 
 TEST_CASE("linear image: superellipsoids scale with their half-axes") {
@@ -114,8 +114,8 @@ TEST_CASE("linear image: of a box a parallelepiped, with its corners, faces, mas
   const Pose here{Vector3::Zero(), Matrix3::Identity()};
   for (const Vector3& n : random_normals(40, 56)) {
     CHECK(image.support(n) == relative(polytope.support(n)).epsilon(1e-15));
-    Corners corners;
-    image.add_corners(n, Vector3::Zero(), corners);
+    ActiveVertices corners;
+    image.add_active_vertices(n, Vector3::Zero(), corners);
     CHECK(corners.size() == 8);
     CHECK_FALSE(corners.is_partial());
     const Pose there{4 * n, Matrix3::Identity()};

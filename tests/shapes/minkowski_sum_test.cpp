@@ -8,6 +8,7 @@
 
 #include "relative.hpp"
 #include "shape_samples.hpp"
+#include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/capsule.hpp"
@@ -16,7 +17,6 @@
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
-#include "supernormal/solvers/solve.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -25,8 +25,8 @@ namespace {
 
 /// Every corner is a point of the body, and the highest is on its supporting plane.
 void check_corners(const Shape& shape, const Vector3& n) {
-  Corners corners;
-  shape.add_corners(n, Vector3(0.3, -0.2, 0.1), corners);
+  ActiveVertices corners;
+  shape.add_active_vertices(n, Vector3(0.3, -0.2, 0.1), corners);
   REQUIRE(corners.size() > 0);
   double highest = -1e300;
   for (int k = 0; k < corners.size(); ++k) {
@@ -56,7 +56,7 @@ TEST_CASE("Minkowski sum: support, point and curvature are sums") {
   CHECK(sum.half_extents() == Vector3(3.5, 3, 3));
   CHECK(sum.has_flat_faces());
   CHECK_FALSE(sum.has_kinks());
-  CHECK(sum.has_curvature());
+  CHECK(sum.has_hessian());
 }
 
 TEST_CASE("Minkowski sum: with a sphere it is the rounded shape, with a point the shape moved") {
@@ -137,7 +137,7 @@ TEST_CASE("Minkowski sum: a part without curvature leaves it without; a missing 
   const auto sphere = std::make_shared<Sphere>(1);
   const auto callback = std::make_shared<CallbackShape>([&](const Vector3&) { return 1.0; }, [&](const Vector3& n) { return n; });
   const MinkowskiSum sum(sphere, callback);
-  CHECK_FALSE(sum.has_curvature());
+  CHECK_FALSE(sum.has_hessian());
   CHECK(sum.mass_properties().volume == relative(Sphere(2).mass_properties().volume).epsilon(1e-10));
   CHECK_THROWS_WITH_AS(MinkowskiSum(nullptr, sphere), "first is null; a shape is needed", std::invalid_argument);
   CHECK_THROWS_WITH_AS(MinkowskiSum(sphere, nullptr), "second is null; a shape is needed", std::invalid_argument);

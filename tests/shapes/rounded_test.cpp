@@ -64,11 +64,11 @@ TEST_CASE("rounding a shape without curvature leaves it without") {
   const auto core = std::make_shared<CallbackShape>([&](const Vector3& n) { return ellipsoid.support(n); },
                                                     [&](const Vector3& n) { return ellipsoid.point(n); });
   const Rounded rounded(core, 0.5);
-  CHECK_FALSE(rounded.has_curvature());
-  CHECK(Rounded(std::make_shared<Ellipsoid>(ellipsoid), 0.5).has_curvature());
+  CHECK_FALSE(rounded.has_hessian());
+  CHECK(Rounded(std::make_shared<Ellipsoid>(ellipsoid), 0.5).has_hessian());
   const Vector3 n = Vector3(1, 2, 3).normalized();
   Jet jet;
-  rounded.evaluate(n, Order::Curvature, jet);
+  rounded.evaluate(n, Order::Hessian, jet);
   CHECK(jet.h == ellipsoid.support(n) + 0.5);
   CHECK(jet.H == Matrix3::Zero());
 }

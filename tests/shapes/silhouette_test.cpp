@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "supernormal/shapes/ellipsoid.hpp"
-#include "supernormal/shapes/immersion.hpp"
+#include "supernormal/shapes/submerged_volume.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
@@ -49,7 +49,7 @@ TEST_CASE("the surface of spheroids") {
 
 TEST_CASE("the submerged part of an ellipsoid is the image of a sphere's cap") {
   const Vector3 a(0.3, 0.2, 0.1);
-  const Immersion immersion{Ellipsoid(a)};
+  const SubmergedVolume immersion{Ellipsoid(a)};
   const double whole = 4 * kPi / 3 * a.prod();
   CHECK(std::abs(immersion.volume() / whole - 1) < 1e-12);
   const Vector3 up = Vector3(1, -2, 2) / 3;
@@ -65,7 +65,7 @@ TEST_CASE("the submerged part of an ellipsoid is the image of a sphere's cap") {
 
 TEST_CASE("a body that is wholly in or out of the water is exact") {
   const Superovoid egg(Vector3(0.02, 0.02, 0.03), 2, 2, 0.3, 0.3);
-  const Immersion immersion(egg);
+  const SubmergedVolume immersion(egg);
   const MassProperties exact = egg.mass_properties();
   const Submerged all = immersion.below(Vector3::UnitZ(), 1);
   CHECK(all.volume == exact.volume);

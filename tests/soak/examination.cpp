@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "supernormal/solvers/gap_function.hpp"
-#include "supernormal/solvers/solve.hpp"
+#include "supernormal/proximity/gap_function.hpp"
+#include "supernormal/proximity/solve.hpp"
 
 namespace supernormal::soak {
 namespace {

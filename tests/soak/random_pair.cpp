@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "supernormal/solvers/gap_function.hpp"
+#include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal::soak {
 namespace {

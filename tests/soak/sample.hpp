@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "catalogue.hpp"
+#include "proximity/superellipsoid_classes.hpp"
 #include "random.hpp"
-#include "solvers/superellipsoid_classes.hpp"
-#include "supernormal/solvers/proximity.hpp"
+#include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal::soak {
 

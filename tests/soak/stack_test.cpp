@@ -3,7 +3,7 @@
 
 #include "painted_stack.hpp"
 #include "sample.hpp"
-#include "supernormal/solvers/solve.hpp"
+#include "supernormal/proximity/solve.hpp"
 #include "traps.hpp"
 
 using namespace supernormal;

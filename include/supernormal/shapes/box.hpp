@@ -13,10 +13,10 @@ class SUPERNORMAL_API Box final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_kinks() const override { return true; }
-  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return half_lengths_; }
-  double sharpest_radius() const override;
+  double min_curvature_radius_estimate() const override;
   MassProperties mass_properties() const override;
 
   const Vector3& half_lengths() const { return half_lengths_; }

@@ -22,14 +22,14 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
   /// some 650 directions more.
   CallbackShape(Support support, Point point, Hessian hessian = {});
 
-  /// Without a Hessian, Order::Curvature delivers h and r and leaves H as it is.
+  /// Without a Hessian, Order::Hessian delivers h and r and leaves H as it is.
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_curvature() const override { return static_cast<bool>(hessian_); }
+  bool has_hessian() const override { return static_cast<bool>(hessian_); }
   Vector3 half_extents() const override { return half_extents_; }
 
   /// Estimated from boundary points. Solvers need them to know how sharp the body is; an edge away from the nine great circles that
   /// are walked, and shorter than the way between two of them, may be missed.
-  double sharpest_radius() const override { return sharpest_radius_; }
+  double min_curvature_radius_estimate() const override { return sharpest_radius_; }
 
  private:
   Support support_;

@@ -14,10 +14,10 @@ class SUPERNORMAL_API Capsule final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_kinks() const override { return half_length_ > 0; }
-  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }
-  double sharpest_radius() const override;
+  double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;
 

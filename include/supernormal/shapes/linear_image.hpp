@@ -16,15 +16,15 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matrix);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_curvature() const override { return shape_->has_curvature(); }
+  bool has_hessian() const override { return shape_->has_hessian(); }
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return shape_->has_flat_faces(); }
   bool has_kinks() const override { return shape_->has_kinks(); }
-  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_symmetric() const override { return shape_->is_symmetric(); }
   Vector3 half_extents() const override { return half_extents_; }
-  double sharpest_radius() const override;
+  double min_curvature_radius_estimate() const override;
 
   /// The image of a ball is an ellipsoid, and a ball rolls in that.
   double rolling_radius() const override { return shape_->rolling_radius() * smallest_ * (smallest_ / largest_); }

@@ -17,9 +17,9 @@ class SUPERNORMAL_API Polytope final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_kinks() const override { return points_.size() > 1; }
-  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   Vector3 half_extents() const override { return half_extents_; }
-  double sharpest_radius() const override;
+  double min_curvature_radius_estimate() const override;
 
   /// Exact, but for points that lie less than about a millionth of the size outside the hull of the others: what they hold may be
   /// missing, and relative_error counts it.

@@ -20,14 +20,14 @@ struct PowerNormJet {
 class PowerNorm;
 
 /// A norm, where it is asked for, and the answer.
-struct PowerNormQuestion {
+struct PowerNormRequest {
   const PowerNorm* norm;
   double x, y;  ///< not negative
   PowerNormJet jet;
 };
 
 /// A norm of three numbers, and the answer.
-struct PowerNorm3Question {
+struct PowerNorm3Request {
   const PowerNorm* norm;
   std::array<double, 3> x;  ///< not negative
   double value = 0;
@@ -56,14 +56,14 @@ class PowerNorm {
   /// All of PowerNormJet.
   void curvature(double x, double y, PowerNormJet& jet) const;
 
-  /// Answers one, two or four questions up to `order`. Two side by side take two thirds of the time of one after the other: a
+  /// Answers one, two or four requests up to `order`. Two side by side take two thirds of the time of one after the other: a
   /// power, a logarithm and an exponential wait for one another, but not for those of the other norm.
   template <std::size_t kCount>
-  static void answer(std::array<PowerNormQuestion, kCount>& questions, Order order);
+  static void evaluate_requests(std::array<PowerNormRequest, kCount>& requests, Order order);
 
   /// The same of three numbers, which must be plain: one root less than two nested norms take.
   template <std::size_t kCount>
-  static void answer(std::array<PowerNorm3Question, kCount>& questions, Order order);
+  static void evaluate_requests(std::array<PowerNorm3Request, kCount>& requests, Order order);
 
   /// Whether none of three numbers vanishes beside the others, so that no derivative has to be kept finite.
   static bool is_plain(double x, double y, double z);

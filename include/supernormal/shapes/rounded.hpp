@@ -14,16 +14,16 @@ class SUPERNORMAL_API Rounded final : public Shape {
   Rounded(std::shared_ptr<const Shape> core, double radius);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_curvature() const override { return core_->has_curvature(); }
+  bool has_hessian() const override { return core_->has_hessian(); }
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return core_->has_flat_faces(); }
   bool has_kinks() const override { return core_->has_kinks(); }
-  void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_round() const override { return core_->is_round(); }
   bool is_symmetric() const override { return core_->is_symmetric(); }
   Vector3 half_extents() const override;
-  double sharpest_radius() const override;
+  double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return core_->rolling_radius() + radius_; }
 
   /// Of spheres, capsules and ellipsoids, superellipsoids and superovoids, swept once or again, to 1e-11. Of other shapes by

@@ -14,9 +14,9 @@ using Matrix3 = Eigen::Matrix3d;
 
 /// How much of the potential an evaluation has to deliver; each level includes those before it.
 enum class Order {
-  Value,      ///< h
-  Point,      ///< h and r
-  Curvature,  ///< h, r and H
+  Value,    ///< h
+  Point,    ///< h and r
+  Hessian,  ///< h, r and H
 };
 
 /// The generating potential and its derivatives in one normal direction n, all in the body's frame.
@@ -34,12 +34,12 @@ struct MassProperties {
   double relative_error = 0;                ///< estimated, of volume and moments relative to their size; 0 for closed forms
 };
 
-/// Some points of a body that has faces or straight edges, in its own frame: see Shape::add_corners.
-class Corners {
+/// Some points of a body that has faces or straight edges, in its own frame: see Shape::add_active_vertices.
+class ActiveVertices {
  public:
   static constexpr int kCapacity = 8;
 
-  void clear() { *this = Corners(); }
+  void clear() { *this = ActiveVertices(); }
   void add(const Vector3& point) { points_[static_cast<std::size_t>(count_++)] = point; }
   int size() const { return count_; }
   const Vector3& operator[](int k) const { return points_[static_cast<std::size_t>(k)]; }
@@ -74,8 +74,8 @@ class SUPERNORMAL_API Shape {
   /// Itself, if it is one: two superellipsoids are evaluated together.
   virtual const Superellipsoid* as_superellipsoid() const { return nullptr; }
 
-  /// Whether evaluate() can deliver Order::Curvature. Solvers estimate the curvature from boundary points otherwise.
-  virtual bool has_curvature() const { return true; }
+  /// Whether evaluate() can deliver Order::Hessian. Solvers estimate the curvature from boundary points otherwise.
+  virtual bool has_hessian() const { return true; }
 
   /// The normal to move to when the boundary point is to move from jet.r by H dn: to first order n + dn. Shapes with flat faces
   /// override it, because there the normal is a smooth function of the boundary point but not the other way round.
@@ -89,10 +89,10 @@ class SUPERNORMAL_API Shape {
   /// a face share one normal. evaluate() then delivers one of them, and H without the jump.
   virtual bool has_kinks() const { return false; }
 
-  /// For a body with kinks: at most Corners::kCapacity points that are or become its boundary points as the normal turns, the first
-  /// to do so. Each bounds the support function, h(m) >= m.corner for every m; r(n) may be among them. Of a curved face with normal
-  /// n, three that have its point nearest to `toward` (body's frame) between them.
-  virtual void add_corners(const Vector3& n, const Vector3& toward, Corners& corners) const;
+  /// For a body with kinks: at most ActiveVertices::kCapacity points that are or become its boundary points as the normal turns,
+  /// the first to do so. Each bounds the support function, h(m) >= m.corner for every m; r(n) may be among them. Of a curved face
+  /// with normal n, three that have its point nearest to `toward` (body's frame) between them.
+  virtual void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const;
 
   /// Whether the way from one normal to another crosses that of a curved face, such as the cap of a cylinder, which no corners
   /// announce; then `face` is that normal.
@@ -111,7 +111,7 @@ class SUPERNORMAL_API Shape {
   /// m; about the smallest radius of curvature, 0 with an edge or a corner. An estimate, for where to look: rolling_radius() is
   /// proved. Of vertices where the radius vanishes at one normal only it may be that of what is beside them. Unless overridden,
   /// that of the ellipsoid of the same extents.
-  virtual double sharpest_radius() const;
+  virtual double min_curvature_radius_estimate() const;
 
   /// m; a ball of this radius provably rolls freely inside the body: no radius of curvature is smaller, so that the body is the sum
   /// of the ball and another convex body (Blaschke's rolling theorem; Schneider, Convex Bodies, theorem 3.2.12). A lower bound, 0

@@ -5,7 +5,7 @@
 
 namespace supernormal {
 
-/// h(n) = radius. A sphere of radius 0 is a point, which makes the distance of a point from a body a question about two bodies.
+/// h(n) = radius. A sphere of radius 0 is a point, which makes the distance of a point from a body a request about two bodies.
 class SUPERNORMAL_API Sphere final : public Shape {
  public:
   /// Radius in m, in [0, 1e30]; std::invalid_argument otherwise.
@@ -15,7 +15,7 @@ class SUPERNORMAL_API Sphere final : public Shape {
   bool is_round() const override { return true; }
   bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return Vector3::Constant(radius_); }
-  double sharpest_radius() const override;
+  double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;
 

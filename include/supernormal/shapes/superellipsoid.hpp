@@ -27,17 +27,17 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
 
   /// A body, a unit normal, and where its jet goes.
-  struct Question {
+  struct EvalRequest {
     const Superellipsoid* body;
     const Vector3* n;
     Jet* jet;
   };
 
   /// evaluate() of two bodies in two thirds of the time that they take one after the other, with the same digits.
-  static void evaluate_both(const Question& question1, const Question& question2, Order order);
+  static void evaluate_both(const EvalRequest& request1, const EvalRequest& request2, Order order);
 
   /// The same of four normals: in half of the time.
-  static void evaluate_four(const std::array<Question, 4>& questions, Order order);
+  static void evaluate_four(const std::array<EvalRequest, 4>& requests, Order order);
   const Superellipsoid* as_superellipsoid() const override { return this; }
 
   /// Moves the boundary point and takes the normal there (the gradient of the implicit function): on a flat face, r is
@@ -48,7 +48,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   bool is_round() const override { return std::min(delta_, epsilon_) >= 2 && std::max(delta_, epsilon_) <= kMostRound; }
   bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return half_axes_; }
-  double sharpest_radius() const override;
+  double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return rolling_radius_; }
   MassProperties mass_properties() const override;
 
@@ -61,14 +61,14 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   static constexpr double kMostRound = 3;
 
   template <std::size_t kCount>
-  static void answer(const std::array<Question, kCount>& questions, Order order);
+  static void evaluate_requests(const std::array<EvalRequest, kCount>& requests, Order order);
   Vector3 along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const;
   bool is_one_norm_at(const Vector3& n) const;
   template <std::size_t kCount>
-  static void answer_by_one_norm(const std::array<Question, kCount>& questions, Order order);
+  static void evaluate_by_one_norm(const std::array<EvalRequest, kCount>& requests, Order order);
   template <std::size_t kCount>
-  static void answer_by_two_norms(const std::array<Question, kCount>& questions, Order order);
-  void assemble(const PowerNorm3Question& norm, const Vector3& n, Order order, Jet& jet) const;
+  static void evaluate_by_two_norms(const std::array<EvalRequest, kCount>& requests, Order order);
+  void assemble(const PowerNorm3Request& norm, const Vector3& n, Order order, Jet& jet) const;
   void assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const;
 
   Vector3 half_axes_;

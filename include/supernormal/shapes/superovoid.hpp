@@ -40,7 +40,7 @@ class SUPERNORMAL_API Superovoid final : public Shape {
 
   /// The body reaches from z = -c to c; its widest section is above or below z = 0.
   Vector3 half_extents() const override { return half_extents_; }
-  double sharpest_radius() const override { return sharpest_radius_; }
+  double min_curvature_radius_estimate() const override { return sharpest_radius_; }
 
   /// In closed form. With a taper the centroid is not the origin but on the z-axis.
   MassProperties mass_properties() const override;

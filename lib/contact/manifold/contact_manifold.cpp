@@ -1,4 +1,4 @@
-#include "supernormal/contact_manifold.hpp"
+#include "supernormal/contact/contact_manifold.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "solvers/tangent_plane.hpp"
+#include "proximity/tangent_plane.hpp"
 
 namespace supernormal {
 

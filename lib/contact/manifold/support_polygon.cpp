@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact/manifold/unit_root.hpp"
-#include "solvers/tangent_plane.hpp"
+#include "proximity/tangent_plane.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 namespace supernormal {
@@ -83,14 +83,14 @@ class SupportPolygon::Observer {
   Observer(const Shape& shape, const Vector3& n, const std::array<Vector3, 2>& axes, const Vector3& support_point)
       : shape_(&shape), n_(n), axes_(axes), support_point_(support_point) {}
 
-  Sight of(const Tilt& tilt) const {
+  PatchSupport of(const Tilt& tilt) const {
     Jet jet;
     shape_->evaluate(tilted(tilt).normalized(), Order::Point, jet);
     return sight_of(jet.r);
   }
 
   /// Of the normals that are tilted towards each of the four diagonals.
-  std::array<Sight, 4> of_diagonals(const Tilt& diagonal) const {
+  std::array<PatchSupport, 4> of_diagonals(const Tilt& diagonal) const {
     const double length = std::sqrt(1 + diagonal[0] * diagonal[0] + diagonal[1] * diagonal[1]);
     std::array<Vector3, 4> normals;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -98,13 +98,13 @@ class SupportPolygon::Observer {
     }
     std::array<Jet, 4> jets;
     if (const Superellipsoid* const body = shape_->as_superellipsoid()) {
-      std::array<Superellipsoid::Question, 4> questions;
-      for (std::size_t k = 0; k < 4; ++k) questions[k] = {body, &normals[k], &jets[k]};
-      Superellipsoid::evaluate_four(questions, Order::Point);
+      std::array<Superellipsoid::EvalRequest, 4> requests;
+      for (std::size_t k = 0; k < 4; ++k) requests[k] = {body, &normals[k], &jets[k]};
+      Superellipsoid::evaluate_four(requests, Order::Point);
     } else {
       for (std::size_t k = 0; k < 4; ++k) shape_->evaluate(normals[k], Order::Point, jets[k]);
     }
-    std::array<Sight, 4> sights;
+    std::array<PatchSupport, 4> sights;
     for (std::size_t k = 0; k < 4; ++k) sights[k] = sight_of(jets[k].r);
     return sights;
   }
@@ -112,7 +112,7 @@ class SupportPolygon::Observer {
  private:
   Vector3 tilted(const Tilt& tilt) const { return n_ + tilt[0] * axes_[0] + tilt[1] * axes_[1]; }
 
-  Sight sight_of(const Vector3& point) const {
+  PatchSupport sight_of(const Vector3& point) const {
     const Vector3 way = point - support_point_;
     return {{axes_[0].dot(way), axes_[1].dot(way)}, std::max(0.0, -n_.dot(way))};
   }
@@ -130,7 +130,7 @@ class SupportPolygon::View {
       : diagonal_(diagonal), along_one_(std::sqrt(1 + tangent * tangent)), along_both_(std::sqrt(1 + 2 * tangent * tangent)) {}
 
   /// As they are seen from the point of the body whose tangent plane has that tilt.
-  Shares shares_of(const std::array<Sight, 4>& points, const Sight& from, const Tilt& tilt) const {
+  Shares shares_of(const std::array<PatchSupport, 4>& points, const PatchSupport& from, const Tilt& tilt) const {
     double drop = 0;
     std::array<double, 2> turn{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -176,7 +176,7 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   const Tilt diagonal = {tangent * height / extents_[0], tangent * height / extents_[1]};
 
   const Observer observer(shape, normal, axes, to_body * (support_point - pose.position));
-  const std::array<Sight, 4> sights = observer.of_diagonals(diagonal);
+  const std::array<PatchSupport, 4> sights = observer.of_diagonals(diagonal);
   evaluations_ = 4;
   const Tilt tilt = tilt_of_face(sights, diagonal);
   std::array<double, 2> upright{};
@@ -185,7 +185,7 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
     upright[a] = ramp(std::abs(tilt[a]) / diagonal[a], kLeaningTooFar, kLeaning);
     tilt_that_counts[a] = upright[a] * tilt[a];
   }
-  std::array<Sight, 4> points = drawn_in(sights, upright);
+  std::array<PatchSupport, 4> points = drawn_in(sights, upright);
 
   const View view(diagonal, tangent);
   Shares shares = view.shares_of(points, {}, {});
@@ -202,17 +202,17 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
 
 // Of the plane that fits the four points best, as far as the diagonals reach; level along an axis along which they are all the
 // same.
-SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const {
-  const auto way_of = [&](const Sight& sight) { return Vector2(sight.way[0] / extents_[0], sight.way[1] / extents_[1]); };
+SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<PatchSupport, 4>& sights, const Tilt& diagonal) const {
+  const auto way_of = [&](const PatchSupport& sight) { return Vector2(sight.way[0] / extents_[0], sight.way[1] / extents_[1]); };
   Vector2 mean = Vector2::Zero();
   double mean_drop = 0;
-  for (const Sight& sight : sights) {
+  for (const PatchSupport& sight : sights) {
     mean += 0.25 * way_of(sight);
     mean_drop += 0.25 * sight.drop;
   }
   Symmetric2 spread;
   Vector2 rise = Vector2::Zero();
-  for (const Sight& sight : sights) {
+  for (const PatchSupport& sight : sights) {
     const Vector2 way = way_of(sight) - mean;
     spread = spread + Symmetric2{way.x() * way.x(), way.x() * way.y(), way.y() * way.y()};
     rise += (sight.drop - mean_drop) * way;
@@ -225,12 +225,13 @@ SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<Sight, 4>& si
 
 // Where the body is round along an axis, or leans too far, it stands on the line through the support point: there the chord between
 // two points that face one another crosses it. In between they are drawn in along this chord, so that they stay in the body.
-std::array<SupportPolygon::Sight, 4> SupportPolygon::drawn_in(std::array<Sight, 4> points, const std::array<double, 2>& widths) {
+std::array<SupportPolygon::PatchSupport, 4> SupportPolygon::drawn_in(std::array<PatchSupport, 4> points,
+                                                                     const std::array<double, 2>& widths) {
   for (std::size_t a = 0; a < 2; ++a) {
     const double width = std::max(widths[a], kThinnest);
-    const std::array<Sight, 4> apart = points;
+    const std::array<PatchSupport, 4> apart = points;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Sight& facing = apart[kFacing[a][k]];
+      const PatchSupport& facing = apart[kFacing[a][k]];
       const double chord = apart[k].way[a] - facing.way[a];
       const double on_line = chord != 0 ? std::clamp(-facing.way[a] / chord, 0.0, 1.0) : 0.5;
       points[k] = apart[k].mixed_with(facing, width + (1 - width) * on_line);
@@ -240,7 +241,7 @@ std::array<SupportPolygon::Sight, 4> SupportPolygon::drawn_in(std::array<Sight, 
 }
 
 // Those with a larger drop than the one that counts are drawn in to the support point.
-void SupportPolygon::place_vertices(const std::array<Sight, 4>& points, const Vector3& n) {
+void SupportPolygon::place_vertices(const std::array<PatchSupport, 4>& points, const Vector3& n) {
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& [way, drop] = points[k];
     const double share = flatness_ * (drop > reach_ ? reach_ / drop : 1);

@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
-#include "supernormal/solvers/pose.hpp"
 
 namespace supernormal {
 
@@ -57,11 +57,11 @@ class SupportPolygon {
 
  private:
   /// A point q of the body, seen from the support point: along the axes and along -n, m.
-  struct Sight {
+  struct PatchSupport {
     std::array<double, 2> way;
     double drop;
 
-    Sight mixed_with(const Sight& other, double own) const {
+    PatchSupport mixed_with(const PatchSupport& other, double own) const {
       return {{own * way[0] + (1 - own) * other.way[0], own * way[1] + (1 - own) * other.way[1]},
               own * drop + (1 - own) * other.drop};
     }
@@ -80,9 +80,9 @@ class SupportPolygon {
   class Observer;
   class View;
 
-  Tilt tilt_of_face(const std::array<Sight, 4>& sights, const Tilt& diagonal) const;
-  static std::array<Sight, 4> drawn_in(std::array<Sight, 4> points, const std::array<double, 2>& widths);
-  void place_vertices(const std::array<Sight, 4>& points, const Vector3& n);
+  Tilt tilt_of_face(const std::array<PatchSupport, 4>& sights, const Tilt& diagonal) const;
+  static std::array<PatchSupport, 4> drawn_in(std::array<PatchSupport, 4> points, const std::array<double, 2>& widths);
+  void place_vertices(const std::array<PatchSupport, 4>& points, const Vector3& n);
 
   Vector3 support_point_;
   std::array<Vector3, 2> axes_;

@@ -1,7 +1,7 @@
 // Directions in a plane as complex numbers, without angles.
 #pragma once
 
-#include "solvers/tangent_plane.hpp"
+#include "proximity/tangent_plane.hpp"
 
 namespace supernormal {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "random.hpp"
+#include "simulation/random.hpp"
 
 namespace falling_particles {
 namespace {

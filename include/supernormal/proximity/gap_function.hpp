@@ -1,0 +1,69 @@
+// The gap function of two bodies: the one function that every solver works on.
+#pragma once
+
+#include "supernormal/proximity/pose.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// s and its derivatives in one direction, in body 1's frame.
+struct SUPERNORMAL_API GapJet {
+  Vector3 n = Vector3::UnitX();   ///< the unit normal it was evaluated for
+  double s = 0;                   ///< m; s(n) = n.c - h1(n) - h2(-n)
+  Vector3 d = Vector3::Zero();    ///< m; gradient of s: point2 - point1; s = n.d
+  Vector3 m = -Vector3::UnitX();  ///< -n in body 2's frame
+  Jet jet1;                       ///< of body 1, in its frame
+  Jet jet2;                       ///< of body 2, in its frame, for the normal m
+
+  /// Whether s and d are numbers: a shape may give some that are not.
+  bool is_finite() const;
+};
+
+/// s(n) = n.c - h1(n) - h2(-R^T n): how far apart the supporting planes of the two bodies with normal n are. Its maximum over the
+/// unit sphere is the signed gap (DESIGN section 2). Everything is in body 1's frame, so that distance from the world's origin
+/// costs no digits. Counts its evaluations. Holds references to the shapes.
+class SUPERNORMAL_API GapFunction {
+ public:
+  GapFunction(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2);
+
+  /// Evaluates at the unit normal n (body 1's frame) and counts one evaluation.
+  void evaluate(const Vector3& n, Order order, GapJet& jet);
+
+  /// H1 + H2, the negative Hessian of s, m; of a jet with curvature.
+  Matrix3 curvature(const GapJet& jet) const { return jet.jet1.H + rotation_ * jet.jet2.H * rotation_.transpose(); }
+
+  int evaluations() const { return evaluations_; }
+  const Shape& shape1() const { return *shape1_; }
+  const Shape& shape2() const { return *shape2_; }
+
+  /// Centre 2 - centre 1 and the attitude of body 2, in body 1's frame.
+  const Vector3& offset() const { return offset_; }
+  const Matrix3& rotation() const { return rotation_; }
+
+  /// The unit of length that tolerances refer to: the smallest half-extent of the bodies that are not points, m.
+  double length_unit() const { return length_unit_; }
+
+  /// A ball of this radius rolls inside the difference of the bodies, m: s + radius is the gap function of what is left of it
+  /// (Shape::rolling_radius; the radii add).
+  double rolling_radius() const { return shape1_->rolling_radius() + shape2_->rolling_radius(); }
+
+  /// Unavoidable error of s by rounding, m.
+  double rounding() const { return rounding_; }
+
+  bool has_hessian() const { return has_hessian_; }
+  bool is_finite() const;
+
+ private:
+  const Shape* shape1_;
+  const Shape* shape2_;
+  const Superellipsoid* superellipsoid1_;  // null where it is none
+  const Superellipsoid* superellipsoid2_;
+  Vector3 offset_;
+  Matrix3 rotation_;
+  double length_unit_;
+  double rounding_;
+  bool has_hessian_;
+  int evaluations_ = 0;
+};
+
+}  // namespace supernormal

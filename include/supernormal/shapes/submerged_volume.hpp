@@ -1,0 +1,37 @@
+// The part of a body that lies below a plane.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+struct Submerged {
+  double volume = 0;                 ///< m^3
+  Vector3 centre = Vector3::Zero();  ///< m; of the volume, in the body's frame
+};
+
+/// Answers how much of a body is under water, from a mesh of 512 triangles between boundary points that is made once. Exact for a
+/// body that is wholly in or out; what is cut is to 0.5 % of the volume for ellipsoids.
+class SUPERNORMAL_API SubmergedVolume {
+ public:
+  /// The shape is not kept.
+  explicit SubmergedVolume(const Shape& shape);
+
+  double volume() const { return whole_.volume; }
+
+  /// The part with up.x <= level; `up` is a unit vector in the body's frame, level in m.
+  Submerged below(const Vector3& up, double level) const;
+
+ private:
+  const Vector3& corner(int k) const { return points_[static_cast<std::size_t>(k)]; }
+
+  Submerged whole_;
+  double enlargement_ = 1;  // of the volumes of the mesh, which lies inside the body
+  std::vector<Vector3> points_;
+  std::vector<std::array<int, 3>> triangles_;
+};
+
+}  // namespace supernormal

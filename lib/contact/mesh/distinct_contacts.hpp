@@ -1,0 +1,60 @@
+// Which of the contacts of a body with a surface say something of their own.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "supernormal/proximity/proximity.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// A contact as it is found: all vectors in the frame of the surface (surface.hpp).
+struct SurfaceContact {
+  Vector3 normal;         ///< unit, out of the surface
+  double gap = 0;         ///< m, not positive
+  double error = 0;       ///< m
+  Vector3 body_point;     ///< m
+  Vector3 surface_point;  ///< m; body_point - gap * normal, on the plane or line of the feature
+  Vector3 feature_point;  ///< m; the nearest point of the feature itself: another one where that runs into a wall
+  int face = 0;           ///< the feature's
+  int part = 0;           ///< of the surface, see CoplanarPatch
+  int crease = -1;        ///< number of the vertex or edge, if the feature is one
+  int evaluations = 0;
+  Status status = Status::Converged;
+};
+
+/// Collects contacts. Keeps its memory from one query to the next.
+class DistinctContacts {
+ public:
+  /// `length_unit`: the body's size, m.
+  void clear(double length_unit);
+
+  /// Adds the contact, unless one with the same normal at the same place is there; of the two the deeper remains. Of
+  /// those at one vertex or edge the shortest way out remains.
+  void add(const SurfaceContact& contact);
+
+  /// Whether a contact with a similar normal is there that is at least as deep at the point.
+  bool has_similar(const Vector3& normal, const Vector3& point) const;
+
+  /// The largest gap of the contacts with this part of the surface, m; none if there are none.
+  std::optional<double> shortest_way_out(int part) const;
+
+  /// Of several ways out of one convex part of the solid leaves the shortest. Two contacts are of one such part when neither's
+  /// feature is in front of the other's tangent plane. The bodies' convexity then says that they overlap by more than the
+  /// body's radius of curvature; contacts of a body that rests on or against several parts are never of this kind.
+  void keep_shortest_ways_out();
+
+  /// Deepest first.
+  void sort();
+
+  const std::vector<SurfaceContact>& contacts() const { return contacts_; }
+
+ private:
+  bool are_of_one_part(const SurfaceContact& a, const SurfaceContact& b) const;
+
+  std::vector<SurfaceContact> contacts_;
+  double length_unit_ = 1;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,345 @@
+#include "contact/mesh/mesh_contacts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+#include "contact/mesh/arc.hpp"
+#include "contact/mesh/triangle_proximity.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/polytope.hpp"
+
+namespace supernormal {
+namespace {
+
+// The normal at an edge is wanted better than the gap, and another step of a superlinear iteration is cheap.
+constexpr double kArcTolerance = 1e-2;  // of the tolerance of the gap
+
+// Normals that differ by less than this (radians) may be one, as far as the tolerance of the gap goes.
+constexpr double kNearEdgeNormal = 1e-5;
+
+// What touches the body must not be lost by rounding.
+constexpr double kBoxMargin = 1e-9;  // of the length unit
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+int next(int k) { return k == 2 ? 0 : k + 1; }
+
+double angle_at(const Face& face, int k) {
+  const Vector3 edge1 = face.vertices[at(next(k))] - face.vertices[at(k)];
+  const Vector3 edge2 = face.vertices[at(next(next(k)))] - face.vertices[at(k)];
+  return std::atan2(edge1.cross(edge2).norm(), edge1.dot(edge2));
+}
+
+}  // namespace
+
+std::span<const MeshContact> MeshContacts::find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
+                                                const Settings& settings) {
+  contacts_.clear();
+  evaluations_ = 0;
+  if (triangles.empty() || !pose.position.allFinite() || !pose.rotation.allFinite()) return contacts_;
+  settings_ = settings;
+  settings_.solver = Solver::Hybrid;
+  settings_.stop_when_apart = true;
+  prepare(shape, pose, triangles);
+  SupportProbe probe(shape, pose.rotation);
+  look_at_patches(probe);
+  for (std::size_t p = 0; p < sights_.size(); ++p) find_on_patch(probe, p);
+  for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
+    for (int side = 0; side < 3; ++side) find_on_edge(probe, static_cast<int>(f), side);
+  }
+  for (std::size_t p = 0; p < sights_.size(); ++p) find_beyond_rim(probe, p);
+  add_beyond_rim();
+  find_other_ways_out(probe);
+  if (found_.contacts().empty()) find_way_up(probe);
+  found_.keep_shortest_ways_out();
+  evaluations_ = probe.evaluations();
+  return to_world(pose.position);
+}
+
+void MeshContacts::prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
+  box_ = BodyBox::of(shape);
+  length_unit_ = box_.half_lengths.minCoeff();
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const BodyBox searched = box_.widened(kBoxMargin * length_unit_ + 8 * kEpsilon * pose.position.lpNorm<Eigen::Infinity>());
+  near_.clear();
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near_),
+               [&](const MeshTriangle& triangle) { return searched.touches(pose, triangle.vertices); });
+  surface_.build(near_, pose.position, length_unit_);
+  sights_.clear();
+  settled_.assign(at(surface_.corner_count()), 0);
+  found_.clear(length_unit_);
+  beyond_rim_.clear(length_unit_);
+}
+
+void MeshContacts::look_at_patches(SupportProbe& probe) {
+  for (const CoplanarPatch& patch : surface_.patches()) {
+    const DeepestPoint deepest = probe.deepest(patch.normal);
+    const double plane = patch.normal.dot(surface_.faces()[at(patch.first_face)].vertices[0]);
+    sights_.push_back({deepest.point, deepest.height - plane, false});
+  }
+}
+
+SurfaceContact MeshContacts::contact_at(int face, const Vector3& normal, double gap, const Vector3& body_point) const {
+  SurfaceContact contact;
+  contact.normal = normal;
+  contact.gap = gap;
+  contact.body_point = body_point;
+  contact.surface_point = body_point - gap * normal;
+  contact.feature_point = contact.surface_point;
+  contact.face = face;
+  contact.part = surface_.part_of(surface_.faces()[at(face)]);
+  return contact;
+}
+
+void MeshContacts::find_on_patch(SupportProbe& probe, std::size_t patch) {
+  PatchSupport& sight = sights_[patch];
+  if (!(sight.gap <= 0)) return;
+  const Vector3& normal = surface_.patches()[patch].normal;
+  for (int f = surface_.patches()[patch].first_face; f >= 0; f = surface_.faces()[at(f)].next_in_patch) {
+    const Face& face = surface_.faces()[at(f)];
+    if (!surface_.is_over(face, sight.deepest)) continue;
+    sight.is_over = true;
+    const SurfaceContact contact = contact_at(f, normal, sight.gap, sight.deepest);
+    if (touches_surface(probe, contact)) found_.add(contact);
+    return;
+  }
+}
+
+// Each convex edge once, from the face with the lower number.
+bool MeshContacts::is_edge_owned_by_neighbour(int face, int side) const {
+  const int neighbour = surface_.faces()[at(face)].neighbour[at(side)];
+  if (neighbour < 0 || neighbour > face) return false;
+  const std::array<int, 3>& back = surface_.faces()[at(neighbour)].neighbour;
+  return std::find(back.begin(), back.end(), face) != back.end();
+}
+
+bool MeshContacts::open_arc(SupportProbe& probe, int f, int side, Arc& arc, ArcSample& low, ArcSample& high) const {
+  const Face& face = surface_.faces()[at(f)];
+  const EdgeConvexity fold = face.fold[at(side)];
+  const PatchSupport& sight = sights_[at(face.patch)];
+  if (fold == EdgeConvexity::Flat || fold == EdgeConvexity::Concave || !(sight.gap <= 0) || is_edge_owned_by_neighbour(f, side))
+    return false;
+  const Vector3& across = face.outward[at(side)];
+  arc = {surface_.patches()[at(face.patch)].normal, across, 0.5 * std::numbers::pi, face.vertices[at(side)]};
+  low = arc.sample(0, sight.deepest);
+  if (fold == EdgeConvexity::Border) {
+    if (!(low.slope > surface_.rounding())) return false;
+    high = arc.sample(arc.end, probe);
+    return true;
+  }
+  const std::size_t other = at(surface_.faces()[at(face.neighbour[at(side)])].patch);
+  const Vector3& other_normal = surface_.patches()[other].normal;
+  const double angle = std::atan2(other_normal.dot(across), other_normal.dot(arc.from));
+  arc.end = angle > 0 ? angle : std::numbers::pi;  // back to back
+  high = arc.sample(arc.end, sights_[other].deepest);
+  return sights_[other].gap <= 0;
+}
+
+void MeshContacts::find_on_edge(SupportProbe& probe, int f, int side) {
+  Arc arc;
+  ArcSample low;
+  ArcSample high;
+  if (!open_arc(probe, f, side, arc, low, high)) return;
+  if (have_maximum_between(low, high, surface_.rounding())) find_on_arc(probe, f, side, arc, low, high);
+}
+
+double MeshContacts::arc_tolerance() const {
+  return std::max(kArcTolerance * settings_.tolerance * length_unit_, 1e-3 * surface_.rounding());
+}
+
+void MeshContacts::find_on_arc(SupportProbe& probe, int f, int side, const Arc& arc, const ArcSample& low, const ArcSample& high) {
+  const Face& face = surface_.faces()[at(f)];
+  const int first_evaluation = probe.evaluations();
+  const ArcMaximum top = maximize_between(probe, arc, low, high, arc_tolerance(), settings_.max_evaluations);
+  if (top.is_apart || !(top.gap <= 0)) return;
+  const Vector3 edge = face.vertices[at(next(side))] - arc.edge_point;
+  const double share = edge.dot(top.point - arc.edge_point) / edge.squaredNorm();
+  SurfaceContact contact = contact_at(f, top.normal, top.gap, top.point);
+  contact.crease = surface_.corner_count() + 3 * f + side;
+  contact.surface_point = arc.edge_point + share * edge;
+  contact.feature_point = arc.edge_point + std::clamp(share, 0.0, 1.0) * edge;
+  const bool is_beyond_end = (contact.feature_point - contact.surface_point).norm() > surface_.rounding();
+  if (is_beyond_end && surface_.find_wall(top.normal, contact.feature_point, contact.surface_point) < 0) {
+    find_on_vertex(probe, f, share < 0 ? side : next(side), top.normal);
+    return;
+  }
+  contact.error = top.error;
+  contact.evaluations = probe.evaluations() - first_evaluation;
+  contact.status = top.converged ? Status::Converged : Status::EvaluationLimit;
+  if (face.fold[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point)) return;
+  if (surface_.violates_normal_cone(contact.normal, contact.feature_point, contact.surface_point)) return;
+  if (touches_surface(probe, contact)) found_.add(contact);
+}
+
+// Solved for the hull of the triangles there, not for the point alone, whose gap may be larger still along normals that are none of
+// the surface.
+void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vector3& start) {
+  const int corner = surface_.faces()[at(f)].corner[at(k)];
+  if (settled_[at(corner)] != 0) return;
+  hull_.clear();
+  for (const Face& face : surface_.faces()) {
+    if (std::find(face.corner.begin(), face.corner.end(), corner) == face.corner.end()) continue;
+    hull_.insert(hull_.end(), face.vertices.begin(), face.vertices.end());
+  }
+  const Proximity found = solve_for_hull(probe, surface_.faces()[at(f)].vertices[at(k)], &start);
+  if (found.status == Status::InvalidInput) return;
+  const bool is_apart = found.status == Status::Apart || found.gap > 0;
+  // Another edge's contact is found over that edge; but the edge that led here may be in touch with a flat side of the body, any
+  // point of which was as good as the one found there.
+  const bool is_other_edge = (found.normal + start).norm() > kNearEdgeNormal && is_normal_of_edge_at(corner, -found.normal);
+  // Where it is no normal of the vertex, another edge may lead to another maximum.
+  settled_[at(corner)] = is_apart || (!is_other_edge && add_at_vertex(probe, f, k, found)) ? 1 : 0;
+}
+
+bool MeshContacts::is_normal_of_edge_at(int corner, const Vector3& normal) const {
+  return std::any_of(surface_.faces().begin(), surface_.faces().end(), [&](const Face& face) {
+    const auto* const found = std::find(face.corner.begin(), face.corner.end(), corner);
+    if (found == face.corner.end()) return false;
+    const int k = static_cast<int>(found - face.corner.begin());
+    return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& other) {
+      const Vector3 edge = other - face.vertices[at(k)];
+      return normal.dot(edge) > -kNearEdgeNormal * edge.norm();
+    });
+  });
+}
+
+Proximity MeshContacts::solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start) {
+  for (Vector3& point : hull_) point -= origin;
+  Vector3 first_normal;
+  if (start != nullptr) first_normal = -(probe.rotation().transpose() * *start);
+  const Proximity found = find_proximity(probe.shape(), {Vector3::Zero(), probe.rotation()}, Polytope(hull_),
+                                         {origin, Matrix3::Identity()}, settings_, start != nullptr ? &first_normal : nullptr);
+  probe.count(found.evaluations);
+  return found;
+}
+
+// False when the normal is none of the surface there, or when that cannot be told.
+bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
+  const Face& face = surface_.faces()[at(f)];
+  const Vector3& vertex = face.vertices[at(k)];
+  if (!has_complete_neighbourhood(probe, vertex)) return false;
+  SurfaceContact contact = contact_at(f, -found.normal, found.gap, found.point1);
+  contact.surface_point = contact.feature_point = vertex;
+  contact.crease = face.corner[at(k)];
+  contact.error = found.error;
+  contact.evaluations = found.evaluations;
+  contact.status = found.status;
+  if (surface_.violates_normal_cone(contact.normal, vertex, vertex) || !is_outside_at(face.corner[at(k)], contact.normal))
+    return false;
+  if (touches_surface(probe, contact)) found_.add(contact);
+  return true;
+}
+
+// The deepest point may lie under no face although the solid goes on there.
+//
+// A sharp tip that is pressed into the corner of floor and wall: where the floor's plane is above the tip, there is the wall
+// already. The solid goes on below the wall, and so does the contact with the floor.
+//
+// A thin rod that stands deep in the floor: above its tip the floor is out of the body's box, and its triangles are not known.
+//
+// But only as far as there is solid: beyond a low wall the floor's plane is in the air. Where the body sticks out of that plane it
+// must be in the solid, so that a face that is known lies between there and its other end.
+void MeshContacts::find_beyond_rim(SupportProbe& probe, std::size_t p) {
+  const CoplanarPatch& patch = surface_.patches()[p];
+  const PatchSupport& sight = sights_[p];
+  if (!(sight.gap <= 0) || sight.is_over) return;
+  const Vector3 to_top = probe.deepest(-patch.normal).point - sight.deepest;
+  const double rise = patch.normal.dot(to_top);
+  if (!(rise > -sight.gap)) return;  // all of it is behind
+  if (!surface_.exits_solid(sight.deepest - sight.gap / rise * to_top, sight.deepest + to_top)) return;
+  SurfaceContact contact = contact_at(patch.first_face, patch.normal, sight.gap, sight.deepest);
+  int side = 0;
+  contact.feature_point = surface_.nearest_on_rim(patch, contact.surface_point, contact.face, side);
+  const Face& face = surface_.faces()[at(contact.face)];
+  const bool goes_on_behind_wall = surface_.find_wall(patch.normal, contact.feature_point, contact.surface_point) >= 0;
+  const bool goes_on_unseen =
+      face.fold[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point);
+  if (goes_on_unseen || goes_on_behind_wall) beyond_rim_.add(contact);
+}
+
+// Of nearly parallel ones the deepest, whatever the order of the triangles.
+void MeshContacts::add_beyond_rim() {
+  beyond_rim_.sort();
+  for (const SurfaceContact& contact : beyond_rim_.contacts()) {
+    if (!found_.has_similar(contact.normal, contact.body_point)) found_.add(contact);
+  }
+}
+
+// The angle-weighted mean of the normals at a vertex tells outside from inside (Baerentzen, Aanaes: Signed distance computation
+// using the angle weighted pseudonormal, IEEE TVCG 11, 2005).
+bool MeshContacts::is_outside_at(int corner, const Vector3& normal) const {
+  Vector3 mean = Vector3::Zero();
+  for (const Face& face : surface_.faces()) {
+    for (int k = 0; k < 3; ++k) {
+      if (face.corner[at(k)] == corner) mean += angle_at(face, k) * face.normal;
+    }
+  }
+  return normal.dot(mean) >= -1e-12;
+}
+
+// Whether all triangles at a point are there: the caller found those in the body's box.
+bool MeshContacts::has_complete_neighbourhood(const SupportProbe& probe, const Vector3& point) const {
+  return box_.contains(probe.rotation().transpose() * point, surface_.rounding());
+}
+
+// The body's point may lie under a face, and the body beside the solid: a rod that leans against a sheet's border from below.
+// The line from the point to the opposite end of the body lies in the body; where it comes out of the solid it meets the surface.
+bool MeshContacts::touches_surface(SupportProbe& probe, const SurfaceContact& contact) const {
+  const Vector3 top = probe.deepest(-contact.normal).point;
+  if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // behind all of it
+  return surface_.is_crossed(contact.body_point, top, contact.face) || overlaps_face(probe, surface_.faces()[at(contact.face)]);
+}
+
+bool MeshContacts::overlaps_face(SupportProbe& probe, const Face& face) const {
+  const Proximity found = meet_face(probe, face);
+  return found.status != Status::Apart && found.gap <= 0;
+}
+
+Proximity MeshContacts::meet_face(SupportProbe& probe, const Face& face) const {
+  const Proximity found = find_triangle_proximity(probe.shape(), {Vector3::Zero(), probe.rotation()}, face.vertices, settings_);
+  probe.count(found.evaluations);
+  return found;
+}
+
+// Where no normal is that of a maximum, the shortest way out of one of the faces that the body crosses. So it is with a body that
+// has sunk and comes out of the solid at the foot of a wall only, or one that comes down across an inner corner: the surface goes
+// in there under its deepest point. Not where the body is behind the face, as it may be at the border of a sheet.
+void MeshContacts::find_way_up(SupportProbe& probe) {
+  const Vector3 centre = probe.rotation() * box_.centre;
+  std::optional<SurfaceContact> shortest;
+  for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
+    const Face& face = surface_.faces()[f];
+    const PatchSupport& sight = sights_[at(face.patch)];
+    if (!(sight.gap <= 0) || (shortest && sight.gap <= shortest->gap)) continue;
+    const Proximity found = meet_face(probe, face);
+    if (found.status == Status::Apart || found.gap > 0) continue;
+    const bool is_in_front = face.normal.dot(centre - face.vertices[0]) > surface_.rounding();
+    // Of a flat side of the body point1 may be any point.
+    const Vector3 opposite = found.point2 - found.gap * found.normal;
+    if (!is_in_front && !surface_.exits_solid(centre, found.point1) && !surface_.exits_solid(centre, opposite)) continue;
+    shortest = contact_at(static_cast<int>(f), face.normal, sight.gap, sight.deepest);
+  }
+  if (shortest) found_.add(*shortest);
+}
+
+std::span<const MeshContact> MeshContacts::to_world(const Vector3& origin) {
+  for (const SurfaceContact& found : found_.contacts()) {
+    Proximity out;
+    out.gap = found.gap;
+    out.error = found.error;
+    out.normal = -found.normal;
+    out.point1 = origin + found.body_point;
+    out.point2 = out.point1 - found.gap * found.normal;
+    out.contact = out.point1;
+    out.evaluations = found.evaluations;
+    out.status = found.status;
+    contacts_.push_back({out, surface_.faces()[at(found.face)].triangle});
+  }
+  return contacts_;
+}
+
+}  // namespace supernormal

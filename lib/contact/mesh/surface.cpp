@@ -1,0 +1,282 @@
+#include "contact/mesh/surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace supernormal {
+namespace {
+
+// A triangle whose height is less than this share of its longest side has no normal to speak of.
+constexpr double kNoHeight = 1e-12;
+
+// Normals that differ by less than this (radians) are one by rounding.
+constexpr double kFlat = 1e-12;
+
+// -0 and 0 are equal.
+std::uint64_t hash(const Vector3& v) {
+  std::uint64_t h = 0;
+  for (int i = 0; i < 3; ++i) {
+    h = (h ^ std::bit_cast<std::uint64_t>(v[i] + 0.0)) * 0x9e3779b97f4a7c15U;
+    h ^= h >> 29U;
+  }
+  return h;
+}
+
+// Whether the face stands out of the tangent plane by more than what touching allows for, and not by a rounding of the normal.
+bool rises(const Face& face, const Vector3& normal, const Vector3& from, double contact_tolerance) {
+  return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& vertex) {
+    const Vector3 reach = vertex - from;
+    return normal.dot(reach) > contact_tolerance + 1e-9 * reach.norm();
+  });
+}
+
+int next(int k) { return k == 2 ? 0 : k + 1; }
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+void Surface::build(std::span<const MeshTriangle> triangles, const Vector3& origin, double length_unit) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  faces_.clear();
+  largest_ = 0;
+  for (const MeshTriangle& triangle : triangles) append(triangle, origin);
+  rounding_ = 1e-12 * length_unit + 8 * kEpsilon * (largest_ + origin.lpNorm<Eigen::Infinity>());
+  contact_tolerance_ = 1e-7 * length_unit + rounding_;
+  number_corners();
+  match_edges();
+  collect_patches();
+}
+
+void Surface::append(const MeshTriangle& triangle, const Vector3& origin) {
+  if (!is_usable(triangle)) return;
+  Face face;
+  double longest = 0;
+  double farthest = 0;
+  for (int k = 0; k < 3; ++k) {
+    face.vertices[at(k)] = triangle.vertices[at(k)] - origin;
+    farthest = std::max(farthest, face.vertices[at(k)].lpNorm<Eigen::Infinity>());
+  }
+  std::array<Vector3, 3> edges;
+  for (int k = 0; k < 3; ++k) {
+    edges[at(k)] = face.vertices[at(next(k))] - face.vertices[at(k)];
+    longest = std::max(longest, edges[at(k)].norm());
+  }
+  const Vector3 area = edges[0].cross(edges[1]);  // twice the area, along the normal
+  const double length = area.norm();
+  if (!(length > kNoHeight * longest * longest) || !std::isfinite(length)) return;
+  face.normal = area / length;
+  for (std::size_t k = 0; k < 3; ++k) face.outward[k] = edges[k].normalized().cross(face.normal);
+  largest_ = std::max(largest_, farthest);
+  face.triangle = triangle.index;
+  face.corner = {-1, -1, -1};
+  face.neighbour = {-1, -1, -1};
+  face.fold = {EdgeConvexity::Border, EdgeConvexity::Border, EdgeConvexity::Border};
+  face.patch = -1;
+  face.next_in_patch = -1;
+  faces_.push_back(face);
+}
+
+void Surface::number_corners() {
+  const std::size_t slots = std::bit_ceil(6 * faces_.size() + 1);
+  corner_table_.assign(slots, -1);
+  corner_count_ = 0;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3& vertex = faces_[f].vertices[k];
+      std::size_t slot = hash(vertex) & (slots - 1);
+      int& corner = faces_[f].corner[k];
+      for (; corner < 0; slot = (slot + 1) & (slots - 1)) {
+        int& entry = corner_table_[slot];
+        if (entry < 0) {
+          entry = static_cast<int>(3 * f + k);
+          corner = corner_count_++;
+        } else if (faces_[at(entry / 3)].vertices[at(entry % 3)] == vertex) {
+          corner = faces_[at(entry / 3)].corner[at(entry % 3)];
+        }
+      }
+    }
+  }
+}
+
+void Surface::match_edges() {
+  uses_.clear();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const std::array<int, 3>& corner = faces_[f].corner;
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(corner[at(k)], corner[at(next(k))]);
+      uses_.push_back(
+          {std::uint64_t{static_cast<std::uint32_t>(low)} << 32U | static_cast<std::uint32_t>(high), static_cast<int>(f), k});
+    }
+  }
+  std::sort(uses_.begin(), uses_.end(),
+            [](const EdgeUse& a, const EdgeUse& b) { return a.edge != b.edge ? a.edge < b.edge : a.face < b.face; });
+  for (auto begin = uses_.begin(); begin != uses_.end();) {
+    const auto end = std::find_if(begin, uses_.end(), [&](const EdgeUse& use) { return use.edge != begin->edge; });
+    match_uses({begin, end});
+    begin = end;
+  }
+}
+
+// The neighbour of a face is the one that goes along the edge the other way. Where several do, the flattest of them: what stands
+// out beside it is found when a contact is checked.
+void Surface::match_uses(std::span<EdgeUse> uses) {
+  for (const EdgeUse& use : uses) {
+    Face& face = faces_[at(use.face)];
+    double best = -std::numeric_limits<double>::infinity();
+    for (const EdgeUse& other : uses) {
+      const Face& candidate = faces_[at(other.face)];
+      if (candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;  // the same way: itself, or wound differently
+      const double flatness = face.normal.dot(candidate.normal);
+      if (flatness <= best) continue;
+      best = flatness;
+      face.neighbour[at(use.side)] = other.face;
+      face.fold[at(use.side)] = fold_between(face, use.side, candidate);
+    }
+  }
+}
+
+EdgeConvexity Surface::fold_between(const Face& face, int side, const Face& neighbour) const {
+  const double sine = neighbour.normal.dot(face.outward[at(side)]);
+  const double cosine = neighbour.normal.dot(face.normal);
+  // Back to back: the two sides of a sheet.
+  if (std::abs(sine) <= kFlat) return cosine > 0 ? EdgeConvexity::Flat : EdgeConvexity::Convex;
+  return sine > 0 ? EdgeConvexity::Convex : EdgeConvexity::Concave;
+}
+
+void Surface::collect_patches() {
+  patches_.clear();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].patch < 0) grow_patch(static_cast<int>(f));
+  }
+  join_parts();
+}
+
+void Surface::grow_patch(int seed) {
+  const int number = static_cast<int>(patches_.size());
+  const Vector3 normal = faces_[at(seed)].normal;
+  patches_.push_back({normal, seed, number});
+  faces_[at(seed)].patch = number;
+  to_visit_.assign(1, seed);
+  int last = seed;
+  while (!to_visit_.empty()) {
+    const Face& face = faces_[at(to_visit_.back())];
+    to_visit_.pop_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (face.fold[k] != EdgeConvexity::Flat) continue;
+      Face& neighbour = faces_[at(face.neighbour[k])];
+      // Many nearly flat folds make a bend: all have the first one's normal.
+      if (neighbour.patch >= 0 || (neighbour.normal - normal).norm() > 2 * kFlat) continue;
+      neighbour.patch = number;
+      faces_[at(last)].next_in_patch = face.neighbour[k];
+      last = face.neighbour[k];
+      to_visit_.push_back(last);
+    }
+  }
+}
+
+void Surface::join_parts() {
+  for (const Face& face : faces_) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (face.fold[k] != EdgeConvexity::Convex && face.fold[k] != EdgeConvexity::Flat) continue;
+      const int part1 = find_part(face.patch);
+      const int part2 = find_part(faces_[at(face.neighbour[k])].patch);
+      patches_[at(std::max(part1, part2))].part = std::min(part1, part2);
+    }
+  }
+  for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p].part = find_part(static_cast<int>(p));
+}
+
+int Surface::find_part(int patch) {
+  while (patches_[at(patch)].part != patch) {
+    patches_[at(patch)].part = patches_[at(patches_[at(patch)].part)].part;
+    patch = patches_[at(patch)].part;
+  }
+  return patch;
+}
+
+bool Surface::is_over(const Face& face, const Vector3& point) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (face.outward[k].dot(point - face.vertices[k]) > rounding_) return false;
+  }
+  return true;
+}
+
+Vector3 Surface::nearest_on_rim(const CoplanarPatch& patch, const Vector3& point, int& face_there, int& side_there) const {
+  Vector3 nearest = Vector3::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  face_there = patch.first_face;
+  side_there = 0;
+  for (int f = patch.first_face; f >= 0; f = faces_[at(f)].next_in_patch) {
+    const Face& face = faces_[at(f)];
+    for (int k = 0; k < 3; ++k) {
+      if (face.fold[at(k)] == EdgeConvexity::Flat) continue;
+      const Vector3& start = face.vertices[at(k)];
+      const Vector3 edge = face.vertices[at(next(k))] - start;
+      const double share = std::clamp(edge.dot(point - start) / edge.squaredNorm(), 0.0, 1.0);
+      const Vector3 candidate = start + share * edge;
+      const double squared = (candidate - point).squaredNorm();
+      if (squared >= least) continue;
+      least = squared;
+      nearest = candidate;
+      face_there = f;
+      side_there = k;
+    }
+  }
+  return nearest;
+}
+
+bool Surface::touches(const Face& face, const Vector3& point) const {
+  if (std::abs(face.normal.dot(point - face.vertices[0])) > contact_tolerance_) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (face.outward[k].dot(point - face.vertices[k]) > contact_tolerance_) return false;
+  }
+  return true;
+}
+
+int Surface::find_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond, int first) const {
+  const auto found = std::find_if(faces_.begin() + first, faces_.end(), [&](const Face& face) {
+    return face.normal.dot(beyond - at) < -rounding_ && touches(face, at) && rises(face, normal, at, contact_tolerance_);
+  });
+  return found == faces_.end() ? -1 : static_cast<int>(found - faces_.begin());
+}
+
+bool Surface::violates_normal_cone(const Vector3& normal, const Vector3& at, const Vector3& foot) const {
+  return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+    return touches(face, at) && rises(face, normal, at, contact_tolerance_) && !(face.normal.dot(foot - at) < -rounding_);
+  });
+}
+
+// Where on the segment the face is met, 0...1; infinite if it is not.
+double Surface::share_to(const Face& face, const Vector3& start, const Vector3& end) const {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  const double height1 = face.normal.dot(start - face.vertices[0]);
+  const double height2 = face.normal.dot(end - face.vertices[0]);
+  if (std::min(height1, height2) > rounding_ || std::max(height1, height2) < -rounding_) return kNowhere;
+  const double rise = height2 - height1;
+  const double share = rise == 0 ? 0.5 : std::clamp(-height1 / rise, 0.0, 1.0);
+  if (!is_over(face, start + share * (end - start))) return kNowhere;
+  return share;
+}
+
+bool Surface::is_crossed(const Vector3& start, const Vector3& end, int first) const {
+  return share_to(faces_[at(first)], start, end) <= 1 ||
+         std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) { return share_to(face, start, end) <= 1; });
+}
+
+bool Surface::exits_solid(const Vector3& start, const Vector3& end) const {
+  double least = std::numeric_limits<double>::infinity();
+  bool is_outward = false;
+  for (const Face& face : faces_) {
+    const double share = share_to(face, start, end);
+    if (!(share < least)) continue;
+    least = share;
+    is_outward = face.normal.dot(end - start) > 0;
+  }
+  return is_outward;
+}
+
+}  // namespace supernormal

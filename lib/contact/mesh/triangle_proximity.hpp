@@ -1,0 +1,16 @@
+// A body and one triangle.
+#pragma once
+
+#include <array>
+
+#include "supernormal/proximity/pose.hpp"
+#include "supernormal/proximity/proximity.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal {
+
+/// find_proximity() with the triangle, two-sided, as the second body. `vertices` in m, in the frame that the pose refers to.
+Proximity find_triangle_proximity(const Shape& shape, const Pose& pose, const std::array<Vector3, 3>& vertices,
+                                  const Settings& settings, const Vector3* first_normal = nullptr);
+
+}  // namespace supernormal

@@ -1,0 +1,40 @@
+// The snCreate… functions.
+#include <memory>
+#include <utility>
+
+#include "ode/api/last_error.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "ode/geom/user_shape.hpp"
+#include "supernormal/supernormal.h"
+
+using namespace supernormal::ode;
+
+extern "C" dGeomID snCreateEllipsoid(dSpaceID space, dReal a, dReal b, dReal c) {
+  return guarded("snCreateEllipsoid", dGeomID{}, [&] {
+    return create_geom(space, std::make_unique<Body>(SuperellipsoidParameters{{a, b, c}, 2, 2}));
+  });
+}
+
+extern "C" dGeomID snCreateSuperellipsoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon) {
+  return guarded("snCreateSuperellipsoid", dGeomID{}, [&] {
+    return create_geom(space, std::make_unique<Body>(SuperellipsoidParameters{{a, b, c}, delta, epsilon}));
+  });
+}
+
+extern "C" dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
+                                      dReal taper_y) {
+  return guarded("snCreateSuperovoid", dGeomID{}, [&] {
+    return create_geom(space, std::make_unique<Body>(SuperovoidParameters{{{a, b, c}, delta, epsilon}, taper_x, taper_y}));
+  });
+}
+
+extern "C" dGeomID snCreateConvex(dSpaceID space, const snShape* shape) {
+  return guarded("snCreateConvex", dGeomID{}, [&] {
+    auto body = std::make_unique<Body>(make_user_shape(shape));
+    Body& alive = *body;
+    const dGeomID geom = create_geom(space, std::move(body));
+    alive.set_release_callback(shape->release, shape->user);  // from here on: a refused call does not release
+    return geom;
+  });
+}

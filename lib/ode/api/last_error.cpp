@@ -1,0 +1,23 @@
+#include "ode/api/last_error.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+thread_local std::array<char, 512> text{};  // longer texts are cut
+
+}  // namespace
+
+void set_last_error(const char* function, const char* message) noexcept {
+  std::snprintf(text.data(), text.size(), "%s: %s", function, message);
+}
+
+const char* last_error() noexcept { return text.data(); }
+
+}  // namespace supernormal::ode
+
+extern "C" const char* snLastError(void) { return supernormal::ode::last_error(); }

@@ -1,0 +1,75 @@
+// dMass from the volume integrals of the body.
+#include <cmath>
+#include <stdexcept>
+
+#include "ode/api/last_error.hpp"
+#include "ode/api/require.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+constexpr double kMaxRelativeError = 0.01;
+
+void require_usable(const MassProperties& properties) {
+  // Faces and edges of a user-defined body have no normal of their own to be found by; what they hold may be missing.
+  if (properties.relative_error > kMaxRelativeError) {
+    throw std::domain_error("the volume of the geom, " + to_text(properties.volume) + " m^3, is uncertain by " +
+                            to_text(100 * properties.relative_error) +
+                            " %, but must be known to 1 %: give ODE the mass of such a body by "
+                            "dMassSetParameters");
+  }
+  const bool finite = properties.centroid.allFinite() && properties.second_moment.allFinite();
+  if (finite && properties.volume > 0 && std::isfinite(properties.volume)) return;
+  throw std::invalid_argument("the volume of the geom is " + to_text(properties.volume) + " m^3, but must be in (0, inf)");
+}
+
+// ODE's inertia tensor is the one about the origin of the frame that the centre of mass is given in, not about that centre
+// (dMassTranslate and dMassCheck show it): tr(S) 1 - S with the second moment S about the origin.
+void set_mass(dMass* mass, const MassProperties& properties, double density) {
+  const Matrix3& S = properties.second_moment;
+  const Matrix3 inertia = density * (S.trace() * Matrix3::Identity() - S);
+  const Vector3& c = properties.centroid;
+  dMass result;
+  dMassSetParameters(&result, to_real(density * properties.volume), to_real(c.x()), to_real(c.y()), to_real(c.z()),
+                     to_real(inertia(0, 0)), to_real(inertia(1, 1)), to_real(inertia(2, 2)), to_real(inertia(0, 1)),
+                     to_real(inertia(0, 2)), to_real(inertia(1, 2)));
+  // dMassCheck lets infinite ones pass.
+  const bool is_finite =
+      std::isfinite(result.mass) && std::isfinite(result.I[0]) && std::isfinite(result.I[5]) && std::isfinite(result.I[10]);
+  if (!is_finite || dMassCheck(&result) == 0) {
+    throw std::invalid_argument("mass = " + to_text(result.mass) +
+                                " kg: ODE does not accept it (dMassCheck), or a moment of inertia is " +
+                                "not finite: too small, too large or too heavy a body");
+  }
+  *mass = result;
+}
+
+}  // namespace
+}  // namespace supernormal::ode
+
+using namespace supernormal::ode;
+
+extern "C" int snMassSet(dMass* mass, dReal density, dGeomID geom) {
+  return guarded("snMassSet", 0, [&] {
+    require_not_null("mass", mass);
+    require_positive("density", density, "kg/m^3");
+    const auto properties = require_body(geom).shape().mass_properties();
+    require_usable(properties);
+    set_mass(mass, properties, density);
+    return 1;
+  });
+}
+
+extern "C" int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom) {
+  return guarded("snMassSetTotal", 0, [&] {
+    require_not_null("mass", mass);
+    require_positive("total_mass", total_mass, "kg");
+    const auto properties = require_body(geom).shape().mass_properties();
+    require_usable(properties);
+    set_mass(mass, properties, total_mass / properties.volume);
+    return 1;
+  });
+}

@@ -1,0 +1,92 @@
+// Reading and changing what a geom is.
+#include <stdexcept>
+#include <string>
+
+#include "ode/api/last_error.hpp"
+#include "ode/api/require.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+const SuperellipsoidParameters& require_superellipsoid(const Body& body) {
+  if (body.superellipsoid() != nullptr) return *body.superellipsoid();
+  throw std::invalid_argument(std::string("geom is ") + (body.superovoid() != nullptr ? "a superovoid" : "a user-defined body") +
+                              ", but must be an ellipsoid or a superellipsoid");
+}
+
+const SuperovoidParameters& require_superovoid(const Body& body) {
+  if (body.superovoid() != nullptr) return *body.superovoid();
+  throw std::invalid_argument(std::string("geom is ") +
+                              (body.superellipsoid() != nullptr ? "a superellipsoid" : "a user-defined body") +
+                              ", but must be a superovoid");
+}
+
+void get_superellipsoid(const SuperellipsoidParameters& parameters, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon) {
+  require_not_null("a", a);
+  require_not_null("b", b);
+  require_not_null("c", c);
+  require_not_null("delta", delta);
+  require_not_null("epsilon", epsilon);
+  *a = to_real(parameters.half_axes.x());
+  *b = to_real(parameters.half_axes.y());
+  *c = to_real(parameters.half_axes.z());
+  *delta = to_real(parameters.delta);
+  *epsilon = to_real(parameters.epsilon);
+}
+
+}  // namespace
+}  // namespace supernormal::ode
+
+using namespace supernormal::ode;
+
+extern "C" int snGeomSuperellipsoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon) {
+  return guarded("snGeomSuperellipsoidSetParams", 0, [&] {
+    Body& body = require_body(geom);
+    require_superellipsoid(body);
+    body.set_superellipsoid({{a, b, c}, delta, epsilon});
+    dGeomMoved(geom);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSuperellipsoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon) {
+  return guarded("snGeomSuperellipsoidGetParams", 0, [&] {
+    get_superellipsoid(require_superellipsoid(require_body(geom)), a, b, c, delta, epsilon);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSuperovoidSetParams(dGeomID geom, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
+                                         dReal taper_y) {
+  return guarded("snGeomSuperovoidSetParams", 0, [&] {
+    Body& body = require_body(geom);
+    require_superovoid(body);
+    body.set_superovoid({{{a, b, c}, delta, epsilon}, taper_x, taper_y});
+    dGeomMoved(geom);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, dReal* c, dReal* delta, dReal* epsilon, dReal* taper_x,
+                                         dReal* taper_y) {
+  return guarded("snGeomSuperovoidGetParams", 0, [&] {
+    const SuperovoidParameters& parameters = require_superovoid(require_body(geom));
+    require_not_null("taper_x", taper_x);
+    require_not_null("taper_y", taper_y);
+    get_superellipsoid(parameters.straight, a, b, c, delta, epsilon);
+    *taper_x = to_real(parameters.taper_x);
+    *taper_y = to_real(parameters.taper_y);
+    return 1;
+  });
+}
+
+extern "C" int snGeomSetRounding(dGeomID geom, dReal radius) {
+  return guarded("snGeomSetRounding", 0, [&] {
+    require_body(geom).set_rounding(radius);
+    dGeomMoved(geom);
+    return 1;
+  });
+}

@@ -1,0 +1,29 @@
+// Our bodies and dConvex: the convex hull of its vertices, whatever its polygons and planes say.
+#include "ode/colliders/collider.hpp"
+#include "ode/colliders/convex/convex_vertices.hpp"
+#include "ode/colliders/solve_pair.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/runtime/warm_start.hpp"
+#include "supernormal/shapes/polytope.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+/// This thread's, kept from query to query for the memory in it.
+ConvexVertices& kept_vertices() {
+  thread_local ConvexVertices kept;
+  return kept;
+}
+
+}  // namespace
+
+ContactManifold query_convex(dGeomID ours, dGeomID collider, Goal goal) {
+  ConvexVertices& vertices = kept_vertices();
+  if (!vertices.read(collider)) return {};
+  const Polytope hull(vertices.points());
+  const auto count = static_cast<double>(vertices.points().size());
+  const ColliderShape shape{hull, vertices.pose(), collider_kind(dConvexClass, {count})};
+  return solve_pair(ours, shape, goal);
+}
+
+}  // namespace supernormal::ode

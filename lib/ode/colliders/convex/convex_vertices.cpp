@@ -1,0 +1,96 @@
+#include "ode/colliders/convex/convex_vertices.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+
+#include "ode/geom/convert.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+constexpr std::size_t kFirstRoom = 256;
+constexpr std::size_t kMostRoom = 0xffff;  // that dCollide can be told of
+
+using Box = Eigen::AlignedBox3d;
+
+Box aabb_of(dGeomID geom) {
+  dReal aabb[6];
+  dGeomGetAABB(geom, aabb);
+  return {Vector3(aabb[0], aabb[2], aabb[4]), Vector3(aabb[1], aabb[3], aabb[5])};
+}
+
+Box box_of(std::span<const Vector3> points) {
+  Box box;
+  for (const Vector3& point : points) box.extend(point);
+  return box;
+}
+
+bool is_finite(const Box& box) { return box.min().allFinite() && box.max().allFinite(); }
+
+}  // namespace
+
+ConvexVertices::ConvexVertices() : plane_(dCreatePlane(nullptr, 1, 0, 0, 0)), contacts_(kFirstRoom) {}
+
+ConvexVertices::~ConvexVertices() { dGeomDestroy(plane_); }
+
+// The plane and with it the order of the vertices follows from the box, which ODE computes when it needs it: inside a
+// dGeomTransform it may be that of an earlier pose. Then the first list, if it is one, serves to find the right one.
+bool ConvexVertices::read(dGeomID convex) {
+  const Pose geom_pose = pose_of(convex);
+  if (!geom_pose.position.allFinite() || !geom_pose.rotation.allFinite()) return false;
+  Box box = aabb_of(convex);
+  if (!list(convex, box) && dGeomGetSpace(convex) == nullptr) {  // a space may be locked, and dGeomMoved would abort
+    dGeomMoved(convex);
+    box = aabb_of(convex);
+    list(convex, box);
+  }
+  if (!is_finite(box)) return false;
+  if (points_.empty()) {
+    throw std::invalid_argument("the dConvex has no vertices where its bounding box is; after dGeomSetConvex call dGeomMoved");
+  }
+  const Box actual = box_of(points_);
+  if (!is_finite(actual)) return false;
+  if (actual.min() != box.min() || actual.max() != box.max()) list(convex, actual);
+  move_to_middle(geom_pose);
+  return std::all_of(points_.begin(), points_.end(), [](const Vector3& point) { return point.allFinite(); });
+}
+
+// World frame; by a plane across the longest side of a box around them, which thus has vertices on both sides or on it. False, and
+// no points, when it has not: ODE has no contacts then.
+bool ConvexVertices::list(dGeomID convex, const Eigen::AlignedBox3d& box) {
+  points_.clear();
+  int axis = 0;
+  const double length = box.sizes().maxCoeff(&axis);
+  const double offset = box.min()[axis] + 0.5 * length;
+  if (list_below(convex, axis, 1, offset, true) && list_below(convex, axis, -1, -offset, false)) return true;
+  points_.clear();
+  return false;
+}
+
+// The vertices v with side * v[axis] <= offset, or < if not `with_plane`.
+bool ConvexVertices::list_below(dGeomID convex, int axis, double side, double offset, bool with_plane) {
+  const Vector3 normal = side * Vector3::Unit(axis);
+  dGeomPlaneSetParams(plane_, to_real(normal.x()), to_real(normal.y()), to_real(normal.z()), to_real(offset));
+  std::size_t count = 0;
+  while (true) {
+    count = static_cast<std::size_t>(
+        dCollide(convex, plane_, static_cast<int>(contacts_.size()), contacts_.data(), sizeof(dContactGeom)));
+    if (count < contacts_.size()) break;
+    if (count == kMostRoom) throw std::invalid_argument("the dConvex has more vertices than can be read: 65534 on each side");
+    contacts_.resize(std::min(4 * contacts_.size(), kMostRoom));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    if (with_plane || contacts_[k].depth != 0) points_.push_back(to_vector(contacts_[k].pos));
+  }
+  return count > 0;
+}
+
+void ConvexVertices::move_to_middle(const Pose& geom_pose) {
+  for (Vector3& point : points_) point = geom_pose.rotation.transpose() * (point - geom_pose.position);
+  const Vector3 middle = box_of(points_).center();
+  for (Vector3& point : points_) point -= middle;
+  pose_ = {geom_pose.position + geom_pose.rotation * middle, geom_pose.rotation};
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,21 @@
+// Our bodies and dPlane, the half-space n.x <= d.
+#include "supernormal/proximity/plane.hpp"
+
+#include "ode/colliders/collider.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/runtime/statistics.hpp"
+
+namespace supernormal::ode {
+
+ContactManifold query_plane(dGeomID ours, dGeomID collider, Goal goal) {
+  const Body& body = require_body(ours);
+  dVector4 plane;
+  dGeomPlaneGetParams(collider, plane);
+  const Pose pose = pose_of(ours);
+  const Proximity result = find_plane_proximity(body.shape(), pose, to_vector(plane), plane[3]);
+  count_closed_form();
+  return goal == Goal::Contacts ? find_plane_contact_manifold(body.shape(), pose, result) : ContactManifold(result);
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,65 @@
+// Our bodies and dRay.
+//
+// ODE's contact of a ray is no overlap: `depth` is the distance along the ray, `pos` the hit, and the normal opposes the ray, so
+// that it is the outward one from outside and the inward one from inside. A ray of no length hits nothing. As with ODE's own
+// convex geoms, firstContact, backfaceCull and closestHit make no difference.
+#include "supernormal/raycast/ray.hpp"
+
+#include "ode/api/last_error.hpp"
+#include "ode/colliders/collider.hpp"
+#include "ode/colliders/contact.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/runtime/statistics.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+/// Not by the geom's rotation: dGeomRaySet writes one column of it only.
+struct Ray {
+  Vector3 origin, direction;
+  double length;
+
+  explicit Ray(dGeomID geom) : length(dGeomRayGetLength(geom)) {
+    dVector3 start, along;
+    dGeomRayGet(geom, start, along);
+    origin = to_vector(start);
+    direction = to_vector(along);
+  }
+};
+
+/// The contact that the writer turns into ODE's.
+Proximity as_contact(const RayHit& hit) {
+  Proximity contact;
+  contact.gap = -hit.distance;
+  contact.normal = hit.from_inside ? Vector3(-hit.normal) : hit.normal;
+  contact.contact = hit.point;
+  contact.evaluations = hit.evaluations;
+  contact.status = hit.hit || hit.status != Status::Converged ? hit.status : Status::Apart;
+  return contact;
+}
+
+}  // namespace
+
+ContactManifold query_ray(dGeomID ours, dGeomID collider, Goal goal) {
+  const Body& body = require_body(ours);
+  const Ray ray(collider);
+  const Settings settings = for_goal(body.settings(), goal);
+  const Proximity result = find_ray_proximity(body.shape(), pose_of(ours), ray.origin, ray.direction, ray.length, settings);
+  count_query(result, false);
+  return result;
+}
+
+int collide_with_ray(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
+  return guarded("dCollide", 0, [&] {
+    const Body& body = require_body(ours);
+    const Ray ray(collider);
+    if (!(ray.length > 0)) return 0;
+    const RayHit hit = find_ray_hit(body.shape(), pose_of(ours), ray.origin, ray.direction, ray.length, body.settings());
+    const Proximity contact = as_contact(hit);
+    count_query(contact, false);
+    return hit.hit ? write_contacts(contact, {ours, collider, flags, contacts, skip}) : 0;
+  });
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,19 @@
+// Our bodies and dSphere.
+#include "supernormal/shapes/sphere.hpp"
+
+#include "ode/colliders/collider.hpp"
+#include "ode/colliders/solve_pair.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/runtime/warm_start.hpp"
+
+namespace supernormal::ode {
+
+// However the sphere is turned, it is as good as turned with the body: so it has the same place as long as it has the same place on
+// the body. And the normals at which s has its maxima do not depend on the radius: any sphere that has come to this place will do.
+ContactManifold query_sphere(dGeomID ours, dGeomID collider, Goal goal) {
+  const Sphere sphere(dGeomSphereGetRadius(collider));
+  const Pose pose{to_vector(dGeomGetPosition(collider)), rotation_of(ours)};
+  return solve_pair(ours, {sphere, pose, collider_kind(dSphereClass, {})}, goal);
+}
+
+}  // namespace supernormal::ode

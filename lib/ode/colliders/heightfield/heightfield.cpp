@@ -1,0 +1,181 @@
+// Our bodies and dHeightfield: the solid below its triangles.
+#include <span>
+#include <vector>
+
+#include "contact/mesh/body_box.hpp"
+#include "contact/mesh/mesh_contacts.hpp"
+#include "contact/mesh/mesh_manifold.hpp"
+#include "contact/mesh/nearest_triangle.hpp"
+#include "ode/api/last_error.hpp"
+#include "ode/colliders/collider.hpp"
+#include "ode/colliders/contact.hpp"
+#include "ode/colliders/heightfield/heightfield_patch.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/runtime/statistics.hpp"
+#include "supernormal/proximity/plane.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+// The region is wider than the body by this share of it: what touches it must not be lost by rounding.
+constexpr double kMargin = 1e-6;
+
+// A heightfield that is not placeable has no pose that could be asked for.
+Pose pose_of_heightfield(dGeomID heightfield) {
+  Pose pose;
+  dVector3 column;
+  dGeomGetRelPointPos(heightfield, 0, 0, 0, column);
+  pose.position = to_vector(column);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 unit = Vector3::Unit(axis);
+    dGeomVectorToWorld(heightfield, to_real(unit.x()), to_real(unit.y()), to_real(unit.z()), column);
+    pose.rotation.col(axis) = to_vector(column);
+  }
+  pose.rotation = orthonormal(pose.rotation, heightfield);
+  return pose;
+}
+
+/// The body in the frame of a heightfield, and its box.
+struct Visitor {
+  const Shape& shape;
+  Pose pose;
+  Settings settings;
+  BodyBox box;
+  Vector3 centre;   // of the box, m
+  Vector3 extents;  // of the box along the axes of the heightfield, from the centre, m
+
+  Visitor(const Body& body, const Pose& world, const Pose& frame)
+      : shape(body.shape()), settings(body.settings()), box(BodyBox::of(shape)) {
+    pose.rotation = frame.rotation.transpose() * world.rotation;
+    pose.position = frame.rotation.transpose() * (world.position - frame.position);
+    box.half_lengths *= 1 + kMargin;
+    centre = pose.position + pose.rotation * box.centre;
+    extents = pose.rotation.cwiseAbs() * box.half_lengths;
+  }
+
+  bool is_finite() const { return pose.rotation.allFinite() && centre.allFinite() && extents.allFinite(); }
+  double size() const { return extents.maxCoeff(); }
+  Region region() const {
+    return {centre.x() - extents.x(), centre.x() + extents.x(), centre.z() - extents.z(), centre.z() + extents.z()};
+  }
+};
+
+/// What a thread keeps from query to query, for the memory in it.
+struct Scratch {
+  HeightfieldPatch patch;
+  MeshContacts mesh;
+  std::vector<Proximity> contacts;
+  std::vector<LocatedManifold> manifolds;
+};
+
+Scratch& scratch() {
+  thread_local Scratch kept;
+  return kept;
+}
+
+Proximity to_world(Proximity local, const Pose& frame) {
+  local.normal = frame.rotation * local.normal;
+  for (Vector3* const point : {&local.point1, &local.point2, &local.contact}) *point = frame.rotation * *point + frame.position;
+  return local;
+}
+
+ContactManifold to_world(ContactManifold local, const Pose& frame) {
+  local.deepest = to_world(local.deepest, frame);
+  for (int k = 0; k < local.corner_count; ++k) {
+    Vector3& point = local.corners[static_cast<std::size_t>(k)].point;
+    point = frame.rotation * point + frame.position;
+  }
+  return local;
+}
+
+// A body with none of the surface in it is above it or below. Below, it goes out the way of the plane above its middle.
+bool find_way_up(HeightfieldProbe& probe, const Visitor& visitor, Proximity& way_up) {
+  Facet facet;
+  if (!probe.find_facet(visitor.centre.x(), visitor.centre.z(), visitor.size(), facet)) return false;
+  if (visitor.centre.y() > facet.height) return false;
+  const Vector3 on_surface{facet.x, facet.height, facet.z};
+  way_up = find_plane_proximity(visitor.shape, visitor.pose, facet.normal, facet.normal.dot(on_surface));
+  return way_up.gap <= 0;
+}
+
+bool is_above_all(const HeightfieldProbe& probe, const Visitor& visitor) {
+  return visitor.centre.y() - visitor.extents.y() > probe.max_height();
+}
+
+/// In the frame of the heightfield.
+struct Found {
+  std::span<const Proximity> contacts;  // deepest first
+  std::span<const MeshTriangle> triangles;
+};
+
+Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
+  Scratch& kept = scratch();
+  kept.contacts.clear();
+  const std::span<const MeshTriangle> triangles = kept.patch.read(probe, visitor.region());
+  for (const MeshContact& contact : kept.mesh.find(visitor.shape, visitor.pose, triangles, visitor.settings)) {
+    kept.contacts.push_back(contact.proximity);
+  }
+  Proximity way_up;
+  if (kept.contacts.empty() && find_way_up(probe, visitor, way_up)) kept.contacts.push_back(way_up);
+  Proximity all;
+  all.status = kept.contacts.empty() ? Status::Apart : kept.contacts.front().status;
+  all.evaluations = kept.mesh.evaluations();
+  count_query(all, false);
+  return {kept.contacts, triangles};
+}
+
+// The nearest triangle of those below the body is not nearer than the nearest of all, which is therefore below the body widened by
+// that distance.
+Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
+  const Region region = visitor.region();
+  Settings settings = visitor.settings;
+  settings.stop_when_apart = false;
+  Scratch& kept = scratch();
+  const auto nearest_in = [&](const Region& searched) {
+    return find_nearest_triangle(visitor.shape, visitor.pose, kept.patch.read(probe, searched), settings).proximity;
+  };
+  const Proximity below = nearest_in(region);
+  if (below.status == Status::InvalidInput || below.gap <= 0) return below;
+  Proximity nearest = nearest_in(region.widened(below.gap));
+  nearest.evaluations += below.evaluations;
+  return nearest;
+}
+
+}  // namespace
+
+ContactManifold query_heightfield(dGeomID ours, dGeomID collider, Goal /*goal*/) {
+  const Pose frame = pose_of_heightfield(collider);
+  const Visitor visitor(require_body(ours), pose_of(ours), frame);
+  if (!visitor.is_finite()) return {};
+  HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
+  if (!is_above_all(probe, visitor)) {
+    const std::span<const Proximity> contacts = find_contacts(probe, visitor).contacts;
+    if (!contacts.empty()) return to_world(contacts.front(), frame);
+  }
+  return to_world(find_nearest(probe, visitor), frame);
+}
+
+int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
+  return guarded("dCollide", 0, [&] {
+    const Pose frame = pose_of_heightfield(collider);
+    const Visitor visitor(require_body(ours), pose_of(ours), frame);
+    HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
+    if (!visitor.is_finite() || is_above_all(probe, visitor)) return 0;
+    const ContactArray out{ours, collider, flags, contacts, skip};
+    const Found found = find_contacts(probe, visitor);
+    std::vector<LocatedManifold>& manifolds = scratch().manifolds;
+    manifolds.clear();
+    for (const Proximity& contact : found.contacts) {
+      ContactManifold manifold = contact;
+      if (out.room() > 1) {
+        manifold = find_plane_contact_manifold(visitor.shape, visitor.pose, contact);
+        draw_in_corners(manifold, found.triangles);
+      }
+      manifolds.push_back({to_world(manifold, frame), -1});
+    }
+    return write_contacts(manifolds, out);
+  });
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,196 @@
+#include "ode/colliders/heightfield/heightfield_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace supernormal::ode {
+namespace {
+
+// Three columns and rows of samples leave no doubt about their spacing.
+constexpr std::size_t kEnough = 3;
+
+// The first listing is for cells much smaller than the body, the last one for cells a million times larger.
+constexpr double kFirstRadius = 1.0 / 64;
+constexpr int kDoublings = 26;
+
+// Steps from a sample into the triangles around it, in cells.
+constexpr std::array<std::array<double, 2>, 6> kIntoTriangles = {
+    {{0.125, 0.125}, {-0.25, 0.125}, {-0.125, 0.25}, {0.125, -0.25}, {0.25, -0.125}, {-0.125, -0.125}}};
+
+std::vector<double> distinct(const std::vector<Vector3>& samples, int axis) {
+  std::vector<double> coordinates;
+  coordinates.reserve(samples.size());
+  for (const Vector3& sample : samples) coordinates.push_back(sample[axis]);
+  std::sort(coordinates.begin(), coordinates.end());
+  coordinates.erase(std::unique(coordinates.begin(), coordinates.end()), coordinates.end());  // of a column they are the same bits
+  return coordinates;
+}
+
+double smallest_step(const std::vector<double>& coordinates) {
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < coordinates.size(); ++k) step = std::min(step, coordinates[k] - coordinates[k - 1]);
+  return step;
+}
+
+bool is_on(const SampleAxis& axis, const std::vector<double>& coordinates) {
+  return std::all_of(coordinates.begin(), coordinates.end(), [&](double x) {
+    const double k = (x + axis.half) / axis.spacing;
+    return std::abs(k - std::round(k)) < 1e-3;
+  });
+}
+
+// From one border to the other there is a whole number of cells, which makes the spacing exact.
+std::optional<SampleAxis> finite_axis(std::vector<double> coordinates, double half) {
+  std::erase_if(coordinates, [&](double x) { return std::abs(x) > half * (1 - kBorder); });  // the border, to rounding
+  coordinates.push_back(half);
+  coordinates.insert(coordinates.begin(), -half);
+  const double cells = std::round(2 * half / smallest_step(coordinates));
+  if (!(cells >= 1) || cells > 1e7) return std::nullopt;
+  const SampleAxis axis{2 * half / cells, half, static_cast<std::int64_t>(cells) + 1};
+  if (!is_on(axis, coordinates)) return std::nullopt;
+  return axis;
+}
+
+// All samples are at whole multiples of half the spacing: the one farthest from the origin tells the spacing with the most digits.
+std::optional<SampleAxis> infinite_axis(const std::vector<double>& coordinates) {
+  const double step = smallest_step(coordinates);
+  const double baseline = coordinates.back() - coordinates.front();
+  const double spacing = baseline / std::round(baseline / step);
+  const double farthest = std::abs(coordinates.front()) > std::abs(coordinates.back()) ? coordinates.front() : coordinates.back();
+  const double halves = std::round(2 * farthest / spacing);
+  if (halves == 0 || !(std::abs(halves) < 1e7)) return std::nullopt;
+  SampleAxis axis{2 * farthest / halves, 0, 0};
+  if (std::fmod(halves, 2) != 0) axis.half = axis.spacing / 2;
+  if (!is_on(axis, coordinates)) return std::nullopt;
+  return axis;
+}
+
+std::optional<SampleGrid> grid_through(const HeightfieldProbe& probe, const std::vector<Vector3>& samples, bool all) {
+  const std::vector<double> columns = distinct(samples, 0);
+  const std::vector<double> rows = distinct(samples, 2);
+  if (!all && (columns.size() < kEnough || rows.size() < kEnough)) return std::nullopt;
+  const auto x = probe.is_infinite() ? infinite_axis(columns) : finite_axis(columns, probe.half_width());
+  const auto z = probe.is_infinite() ? infinite_axis(rows) : finite_axis(rows, probe.half_depth());
+  if (!x || !z) return std::nullopt;
+  return SampleGrid{*x, *z};
+}
+
+enum class Verdict { Agrees, Disagrees, Unknown };
+
+// Rays at three places of each triangle: all of a triangle see one plane, and both planes meet at b and c.
+Verdict check_cell(HeightfieldProbe& probe, const SampleGrid& grid, std::int64_t i, std::int64_t j) {
+  constexpr std::array<std::array<double, 2>, 6> kPlaces = {
+      {{0.1, 0.1}, {0.8, 0.1}, {0.1, 0.8}, {0.9, 0.9}, {0.9, 0.2}, {0.2, 0.9}}};
+  const std::array<double, 2> xs = {grid.x.at(i), grid.x.at(i + 1)};
+  const std::array<double, 2> zs = {grid.z.at(j), grid.z.at(j + 1)};
+  std::array<Facet, kPlaces.size()> facets;
+  for (std::size_t k = 0; k < kPlaces.size(); ++k) {
+    const double x = xs[0] + kPlaces[k][0] * grid.x.spacing;
+    const double z = zs[0] + kPlaces[k][1] * grid.z.spacing;
+    if (!probe.find_facet(x, z, grid.x.spacing, facets[k])) return Verdict::Unknown;
+  }
+  const std::array<double, 4> heights = {facets[0].height_at(xs[0], zs[0]), facets[0].height_at(xs[1], zs[0]),
+                                         facets[0].height_at(xs[0], zs[1]), facets[3].height_at(xs[1], zs[1])};
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  for (std::size_t k = 0; k < kPlaces.size(); ++k) {
+    const Facet& facet = facets[k];
+    const double extent = *high - *low;
+    const bool agrees = is_same_height(facet.height_at(xs[1], zs[0]), heights[1], facet, extent) &&
+                        is_same_height(facet.height_at(xs[0], zs[1]), heights[2], facet, extent) &&
+                        is_same_height(k < 3 ? facet.height_at(xs[0], zs[0]) : facet.height_at(xs[1], zs[1]),
+                                       k < 3 ? heights[0] : heights[3], facet, extent);
+    if (!agrees) return Verdict::Disagrees;
+  }
+  return Verdict::Agrees;
+}
+
+bool is_confirmed(HeightfieldProbe& probe, const SampleGrid& grid, const Facet& spot) {
+  const std::int64_t i0 = grid.x.cell_of(spot.x);
+  const std::int64_t j0 = grid.z.cell_of(spot.z);
+  int agreeing = 0;
+  for (std::int64_t i = i0 - 2; i <= i0 + 2; ++i) {
+    if (grid.x.count > 0 && (i < 0 || i > grid.x.count - 2)) continue;
+    for (std::int64_t j = j0 - 2; j <= j0 + 2; ++j) {
+      if (grid.z.count > 0 && (j < 0 || j > grid.z.count - 2)) continue;
+      const Verdict verdict = check_cell(probe, grid, i, j);
+      if (verdict == Verdict::Disagrees) return false;
+      if (verdict == Verdict::Agrees) ++agreeing;
+    }
+  }
+  return agreeing > 0;
+}
+
+// All samples around, but for those that ODE keeps to itself from two different planes.
+bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std::vector<Vector3>& samples) {
+  if (!probe.list_samples(spot, radius, samples)) return false;
+  if (samples.empty()) return true;
+  const Vector3 sample = samples[samples.size() / 2];  // not on the plane of the spot
+  // Beside it, also after rounding.
+  const double aside = std::max(1e-6 * radius, 16 * kRealEpsilon * (std::abs(sample.x()) + std::abs(sample.z())));
+  for (const double step : {aside, -aside}) {
+    Facet other;
+    if (probe.find_facet(sample.x() + step, sample.z() + 0.6 * step, radius, other)) {
+      return probe.list_samples(other, radius, samples);
+    }
+  }
+  return true;
+}
+
+// Where a rectangle holds no samples, its surface is a plane if its corners are on one: a kink would part them.
+bool is_plane_around(HeightfieldProbe& probe, const Facet& spot, double reach) {
+  const double limit_x = probe.half_width() * kInside;
+  const double limit_z = probe.half_depth() * kInside;
+  for (const double side_x : {-reach, reach}) {
+    for (const double side_z : {-reach, reach}) {
+      const double x = std::clamp(spot.x + side_x, -limit_x, limit_x);
+      const double z = std::clamp(spot.z + side_z, -limit_z, limit_z);
+      Facet facet;
+      if (!probe.find_facet(x, z, reach, facet)) return false;
+      const double height = spot.height_at(x, z);
+      if (!is_same_height(facet.height, height, facet, std::abs(height - spot.height))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::int64_t SampleAxis::cell_of(double x) const {
+  const double k = std::floor((x + half) / spacing);
+  if (count == 0) return static_cast<std::int64_t>(k);
+  return static_cast<std::int64_t>(std::clamp(k, 0.0, static_cast<double>(count - 2)));
+}
+
+bool find_facet_at_sample(HeightfieldProbe& probe, const SampleGrid& grid, std::int64_t i, std::int64_t j, Facet& facet) {
+  const double scale = std::max(grid.x.spacing, grid.z.spacing);
+  return std::any_of(kIntoTriangles.begin(), kIntoTriangles.end(), [&](const std::array<double, 2>& step) {
+    return probe.find_facet(grid.x.at(i) + step[0] * grid.x.spacing, grid.z.at(j) + step[1] * grid.z.spacing, scale, facet);
+  });
+}
+
+bool is_same_height(double height1, double height2, const Facet& facet, double extent) {
+  return std::abs(height1 - height2) <= 64 * facet.rounding + 1e-9 * extent;
+}
+
+std::optional<SampleGrid> find_grid(HeightfieldProbe& probe, const Facet& spot, double reach, bool& is_plane) {
+  is_plane = false;
+  const double whole = 2 * (probe.half_width() + probe.half_depth());
+  std::vector<Vector3> samples;
+  for (int k = 0; k <= kDoublings; ++k) {
+    const double radius = std::ldexp(kFirstRadius * reach, k);
+    samples.clear();
+    const bool is_complete = list_around(probe, spot, radius, samples);
+    const std::optional<SampleGrid> grid = grid_through(probe, samples, radius > whole);
+    if (grid && is_confirmed(probe, *grid, spot)) return grid;
+    if (samples.empty() && radius > 2 * reach && is_plane_around(probe, spot, reach)) {
+      is_plane = true;
+      return std::nullopt;
+    }
+    if (!is_complete || radius > 1e3 * whole) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,108 @@
+#include "ode/colliders/trimesh/mesh_candidates.hpp"
+
+#include <algorithm>
+
+#include "ode/geom/convert.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+// The tree is searched in float: of the reach of the coordinates it may lose this share.
+constexpr double kFloatMargin = 4e-6;
+
+std::array<Vector3, 3> vertices_of(dGeomID mesh, int index) {
+  dVector3 v[3];
+  dGeomTriMeshGetTriangle(mesh, index, &v[0], &v[1], &v[2]);
+  return {to_vector(v[0]), to_vector(v[1]), to_vector(v[2])};
+}
+
+// Has its capacity before ODE calls: nothing may be thrown through ODE.
+int write_down(dGeomID /*mesh*/, dGeomID box, int index) {
+  static_cast<std::vector<int>*>(dGeomGetData(box))->push_back(index);
+  return 0;  // no contacts, please
+}
+
+/// Takes the callbacks off a mesh and puts them back. So too the memory of the box that was asked about last: ours is always the
+/// same one, elsewhere.
+class Interception {
+ public:
+  explicit Interception(dGeomID mesh)
+      : mesh_(mesh),
+        callback_(dGeomTriMeshGetCallback(mesh)),
+        array_callback_(dGeomTriMeshGetArrayCallback(mesh)),
+        remembers_boxes_(dGeomTriMeshIsTCEnabled(mesh, dBoxClass)) {
+    dGeomTriMeshSetCallback(mesh, write_down);
+    dGeomTriMeshSetArrayCallback(mesh, nullptr);
+    if (remembers_boxes_ != 0) dGeomTriMeshEnableTC(mesh, dBoxClass, 0);
+  }
+  ~Interception() {
+    dGeomTriMeshSetCallback(mesh_, callback_);
+    dGeomTriMeshSetArrayCallback(mesh_, array_callback_);
+    if (remembers_boxes_ != 0) dGeomTriMeshEnableTC(mesh_, dBoxClass, remembers_boxes_);
+  }
+  Interception(const Interception&) = delete;
+  Interception(Interception&&) = delete;
+  Interception& operator=(const Interception&) = delete;
+  Interception& operator=(Interception&&) = delete;
+
+ private:
+  dGeomID mesh_;
+  dTriCallback* callback_;
+  dTriArrayCallback* array_callback_;
+  int remembers_boxes_;
+};
+
+}  // namespace
+
+MeshCandidates::MeshCandidates() : query_box_(dCreateBox(nullptr, 1, 1, 1)) { dGeomSetData(query_box_, &indices_); }
+
+MeshCandidates::~MeshCandidates() { dGeomDestroy(query_box_); }
+
+std::span<const MeshTriangle> MeshCandidates::find(dGeomID mesh, dGeomID geom, const BodyBox& box, const Pose& pose,
+                                                   bool is_collision) {
+  static const bool has_tree = dCheckConfiguration("ODE_EXT_opcode") != 0;
+  indices_.clear();
+  indices_.reserve(static_cast<std::size_t>(std::max(dGeomTriMeshGetTriangleCount(mesh), 0)));
+  const double reach =
+      box.half_lengths.sum() + box.centre.lpNorm<1>() + (pose.position - to_vector(dGeomGetPosition(mesh))).lpNorm<1>();
+  const BodyBox searched = box.widened(kFloatMargin * reach);
+  if (has_tree) {
+    ask_tree(mesh, searched, pose);
+  } else {
+    search_all(mesh, searched, pose);
+  }
+  dTriArrayCallback* const tell = dGeomTriMeshGetArrayCallback(mesh);
+  if (is_collision && tell != nullptr && !indices_.empty()) tell(mesh, geom, indices_.data(), static_cast<int>(indices_.size()));
+  if (dTriCallback* const is_wanted = dGeomTriMeshGetCallback(mesh); is_wanted != nullptr) {
+    std::erase_if(indices_, [&](int index) { return is_wanted(mesh, geom, index) == 0; });
+  }
+  read_triangles(mesh);
+  return triangles_;
+}
+
+void MeshCandidates::ask_tree(dGeomID mesh, const BodyBox& box, const Pose& pose) {
+  const Vector3 sides = 2 * box.half_lengths;
+  const Vector3 centre = pose.position + pose.rotation * box.centre;
+  dMatrix3 rotation{};
+  for (int row = 0; row < 3; ++row) from_vector(pose.rotation.row(row).transpose(), rotation + std::ptrdiff_t{4} * row);
+  dGeomBoxSetLengths(query_box_, to_real(sides.x()), to_real(sides.y()), to_real(sides.z()));
+  dGeomSetPosition(query_box_, to_real(centre.x()), to_real(centre.y()), to_real(centre.z()));
+  dGeomSetRotation(query_box_, rotation);
+  const Interception interception(mesh);
+  dContactGeom unused;
+  dCollide(mesh, query_box_, 1, &unused, sizeof unused);
+}
+
+void MeshCandidates::search_all(dGeomID mesh, const BodyBox& box, const Pose& pose) {
+  const int count = dGeomTriMeshGetTriangleCount(mesh);
+  for (int index = 0; index < count; ++index) {
+    if (box.touches(pose, vertices_of(mesh, index))) indices_.push_back(index);
+  }
+}
+
+void MeshCandidates::read_triangles(dGeomID mesh) {
+  triangles_.clear();
+  for (const int index : indices_) triangles_.push_back({vertices_of(mesh, index), index});
+}
+
+}  // namespace supernormal::ode

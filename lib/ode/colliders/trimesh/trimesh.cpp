@@ -1,0 +1,151 @@
+// Our bodies and dTriMesh: what is behind its triangles is solid.
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "contact/mesh/body_box.hpp"
+#include "contact/mesh/mesh_contacts.hpp"
+#include "contact/mesh/mesh_manifold.hpp"
+#include "contact/mesh/nearest_triangle.hpp"
+#include "ode/api/last_error.hpp"
+#include "ode/colliders/collider.hpp"
+#include "ode/colliders/contact.hpp"
+#include "ode/colliders/trimesh/mesh_candidates.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/runtime/statistics.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+/// What a thread keeps from query to query, for the memory in it.
+struct Scratch {
+  MeshCandidates candidates;
+  MeshContacts contacts;
+  std::vector<LocatedManifold> manifolds;
+};
+
+Scratch& scratch() {
+  thread_local Scratch kept;
+  return kept;
+}
+
+/// One of our bodies at a mesh.
+struct Visit {
+  dGeomID geom;
+  dGeomID mesh;
+  const Body& body;
+  Pose pose;
+  BodyBox box;
+
+  Visit(dGeomID ours, dGeomID collider)
+      : geom(ours), mesh(collider), body(require_body(ours)), pose(pose_of(ours)), box(BodyBox::of(body.shape())) {}
+
+  // ODE aborts on a box that is not one.
+  bool is_usable() const {
+    return pose.position.allFinite() && pose.rotation.allFinite() && box.centre.allFinite() && box.half_lengths.allFinite() &&
+           (box.half_lengths.array() > 0).all();
+  }
+
+  /// The triangles that are no farther from the body than `distance`.
+  std::span<const MeshTriangle> triangles_within(double distance, bool is_collision = false) const {
+    return scratch().candidates.find(mesh, geom, box.widened(distance), pose, is_collision);
+  }
+};
+
+std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const MeshTriangle> triangles) {
+  const std::span<const MeshContact> found =
+      scratch().contacts.find(visit.body.shape(), visit.pose, triangles, visit.body.settings());
+  Proximity all;
+  all.status = found.empty() ? Status::Apart : found.front().proximity.status;
+  all.evaluations = scratch().contacts.evaluations();
+  count_query(all, false);
+  return found;
+}
+
+/// From the body's centre to the nearest and the farthest point of the mesh's box.
+struct Range {
+  double least = 0;
+  double greatest = 0;
+
+  explicit Range(const Visit& visit) {
+    dReal aabb[6];
+    dGeomGetAABB(visit.mesh, aabb);
+    const Vector3 centre = visit.pose.position + visit.pose.rotation * visit.box.centre;
+    Vector3 nearest;
+    Vector3 farthest;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = double{aabb[2 * axis]} - centre[axis];
+      const double high = double{aabb[2 * axis + 1]} - centre[axis];
+      nearest[axis] = std::fmax(0.0, std::fmax(low, -high));
+      farthest[axis] = std::fmax(std::abs(low), std::abs(high));
+    }
+    least = nearest.norm();
+    greatest = farthest.norm();
+  }
+};
+
+// Looks farther and farther until there is a triangle, then again as far as that one is away: a nearer one may be outside of the
+// box that the first was found in.
+MeshContact find_nearest(const Visit& visit) {
+  const Range range(visit);
+  const auto nearest_within = [&](double distance) {
+    return find_nearest_triangle(visit.body.shape(), visit.pose, visit.triangles_within(distance), visit.body.settings());
+  };
+  const double size = visit.box.half_lengths.norm();
+  double distance = std::fmax(range.least - size, 0.0) + size;
+  MeshContact nearest = nearest_within(distance);
+  while (nearest.proximity.status == Status::InvalidInput && distance < range.greatest) {
+    distance *= 2;
+    nearest = nearest_within(distance);
+  }
+  if (!(nearest.proximity.gap > distance)) return nearest;
+  const int evaluations = nearest.proximity.evaluations;
+  nearest = nearest_within(nearest.proximity.gap);
+  nearest.proximity.evaluations += evaluations;
+  return nearest;
+}
+
+}  // namespace
+
+// Of several contacts the deepest, as in dCollide. Where there is none, the distance of the nearest triangle from either side. It
+// is negative only for a body that touches the mesh from behind, at the border of a sheet: that makes no contact.
+ContactManifold query_trimesh(dGeomID ours, dGeomID collider, Goal /*goal*/) {
+  const Visit visit(ours, collider);
+  if (!visit.is_usable()) return {};
+  const std::span<const MeshContact> contacts = find_contacts(visit, visit.triangles_within(0));
+  if (!contacts.empty()) return contacts.front().proximity;
+  const MeshContact nearest = find_nearest(visit);
+  if (nearest.proximity.status == Status::InvalidInput) throw std::invalid_argument("the dTriMesh has no triangles");
+  count_query(nearest.proximity, false);
+  return nearest.proximity;
+}
+
+int collide_with_trimesh(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
+  return guarded("dCollide", 0, [&] {
+    const Visit visit(ours, collider);
+    if (!visit.is_usable()) return 0;
+    const ContactArray out{ours, collider, flags, contacts, skip};
+    const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
+    std::vector<LocatedManifold>& manifolds = scratch().manifolds;
+    manifolds.clear();
+    std::span<const MeshTriangle> near;
+    double margin = -1;  // within which they were looked for
+    for (const MeshContact& contact : found) {
+      manifolds.push_back({contact.proximity, contact.triangle});
+      if (out.room() < 2) continue;
+      ContactManifold& manifold = manifolds.back().manifold;
+      manifold = find_plane_contact_manifold(visit.body.shape(), visit.pose, contact.proximity);
+      if (manifold.corner_count == 0) continue;
+      if (manifold.margin > margin) {
+        margin = manifold.margin;
+        near = visit.triangles_within(margin);
+      }
+      draw_in_corners(manifold, near);
+    }
+    return write_contacts(manifolds, out);
+  });
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,80 @@
+#include "ode/geom/body.hpp"
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "ode/colliders/collider.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "ode/runtime/solver_settings.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/rounded.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+std::atomic<std::uint32_t> last_serial{0};
+
+std::shared_ptr<const Shape> make_superellipsoid(const SuperellipsoidParameters& p) {
+  if (p.delta == 2 && p.epsilon == 2) return std::make_shared<Ellipsoid>(p.half_axes);
+  return std::make_shared<Superellipsoid>(p.half_axes, p.delta, p.epsilon);
+}
+
+std::shared_ptr<const Shape> make_superovoid(const SuperovoidParameters& p) {
+  return std::make_shared<Superovoid>(p.straight.half_axes, p.straight.delta, p.straight.epsilon, p.taper_x, p.taper_y);
+}
+
+}  // namespace
+
+Body::Body(std::shared_ptr<const Shape> core)
+    : core_(std::move(core)),
+      shape_(core_),
+      size_(shape_->half_extents().minCoeff()),
+      settings_(default_settings()),
+      serial_(++last_serial) {}
+
+Body::Body(const SuperellipsoidParameters& parameters) : Body(make_superellipsoid(parameters)) { parameters_ = parameters; }
+
+Body::Body(const SuperovoidParameters& parameters) : Body(make_superovoid(parameters)) { parameters_ = parameters; }
+
+Body::~Body() {
+  if (release_ != nullptr) release_(user_);
+}
+
+void Body::set_superellipsoid(const SuperellipsoidParameters& parameters) {
+  set_shape(make_superellipsoid(parameters), rounding_);
+  parameters_ = parameters;
+}
+
+void Body::set_superovoid(const SuperovoidParameters& parameters) {
+  set_shape(make_superovoid(parameters), rounding_);
+  parameters_ = parameters;
+}
+
+void Body::set_rounding(double radius) { set_shape(core_, radius); }
+
+void Body::set_shape(std::shared_ptr<const Shape> core, double rounding) {
+  std::shared_ptr<const Shape> shape = core;
+  if (rounding != 0) shape = std::make_shared<Rounded>(core, rounding);  // which refuses what is no radius
+  size_ = shape->half_extents().minCoeff();  // may throw, when it asks a user's callbacks: before anything else changes
+  core_ = std::move(core);
+  shape_ = std::move(shape);
+  rounding_ = rounding;
+}
+
+Body* find_body(dGeomID geom) noexcept {
+  if (geom == nullptr || dGeomGetClass(geom) != geom_class()) return nullptr;
+  return static_cast<ClassData*>(dGeomGetClassData(geom))->body;
+}
+
+Body& require_body(dGeomID geom) {
+  if (geom == nullptr) throw std::invalid_argument("geom = 0, but must be a body made by snCreate…");
+  Body* const body = find_body(geom);
+  if (body != nullptr) return *body;
+  throw std::invalid_argument("geom is " + geom_class_name(geom) + ", but must be a body made by snCreate…");
+}
+
+}  // namespace supernormal::ode

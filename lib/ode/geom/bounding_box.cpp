@@ -1,0 +1,93 @@
+#include "ode/geom/bounding_box.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "ode/api/last_error.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "supernormal/proximity/plane.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+// Rounding, in units of dReal's last place, of what is computed here: of a support function, a rotated direction, a sum.
+constexpr double kRoundingUnits = 8;
+
+double rounding_of(double magnitude) { return kRoundingUnits * double{std::numeric_limits<dReal>::epsilon()} * magnitude; }
+
+struct Interval {
+  double low, high;
+};
+
+// The body between its two supporting planes perpendicular to a world axis. Row i of R is axis i in the body's frame.
+Interval extent_along(int axis, const Shape& shape, const Pose& pose) {
+  const Vector3 direction = pose.rotation.row(axis).transpose();
+  const double position = pose.position[axis];
+  const double up = shape.support(direction);
+  const double down = shape.is_symmetric() ? up : shape.support(-direction);
+  const double margin = rounding_of(std::abs(position) + std::abs(up) + std::abs(down));
+  return {position - down - margin, position + up + margin};
+}
+
+int write_finite_aabb(dGeomID geom, dReal* aabb) {
+  const Shape& shape = require_body(geom).shape();
+  const Pose pose = pose_of(geom);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval extent = extent_along(axis, shape, pose);
+    if (!std::isfinite(extent.low) || !std::isfinite(extent.high)) return 0;
+    aabb[2 * axis] = to_real(extent.low);
+    aabb[2 * axis + 1] = to_real(extent.high);
+  }
+  return 1;
+}
+
+bool is_above_plane(const Body& body, const Pose& pose, dGeomID plane_geom) {
+  dVector4 plane;
+  dGeomPlaneGetParams(plane_geom, plane);
+  const Vector3 normal = to_vector(plane);
+  const double gap = find_plane_proximity(body.shape(), pose, normal, plane[3]).gap;
+  return gap > rounding_of(pose.position.lpNorm<1>() + std::abs(double{plane[3]}) + std::abs(gap));
+}
+
+// Tries one separating plane, perpendicular to the line from the body's origin to the nearest point of the box (which is then
+// the box's support point, also when it reaches to infinity).
+bool is_outside_box(const Body& body, const Pose& pose, const dReal* aabb) {
+  Vector3 nearest;
+  for (int axis = 0; axis < 3; ++axis) {
+    nearest[axis] = std::fmin(std::fmax(pose.position[axis], double{aabb[2 * axis]}), double{aabb[2 * axis + 1]});
+  }
+  const Vector3 to_box = nearest - pose.position;
+  const double distance = to_box.norm();
+  if (!(distance > 0)) return false;
+  const double reach = body.shape().support(pose.rotation.transpose() * (to_box / distance));
+  return distance - reach > rounding_of(pose.position.lpNorm<1>() + distance + std::abs(reach));
+}
+
+}  // namespace
+
+// ODE's hash space aborts on a NaN; a box without bounds is what it can live with. Such a body shows in the colliders, which refuse
+// it.
+void compute_aabb(dGeomID geom, dReal aabb[6]) {
+  if (guarded("dGeomGetAABB", 0, [&] { return write_finite_aabb(geom, aabb); }) != 0) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    aabb[2 * axis] = -dInfinity;
+    aabb[2 * axis + 1] = dInfinity;
+  }
+}
+
+int test_aabb(dGeomID geom, dGeomID other, dReal other_aabb[6]) {
+  return guarded("dSpaceCollide", 1, [&] {
+    const int other_class = dGeomGetClass(other);
+    // For two of ours the collider's first evaluation is a better test than this: in a pile of 500 grains the test spared a tenth
+    // of the near callbacks and no time.
+    if (other_class == geom_class()) return 1;
+    const Body& body = require_body(geom);
+    const Pose pose = pose_of(geom);
+    const bool apart = other_class == dPlaneClass ? is_above_plane(body, pose, other) : is_outside_box(body, pose, other_aabb);
+    return apart ? 0 : 1;
+  });
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,36 @@
+// Between ODE's types and the core's: dReal may be float, the core is double throughout.
+#pragma once
+
+#include <ode/ode.h>
+
+#include "ode/geom/rotation.hpp"
+#include "supernormal/proximity/pose.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal::ode {
+
+inline dReal to_real(double value) { return static_cast<dReal>(value); }
+
+inline Vector3 to_vector(const dReal* v) { return Vector3(v[0], v[1], v[2]); }
+
+/// Writes the three coordinates; a fourth one (dVector3 has it) is left alone.
+inline void from_vector(const Vector3& v, dReal* out) {
+  for (int i = 0; i < 3; ++i) out[i] = to_real(v[i]);
+}
+
+/// Row-major rows of four, as ODE keeps rotations; the numbers as they are.
+inline Matrix3 to_rotation(const dReal* R) {
+  Matrix3 rotation;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation(row, column) = R[4 * row + column];
+  }
+  return rotation;
+}
+
+/// The rotation of a placeable geom, orthonormal to rounding (rotation.hpp).
+inline Matrix3 rotation_of(dGeomID geom) { return orthonormal(to_rotation(dGeomGetRotation(geom)), geom); }
+
+/// Where a placeable geom is now. Asked anew in every call: inside a dGeomTransform ODE swaps the pose for the time of the call.
+inline Pose pose_of(dGeomID geom) { return {to_vector(dGeomGetPosition(geom)), rotation_of(geom)}; }
+
+}  // namespace supernormal::ode

@@ -1,0 +1,52 @@
+#include "ode/geom/rotation.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "ode/colliders/collider.hpp"
+#include "shapes/finite.hpp"
+#include "shapes/validation.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+// A rotation that was typed with three decimals is one, and one that was scaled or sheared by a per cent is not.
+constexpr double kNearRotation = 1e-2;
+
+// A step squares the error of a rotation: from below this nothing is left but rounding.
+constexpr double kLastError = 1e-8;
+
+// The squares of larger entries would overflow.
+constexpr double kLargestEntry = 1e100;
+
+std::string to_text(const Matrix3& R) {
+  std::string text;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      text += supernormal::to_text(R(row, column)) + (column < 2 ? ", " : row < 2 ? "; " : "");
+    }
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+// By Newton's iteration for the orthogonal factor of the polar decomposition, without its inverse (Newton-Schulz).
+Matrix3 nearest_rotation(const Matrix3& R, dGeomID geom) {
+  if (!all_finite(R)) return R;
+  const bool is_near = all_within(R, kLargestEntry) && rotation_error(R) <= kNearRotation;
+  if (!is_near) {
+    throw std::invalid_argument("the rotation of " + geom_class_name(geom) + " is " + to_text(R) +
+                                " (rows), whose columns are not, to " + supernormal::to_text(kNearRotation) +
+                                ", unit vectors at right angles and right-handed");
+  }
+  Matrix3 Q = R;
+  double error = 0;
+  do {
+    error = rotation_error(Q);
+    Q = Q * (1.5 * Matrix3::Identity() - 0.5 * Q.transpose() * Q);
+  } while (error > kLastError);
+  return Q;
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,44 @@
+#include "ode/geom/user_shape.hpp"
+
+#include <array>
+
+#include "ode/api/require.hpp"
+#include "ode/geom/convert.hpp"
+#include "supernormal/shapes/callback_shape.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+using Direction = std::array<dReal, 3>;
+
+Direction to_direction(const Vector3& n) { return {to_real(n.x()), to_real(n.y()), to_real(n.z())}; }
+
+CallbackShape::Hessian wrap_hessian(const snShape& shape) {
+  if (shape.hessian == nullptr) return {};
+  return [shape](const Vector3& n) {
+    std::array<dReal, 9> H{};
+    shape.hessian(shape.user, to_direction(n).data(), H.data());
+    Matrix3 hessian;
+    for (int row = 0; row < 3; ++row) hessian.row(row) = to_vector(H.data() + std::ptrdiff_t{3} * row).transpose();
+    return hessian;
+  };
+}
+
+}  // namespace
+
+std::shared_ptr<const Shape> make_user_shape(const snShape* shape) {
+  require_not_null("shape", shape);
+  const snShape copy = *shape;
+  if (copy.support == nullptr) throw std::invalid_argument("shape->support = NULL, but a body needs its support function");
+  if (copy.point == nullptr) throw std::invalid_argument("shape->point = NULL, but a body needs its boundary point");
+  return std::make_shared<CallbackShape>(
+      [copy](const Vector3& n) { return double{copy.support(copy.user, to_direction(n).data())}; },
+      [copy](const Vector3& n) {
+        std::array<dReal, 3> point{};
+        copy.point(copy.user, to_direction(n).data(), point.data());
+        return to_vector(point.data());
+      },
+      wrap_hessian(copy));
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,41 @@
+#include "proximity/answer.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace supernormal {
+
+double absolute_tolerance(const GapFunction& gap, const Settings& settings) {
+  return std::max(settings.tolerance * gap.length_unit() - gap.rounding(), gap.rounding());
+}
+
+double optimality_gap_bound(const GapJet& jet, double rolling_radius) {
+  // Below 0 by the rounding of d, in which a large body's boundary point is turned.
+  return std::max((jet.d + rolling_radius * jet.n).norm() - (jet.s + rolling_radius), 0.0);
+}
+
+Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status) {
+  Proximity out;
+  out.gap = jet.s;
+  out.normal = jet.n;
+  out.point1 = jet.jet1.r;
+  out.point2 = jet.jet1.r + jet.d;
+  out.contact = 0.5 * (out.point1 + out.point2);
+  out.evaluations = gap.evaluations();
+  out.status = status;
+  if (status == Status::Apart || status == Status::Diverged) model_error = std::numeric_limits<double>::infinity();
+  const double tolerance = absolute_tolerance(gap, settings);
+  // Without the balls that roll inside them the bodies are apart, and s is concave on the cone of the normals that separate them.
+  // And s = -x at any of its stationary points bounds the gap by x, if the bodies are apart: s extended to all vectors is concave.
+  const bool is_concave = jet.s + gap.rolling_radius() > 0;
+  const bool is_touching = 2 * jet.s >= -tolerance;
+  out.is_global = jet.s > 0 || (status != Status::Diverged && (is_concave || is_touching));
+  // Where s need not be concave the model proves nothing, however little it promises: no more is claimed than was asked for.
+  if (!is_concave) model_error = std::max(model_error, tolerance);
+  const double excess = optimality_gap_bound(jet, gap.rolling_radius());
+  out.error = std::min(model_error, excess) + gap.rounding();
+  out.global_error = out.is_global ? std::max(out.error, tolerance + gap.rounding()) : excess + gap.rounding();
+  return out;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,74 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "proximity/answer.hpp"
+#include "proximity/solvers.hpp"
+#include "shapes/finite.hpp"
+
+namespace supernormal {
+namespace {
+
+// The error is the geometric series of the iteration's contraction; this is the slowest contraction that is believed.
+constexpr double kSlowestContraction = 0.95;
+
+// The contraction seen last is not yet the one to come.
+constexpr double kGainSafety = 2;
+
+// Two normals closer than this (radians) do not tell a curvature: the boundary points differ by rounding only.
+constexpr double kSmallestTurn = 1e-9;
+
+/// The outward normal line of one body at its boundary point, and the centre of curvature estimated on it.
+class NormalLine {
+ public:
+  /// `support` is the distance of the tangent plane from the body's origin: the first estimate of the radius of curvature.
+  Vector3 centre_of_curvature(const Vector3& point, const Vector3& normal, double support) {
+    if (!has_previous_) {
+      radius_ = support;
+    } else {
+      // The point of this line nearest to the previous one; nearly parallel lines keep the radius.
+      const Vector3 across = normal.cross(normal_);
+      const double squared = across.squaredNorm();
+      if (squared > kSmallestTurn * kSmallestTurn) radius_ = -across.dot((point_ - point).cross(normal_)) / squared;
+    }
+    has_previous_ = true;
+    point_ = point;
+    normal_ = normal;
+    return point - radius_ * normal;
+  }
+
+ private:
+  Vector3 point_, normal_;
+  double radius_ = 0;
+  bool has_previous_ = false;
+};
+
+}  // namespace
+
+Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Vector3& start) {
+  const double tolerance = absolute_tolerance(gap, settings);
+  GapJet jet;
+  NormalLine line1, line2;
+  Vector3 n = start;
+  double previous_gain = 0;
+  while (true) {
+    gap.evaluate(n, Order::Point, jet);
+    if (settings.stop_when_apart && jet.s > 0) return answer(gap, settings, jet, 0, Status::Apart);
+
+    const Vector3 centre1 = line1.centre_of_curvature(jet.jet1.r, n, jet.jet1.h);
+    const Vector3 centre2 = line2.centre_of_curvature(jet.jet1.r + jet.d, -n, jet.jet2.h);
+    const Vector3 next = (centre2 - centre1).normalized();
+    if (!all_finite(next) || next == Vector3::Zero()) return answer(gap, settings, jet, 0, Status::Diverged);
+
+    // Slope times step bounds the gain of this step; the steps after it shrink by the contraction.
+    const double gain = std::abs(jet.d.dot(next - n * next.dot(n)));
+    const double contraction = previous_gain > 0 ? std::min(gain / previous_gain, kSlowestContraction) : kSlowestContraction;
+    const double error = kGainSafety * gain / (1 - contraction);
+    if (error <= tolerance) return answer(gap, settings, jet, error, Status::Converged);
+    if (gap.evaluations() >= settings.max_evaluations) return answer(gap, settings, jet, error, Status::EvaluationLimit);
+    previous_gain = gain;
+    n = next;
+  }
+}
+
+}  // namespace supernormal

@@ -1,0 +1,59 @@
+#include "supernormal/proximity/gap_function.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shapes/finite.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+namespace supernormal {
+namespace {
+
+// Rounding of s in units of the last place of its terms: each support function is good to a few, their sum adds a few.
+constexpr double kRoundingUnits = 8;
+
+double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_extents2) {
+  const double smallest1 = half_extents1.minCoeff();
+  const double smallest2 = half_extents2.minCoeff();
+  if (smallest1 == 0) return smallest2;
+  return smallest2 == 0 ? smallest1 : std::min(smallest1, smallest2);
+}
+
+}  // namespace
+
+GapFunction::GapFunction(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2)
+    : shape1_(&shape1),
+      shape2_(&shape2),
+      superellipsoid1_(shape1.as_superellipsoid()),
+      superellipsoid2_(shape2.as_superellipsoid()),
+      offset_(pose1.rotation.transpose() * (pose2.position - pose1.position)),
+      rotation_(pose1.rotation.transpose() * pose2.rotation),
+      has_hessian_(shape1.has_hessian() && shape2.has_hessian()) {
+  const Vector3 half1 = shape1.half_extents();
+  const Vector3 half2 = shape2.half_extents();
+  length_unit_ = smallest_half_extent(half1, half2);
+  rounding_ = kRoundingUnits * std::numeric_limits<double>::epsilon() * (offset_.norm() + half1.maxCoeff() + half2.maxCoeff());
+}
+
+void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
+  ++evaluations_;
+  jet.n = n;
+  jet.m.noalias() = -(rotation_.transpose() * n);
+  if (superellipsoid1_ != nullptr && superellipsoid2_ != nullptr) {
+    Superellipsoid::evaluate_both({superellipsoid1_, &n, &jet.jet1}, {superellipsoid2_, &jet.m, &jet.jet2}, order);
+  } else {
+    shape1_->evaluate(n, order, jet.jet1);
+    shape2_->evaluate(jet.m, order, jet.jet2);
+  }
+  jet.s = n.dot(offset_) - jet.jet1.h - jet.jet2.h;
+  if (order == Order::Value) return;
+  jet.d.noalias() = rotation_ * jet.jet2.r;
+  jet.d += offset_ - jet.jet1.r;
+}
+
+bool GapJet::is_finite() const { return std::isfinite(s) && all_finite(d); }
+
+bool GapFunction::is_finite() const { return all_finite(offset_) && all_finite(rotation_) && std::isfinite(length_unit_); }
+
+}  // namespace supernormal

@@ -1,0 +1,129 @@
+#include "proximity/local/certified_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "proximity/answer.hpp"
+
+namespace supernormal {
+namespace {
+
+// Evaluations. Nine of ten pairs that the bound proves need eight or fewer; exponents from 6 to 20 profit up to twelve.
+constexpr int kHandful = 12;
+
+// Steps that are tried from one normal. A fourth one is hardly ever the first that gets higher.
+constexpr int kMaxTries = 3;
+
+// A step that did not get higher is shortened to where the cuts of its ends meet, but to no share of it beyond these: the cuts know
+// of s to first order only.
+constexpr double kLeastShare = 0.05;
+constexpr double kMostShare = 0.9;
+
+// Gnomonic: the model of one normal is rarely right farther than 45 degrees away.
+constexpr double kLongestStep = 1;
+
+// A radius of curvature beyond this, in units of the pair's length, is that of a flat face: the step through the normal is
+// rounding.
+constexpr double kFlattest = 1e8;
+
+// Of each component of the normal: a step that turns it by less is the same through the normal as through the boundary point.
+constexpr double kSlightTurn = 0.1;
+
+// A normal that is this near to being across another has no useful gnomonic coordinates (cosine).
+constexpr double kGrazing = 1e-6;
+
+}  // namespace
+
+CertifiedNewton::CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance)
+    : gap_(gap),
+      cuts_(cuts),
+      settings_(settings),
+      tolerance_(tolerance),
+      rolling_radius_(gap.rolling_radius()),
+      has_flat_faces_(gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces()) {}
+
+CertifiedNewton::End CertifiedNewton::run(const Vector3& start, Branch branch) {
+  const bool is_finite = evaluate(start);
+  best_ = 1 - best_;
+  if (!is_finite || (branch == Branch::OfStart && !is_within_reach())) return End::Open;
+  while (true) {
+    if (settings_.stop_when_apart && best().s > 0) return End::Apart;
+    if (is_proved()) return End::Proved;
+    Vector3 step;
+    if (!propose(step) || !climb(step)) return End::Open;
+  }
+}
+
+bool CertifiedNewton::is_proved() const { return is_within_reach() && optimality_gap_bound(best(), rolling_radius_) <= tolerance_; }
+
+bool CertifiedNewton::evaluate(const Vector3& n) {
+  gap_.evaluate(n, Order::Hessian, next());
+  cuts_.add(next().d);
+  return next().is_finite();
+}
+
+bool CertifiedNewton::propose(Vector3& step) const {
+  const GapJet& jet = best();
+  const Matrix3 H2 = gap_.rotation() * jet.jet2.H * gap_.rotation().transpose();
+  const RegularHessian hessian(jet.jet1.H + H2, jet.s, jet.n, gap_.length_unit(), kFlattest);
+  if (!hessian.is_regular()) return false;
+  step = hessian.solve(jet.d - jet.s * jet.n);
+  if (has_flat_faces_ && !parametrizations_agree(step) && !through_boundary_points(hessian, H2, step)) return false;
+  // Deeper than the ball there is nothing to prove: it is left to others when no more is to be gained.
+  if (!is_within_reach() && !(jet.d.dot(step) > tolerance_)) return false;
+  const double squared = step.squaredNorm();
+  if (squared > kLongestStep * kLongestStep) step *= kLongestStep / std::sqrt(squared);
+  return true;
+}
+
+// The boundary point of a body with flat faces across its axes is a function of the ratios of the normal's components: where these
+// hardly change, both steps are the same.
+bool CertifiedNewton::parametrizations_agree(const Vector3& step) const {
+  const auto is_less = [](const Vector3& turn, const Vector3& normal) {
+    return (turn.array().abs() <= kSlightTurn * normal.array().abs()).all();
+  };
+  return is_less(step, best().n) && is_less(gap_.rotation().transpose() * step, best().m);
+}
+
+// On a flat face the normal is a gentle function of the boundary point, not the other way round. So each body says which normal
+// belongs to the point that the step leads to, and Newton's equation is solved with these turns in place of its own.
+bool CertifiedNewton::through_boundary_points(const RegularHessian& hessian, const Matrix3& H2, Vector3& step) const {
+  const GapJet& jet = best();
+  const auto turn_beyond_step = [&](const Vector3& normal, Vector3& turn) {
+    const double height = normal.dot(jet.n);
+    if (!(height > kGrazing * normal.norm())) return false;
+    turn = normal / height - jet.n - step;
+    return true;
+  };
+  Vector3 pull = Vector3::Zero(), turn;
+  if (gap_.shape1().has_flat_faces()) {
+    if (!turn_beyond_step(gap_.shape1().advance_normal(jet.n, jet.jet1, step), turn)) return false;
+    pull = jet.jet1.H * turn;
+  }
+  if (gap_.shape2().has_flat_faces()) {
+    const Vector3 normal = gap_.shape2().advance_normal(jet.m, jet.jet2, -(gap_.rotation().transpose() * step));
+    if (!turn_beyond_step(-(gap_.rotation() * normal), turn)) return false;
+    pull += H2 * turn;
+  }
+  const Vector3 through_points = step + hessian.solve(pull);
+  if (jet.d.dot(through_points) > 0) step = through_points;
+  return true;
+}
+
+bool CertifiedNewton::climb(Vector3 step) {
+  const int most = std::min(settings_.max_evaluations, kHandful);
+  for (int tries = 0; tries < kMaxTries && gap_.evaluations() < most; ++tries) {
+    if (!evaluate((best().n + step).normalized())) return false;
+    if (next().s > best().s) {
+      best_ = 1 - best_;
+      return true;
+    }
+    // s(n + t step) is below t d.step + s and below t d'.step + d'.n.
+    const double above = std::max(next().d.dot(best().n) - best().s, 0.0);
+    const double closing = (best().d - next().d).dot(step);
+    step *= above < kMostShare * closing ? std::max(above / closing, kLeastShare) : kMostShare;
+  }
+  return false;
+}
+
+}  // namespace supernormal

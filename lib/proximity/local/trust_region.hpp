@@ -1,0 +1,33 @@
+// The quadratic model of an ascent and its maximum within a disc.
+#pragma once
+
+#include "proximity/tangent_plane.hpp"
+
+namespace supernormal {
+
+/// gain(u) = g.u - 1/2 u.A u, the second-order change of s over the tangent plane.
+struct QuadraticModel {
+  Vector2 g;     // m
+  Symmetric2 A;  // m
+
+  double gain(const Vector2& u) const { return g.dot(u) - 0.5 * u.dot(A * u); }
+
+  /// The largest gain over the whole plane; infinite unless A is positive definite. Curvature within `rounding` (m) of zero counts
+  /// as none: such a direction, as around the equator of a spheroid with a point at its centre, has what its slope can gain over a
+  /// quarter turn.
+  double largest_gain(double rounding = 0) const;
+
+  /// The maximum over |u| <= radius: the Newton step if it fits, otherwise on the rim (More and Sorensen 1983, in the
+  /// eigenvectors of A).
+  Vector2 maximize(double radius) const;
+
+  /// maximize(radius) and largest_gain(rounding), for little more than a division where A is well-conditioned and positive
+  /// definite.
+  struct Peak {
+    Vector2 u;
+    double whole_gain;  ///< m
+  };
+  Peak peak(double radius, double rounding) const;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,20 @@
+// The three solvers, over one gap function.
+#pragma once
+
+#include "supernormal/proximity/gap_function.hpp"
+#include "supernormal/proximity/proximity.hpp"
+
+namespace supernormal {
+
+/// Which local maximum of the gap function of overlapping bodies is wanted.
+enum class Branch {
+  Highest,  ///< the global one: the smallest translation that separates
+  OfStart,  ///< the one that the start leads to, unless it is clearly not the highest: a contact does not jump without need
+};
+
+// Each starts at the unit normal `start` and answers in body 1's frame.
+Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3& start);  // both shapes need curvature
+Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Vector3& start);
+Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch);
+
+}  // namespace supernormal

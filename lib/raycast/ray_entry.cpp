@@ -1,0 +1,307 @@
+#include "raycast/ray_entry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "proximity/local/local_model.hpp"
+#include "shapes/finite.hpp"
+
+namespace supernormal {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A plane whose normal is this close to perpendicular to the line is taken to be along it: the body's boundary there is within
+// the square of this, times a radius of curvature, of the silhouette.
+constexpr double kGrazing = 1e-9;
+
+// A longer step (tangent of the angle) is one of rounding.
+constexpr double kLongestStep = 1e4;
+
+// A step of the paraboloid shall reduce what is left by this factor.
+constexpr double kGoodContraction = 0.5;
+
+// What is left is summed as a geometric series of the contraction of the last two steps, which is believed to be no slower than
+// this.
+constexpr double kSlowestContraction = 0.95;
+constexpr double kGainSafety = 3;
+
+// Steps longer than this (radians) reach to where the curvature may be another: their contraction is not believed.
+constexpr double kAsymptoticStep = 1e-3;
+
+// A direction far from the line is not tried by the paraboloid more often than this without narrowing the sector by half.
+constexpr int kMaxSlowSteps = 2;
+
+// When the point is good, the normal is improved by at most so many steps: the point may be as good as rounding allows while the
+// slopes on a flat face still differ.
+constexpr int kMaxPolishingSteps = 32;
+
+// After so many steps that bring nothing new there is nothing left to try; nor after so many that bring neither a better plane nor
+// the portal nearer to it, to this share of the distance.
+constexpr int kMaxIdleSteps = 60;
+constexpr int kMaxFruitlessSteps = 150;
+constexpr double kProgress = 0.99;
+
+// The remembered points are asked for a normal within this distance (tangent of the angle).
+constexpr double kReach = 100;
+
+// Radii of curvature below this (m) are those of an edge or a vertex, to rounding: no paraboloid, and a division out of range.
+constexpr double kSharpestRadius = 1e-100;
+
+// What rounding makes of the height of a portal above the best plane, in GapFunction::rounding(): one from the plane, a little more
+// than one from a steep portal, whose points are off by that.
+constexpr double kPortalRounding = 3;
+
+// A paraboloid that the line dips into by so many times the tolerance is hit, whatever is left.
+constexpr double kSureDepth = 100;
+
+bool is_curved(const Symmetric2& A) {
+  const double size = A.trace();
+  return size > kSharpestRadius && A.xx * (A.yy / size) - A.xy * (A.xy / size) > kSharpestRadius;
+}
+
+// Whether products of such numbers with lengths, and of four of these, are in range.
+bool is_in_range(const Vector2& u) { return std::abs(u.x()) < 1e60 && std::abs(u.y()) < 1e60; }
+
+/// The smaller root of a t^2 + 2 b t + c, a >= 0; its minimum when there is none. Infinite when it has neither: straight, and not
+/// falling.
+double first_root(double a, double b, double c) {
+  constexpr double kStraight = 1e-150;
+  const double discriminant = b * b - a * c;
+  const double root = std::sqrt(std::max(discriminant, 0.0));
+  if (discriminant > 0 && b < 0) return c / (root - b);
+  return a > kStraight ? -(b + root) / a : kInfinity;
+}
+
+}  // namespace
+
+Vector3 first_entry_normal(const Vector3& half_extents, const Vector3& c, const Vector3& v) {
+  constexpr double kThinnest = 1e-12;  // a flat body has no ellipsoid
+  const double largest = half_extents.maxCoeff();
+  if (largest == 0) return -v;
+  const Vector3 half = half_extents.cwiseMax(kThinnest * largest);
+  const Vector3 scaled_c = c.cwiseQuotient(half);
+  const Vector3 scaled_v = v.cwiseQuotient(half);
+  const double squared_v = scaled_v.squaredNorm();
+  const Vector3 foot = scaled_c - scaled_c.dot(scaled_v) / squared_v * scaled_v;
+  const double inside = 1 - foot.squaredNorm();
+  if (inside > 0) return (foot - std::sqrt(inside / squared_v) * scaled_v).cwiseQuotient(half).normalized();
+  const Vector3 n = foot.cwiseQuotient(half);
+  return (n - n.dot(v) * v).normalized();
+}
+
+EntrySearch::EntrySearch(GapFunction& gap, const Vector3& direction, const Settings& settings, double tolerance)
+    : gap_(gap), v_(direction), settings_(settings), tolerance_(tolerance), portal_(direction, gap.rounding()) {}
+
+EntrySearch::Result EntrySearch::run(const Vector3& first_normal, double limit) {
+  Vector3 normal = first_normal;
+  while (true) {
+    evaluate(normal);
+    if (!is_finite_) return {};
+    if (misses_) return {Kind::Miss, Status::Converged, 0, 0, 0, beside_.jet.n};
+    if (has_best_ && best_.t > limit) return {Kind::Beyond, Status::Converged, best_.t, 0, 0, best_.jet.n};
+    const Step step = paraboloid_step();
+    if (!is_beside_latest_) {
+      model_error_ = std::min(model_error_, expected_error(step));
+      is_deep_ = step.is_deep;
+    }
+    if (has_settled(step)) return found(Status::Converged);
+    if (gap_.evaluations() >= settings_.max_evaluations) return found(Status::EvaluationLimit);
+    if (!choose(step, normal)) return found(boundary_error() <= tolerance_ ? Status::Converged : Status::Stalled);
+  }
+}
+
+void EntrySearch::evaluate(const Vector3& normal) {
+  const Vector3 n = normal.normalized();
+  const double slope = n.dot(v_);
+  if (!(slope < -kGrazing)) return evaluate_beside((n - slope * v_).normalized());
+  Sample sample;
+  gap_.evaluate(n, gap_.has_hessian() ? Order::Hessian : Order::Point, sample.jet);
+  is_finite_ = sample.jet.is_finite();
+  sample.slope = slope;
+  sample.t = sample.jet.s / -slope;
+  const double upper_bound = portal_.upper_bound();
+  const bool is_news = add_point(sample.jet.d);
+  is_beside_latest_ = false;
+  if (!gap_.has_hessian()) has_best_ ? secant_.update(best_.jet, sample.jet) : secant_.restart(sample.jet);
+  const bool is_lower = portal_.upper_bound() - best_.t < kProgress * (upper_bound - best_.t);
+  const bool is_best = !has_best_ || is_better(sample);
+  if (is_best) {
+    best_ = sample;
+    model_error_ = point_error_ = kInfinity;
+  }
+  if (is_best || !gap_.has_hessian()) was_tried_ = false;
+  has_best_ = true;
+  idle_steps_ = is_best || is_news ? 0 : idle_steps_ + 1;
+  fruitless_steps_ = is_best || is_lower ? 0 : fruitless_steps_ + 1;
+}
+
+// Near the maximum t is level to rounding while the boundary point still comes nearer to the line.
+bool EntrySearch::is_better(const Sample& sample) const {
+  const double level = gap_.rounding() / -sample.slope;
+  if (!(sample.t <= best_.t + level)) return true;  // also when it is not a number
+  return sample.t >= best_.t - level && distance_at(sample).squaredNorm() < distance_at(best_).squaredNorm();
+}
+
+void EntrySearch::evaluate_beside(const Vector3& normal) {
+  const double sector = portal_.sector();
+  gap_.evaluate(normal, gap_.has_hessian() ? Order::Hessian : Order::Point, beside_.jet);
+  is_finite_ = beside_.jet.is_finite();
+  misses_ = beside_.jet.s >= 0;
+  beside_.t = v_.dot(beside_.jet.jet1.r);
+  if (beside_.jet.s > nearest_) {
+    nearest_ = beside_.jet.s;
+    nearest_normal_ = normal;
+  }
+  if (add_point(beside_.jet.d)) idle_steps_ = 0;
+  slow_steps_ = portal_.sector() > kGoodContraction * sector ? slow_steps_ + 1 : 0;
+  is_beside_latest_ = true;
+}
+
+// The boundary near the point r is { x : n.x - h = -1/2 y A^-1 y }, with y the tangential part of x - r and A the Hessian of h.
+EntrySearch::Step EntrySearch::paraboloid_step() const {
+  Step step;
+  const bool from_beside = is_beside_latest_ || !has_best_;
+  if (!gap_.has_hessian() && !has_best_) return step;
+  const Sample& from = from_beside ? beside_ : best_;
+  const GapJet& jet = from.jet;
+  const LocalModel local = gap_.has_hessian() ? LocalModel::of(gap_, jet) : LocalModel::of(gap_, jet, secant_.matrix());
+  const Symmetric2 A = local.A1 + local.A2;
+  if (!is_curved(A)) return step;
+  const Vector3 d = distance_at(from);
+  const Vector2 y = local.plane1.project(d);
+  const Vector2 y_rate = local.plane1.project(v_);
+  const Vector2 u = A.solve(y);
+  const Vector2 u_rate = A.solve(y_rate);
+  if (!is_in_range(u) || !is_in_range(u_rate) || y.dot(u) < 0) return step;
+  // The height of the line above the paraboloid is a t^2 + 2 b t + c.
+  const double a = 0.5 * y_rate.dot(u_rate);
+  const double b = 0.5 * (y.dot(u_rate) + from.slope);
+  const double c = 0.5 * y.dot(u) + (from_beside ? jet.s : 0);
+  const double distance = first_root(a, b, c);
+  if (!std::isfinite(distance)) return step;
+  const Vector3 dn = local.plane1.lift(u + distance * u_rate);
+  step.normal = gap_.has_hessian() ? gap_.shape1().advance_normal(jet.n, jet.jet1, dn) : Vector3(jet.n + dn);
+  const double along = step.normal.dot(jet.n);
+  step.is_usable = all_finite(step.normal) && step.normal.lpNorm<Eigen::Infinity>() < kLongestStep * along;
+  if (from_beside || !step.is_usable) return step;
+  const Vector3 change = step.normal / along - jet.n;
+  step.is_deep = gap_.has_hessian() && b * b - a * c > kSureDepth * tolerance_ * a;
+  step.length = change.norm();
+  step.gain = std::max({0.5 * y.dot(u), d.dot(change), 0.0});
+  return step;
+}
+
+bool EntrySearch::add_point(const Vector3& d) {
+  points_[static_cast<std::size_t>(point_count_++ % CuttingPlanes::kCapacity)] = d;
+  return portal_.add(d);
+}
+
+// From the boundary point to the point where its plane meets the line.
+Vector3 EntrySearch::distance_at(const Sample& sample) const { return sample.jet.d + sample.t * v_; }
+
+// What the model says is still to come, and by how much it promised more the step before.
+double EntrySearch::expected_error(const Step& step) const {
+  if (!gap_.has_hessian() || !std::isfinite(step.gain)) return kInfinity;
+  const bool has_history = std::isfinite(promised_gain_) && promised_gain_ > 0 && step.length < kAsymptoticStep;
+  const double contraction = has_history ? std::min(step.gain / promised_gain_, kSlowestContraction) : kSlowestContraction;
+  return kGainSafety / (1 - contraction) * step.gain;
+}
+
+double EntrySearch::boundary_error() const {
+  if (!has_best_) return kInfinity;
+  const double error = std::min({distance_at(best_).norm(), portal_.upper_bound() - best_.t, model_error_, point_error_});
+  return std::max(error, 0.0) + gap_.rounding();
+}
+
+// A point within the tolerance of the body may still be one that the line passes it at.
+//
+// And the point may be good long before the normal is. Boundary point and normal belong together, so that either is good enough:
+// the first on a sharp edge, the second on a flat face.
+bool EntrySearch::has_settled(const Step& step) {
+  if (boundary_error() > tolerance_ || (!is_deep_ && !portal_.is_pierced())) return false;
+  const bool is_normal_good = distance_at(best_).norm() <= tolerance_ || step.length <= settings_.tolerance;
+  const bool is_exhausted = was_tried_ && (!portal_.is_pierced() || idle_steps_ >= kMaxIdleSteps);
+  return is_normal_good || is_exhausted || ++polishing_steps_ > kMaxPolishingSteps;
+}
+
+bool EntrySearch::is_worth_it(const Vector3& normal) const {
+  const double slope = normal.dot(v_);
+  if (slope >= -kGrazing * normal.norm()) return portal_.may_separate(normal - slope * v_);
+  return !has_best_ || portal_.support_bound(normal) + slope * best_.t > -gap_.rounding() * normal.norm();
+}
+
+bool EntrySearch::choose(const Step& step, Vector3& normal) {
+  const bool is_new = is_beside_latest_ || !was_tried_;
+  const bool is_promising = step.is_usable && is_new && is_worth_it(step.normal);
+  const bool is_slow =
+      is_beside_latest_ ? slow_steps_ >= kMaxSlowSteps : idle_steps_ > 0 || step.gain > kGoodContraction * promised_gain_;
+  const bool is_stuck = portal_.is_pierced() && (idle_steps_ >= kMaxIdleSteps || fruitless_steps_ >= kMaxFruitlessSteps);
+  if (is_stuck) return false;
+  if (is_promising && !is_slow) {
+    promised_gain_ = step.gain;
+  } else {
+    promised_gain_ = kInfinity;
+    if (choose_by_portal(normal)) return true;
+    if (!is_promising) return false;
+  }
+  was_tried_ = !is_beside_latest_;
+  normal = step.normal;
+  return true;
+}
+
+bool EntrySearch::choose_by_portal(Vector3& normal) {
+  if (!portal_.is_pierced()) {
+    slow_steps_ = 0;
+    normal = tries_edge_ ? portal_.edge_normal() : portal_.bisector();
+    tries_edge_ = !tries_edge_;
+    return true;
+  }
+  const Vector3 across = has_best_ ? portal_.normal() : Vector3(-v_);
+  const double length = across.norm();
+  const double slope = across.dot(v_);
+  const bool is_usable =
+      slope < -kGrazing * length && (portal_.upper_bound() - best_.t) * -slope > kPortalRounding * gap_.rounding() * length;
+  const bool by_points = !is_usable || idle_steps_ % 2 == 1;
+  if (by_points && choose_by_points(normal)) return true;
+  normal = across;
+  return is_usable;
+}
+
+// All points that are remembered are in the body, and so is their hull: the direction in which it is farthest from the best point
+// on the line. That the portal may miss when the line passes through one of its edges.
+bool EntrySearch::choose_by_points(Vector3& normal) {
+  CuttingPlanes cuts;
+  for (int k = 0; k < std::min(point_count_, CuttingPlanes::kCapacity); ++k) {
+    cuts.add(points_[static_cast<std::size_t>(k)] + best_.t * v_);
+  }
+  const TangentPlane plane(best_.jet.n, best_.jet.n.unitOrthogonal());
+  const CuttingPlanes::Maximum top = cuts.maximize(plane, kReach);
+  if (top.is_interior) point_error_ = std::max(top.value, 0.0) + top.uncertainty;
+  normal = best_.jet.n + plane.lift(top.u);
+  return top.value > gap_.rounding() && normal.dot(v_) < -kGrazing * normal.norm();
+}
+
+EntrySearch::Result EntrySearch::found(Status status) const {
+  const double error = boundary_error();
+  // The line enters between the best plane and the portal. Where it only grazes the body, the plane may be behind by rounding.
+  const double t = std::fmin(best_.t, portal_.upper_bound());
+  const double length = portal_.upper_bound() - t;
+  // The portal is in the body, and no point of the body is beyond a plane beside the line: so near to it, the line grazes the body
+  // at the portal.
+  const double grazing_error = -nearest_ + gap_.rounding();
+  if (error > tolerance_ && portal_.is_pierced() && grazing_error <= tolerance_) {
+    return {Kind::Found, Status::Converged, portal_.upper_bound(), grazing_error, length, nearest_normal_};
+  }
+  if (has_best_) {
+    // Where the line only grazes the body, it becomes no steeper from the plane on: what is left sideways says little.
+    const double steep_length = is_deep_ ? error / -best_.slope : kInfinity;
+    const double t_error = std::fmin(steep_length, length + gap_.rounding() / -best_.slope);
+    return {Kind::Found, status, t, error, t_error, best_.jet.n};
+  }
+  // No evaluations are left.
+  if (portal_.is_pierced()) return {Kind::Found, status, portal_.upper_bound(), kInfinity, kInfinity, nearest_normal_};
+  return {Kind::Miss, status, 0, kInfinity, kInfinity, nearest_normal_};
+}
+
+}  // namespace supernormal

@@ -1,0 +1,237 @@
+#include "face_cost.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ode_geom.hpp"
+#include "ode_poses.hpp"
+#include "random_geometry.hpp"
+#include "report/environment.hpp"
+#include "report/statistics.hpp"
+#include "report/text.hpp"
+#include "supernormal/supernormal.h"
+
+namespace accuracy_cost {
+namespace {
+
+using falling_particles::Random;
+using supernormal::Pose;
+using supernormal::Vector3;
+
+const Vector3 kBrick(0.5, 0.25, 0.15);  // m; half-axes
+constexpr std::array kExponents = {2.3, 3.0, 4.0, 8.0, 12.0, 20.0, 60.0, 200.0};
+constexpr std::array kRooms = {1, 8};
+constexpr double kLeastOverlap = 1e-5, kGreatestOverlap = 1e-3;  // of the half-height
+constexpr double kLean = 0.2;  // of the angle at which one end of the brick is as deep as the overlap and the other touches
+constexpr std::size_t kOverlaps = 8, kSteps = 8;
+constexpr double kFloorSize = 20;  // m
+constexpr int kBisections = 50;
+constexpr int kBatches = 15;  // of each round
+
+enum class Floor { Plane, Box, Face, Bond, Trimesh };
+constexpr std::array kFloors = {Floor::Plane, Floor::Box, Floor::Face, Floor::Bond, Floor::Trimesh};
+constexpr std::array<const char*, kFloors.size()> kFloorNames = {"`dPlane`", "`dBox`", "face on face", "brick bond", "`dTriMesh`"};
+
+/// A superellipsoid with this exponent twice, or a dBox, the size of a brick.
+struct Brick {
+  std::string name;
+  double exponent = 0;  // 0: dBox
+
+  OdeGeom make() const {
+    if (exponent == 0) return OdeGeom(dCreateBox(nullptr, 2 * kBrick.x(), 2 * kBrick.y(), 2 * kBrick.z()));
+    return OdeGeom(snCreateSuperellipsoid(nullptr, kBrick.x(), kBrick.y(), kBrick.z(), exponent, exponent));
+  }
+};
+
+std::vector<Brick> bricks() {
+  std::vector<Brick> all;
+  all.reserve(kExponents.size() + 1);
+  for (const double exponent : kExponents) all.push_back({text("%g", exponent), exponent});
+  all.push_back({"`dBox`", 0});
+  return all;
+}
+
+/// What a query knows of the last one, and how far the brick has moved since then, in units of the overlap: a body at rest moves by
+/// less than a hundredth of it in a step.
+struct Start {
+  const char* name;
+  bool is_warm;
+  double move;
+};
+constexpr std::array kStarts = {Start{"cold", false, 0.01}, Start{"warm", true, 0.01}, Start{"warm, jolted", true, 1}};
+
+/// Of a brick whose height of touching is 0.
+std::vector<Pose> resting_poses(double move) {
+  Random random(1);
+  const auto any = [&] { return Vector3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)); };
+  std::vector<Pose> poses;
+  for (std::size_t k = 0; k < kOverlaps; ++k) {
+    const double share = static_cast<double>(k) / (kOverlaps - 1);
+    const double overlap = kBrick.z() * kLeastOverlap * std::pow(kGreatestOverlap / kLeastOverlap, share);
+    const Vector3 axis = random_normal(random);
+    for (std::size_t step = 0; step < kSteps; ++step) {
+      const Vector3 turn = kLean * overlap / kBrick.x() * (axis + move * any());
+      const Vector3 moved = 0.5 * move * overlap * any();
+      poses.push_back({moved - overlap * Vector3::UnitZ(), Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()});
+    }
+  }
+  return poses;
+}
+
+/// What the brick lies on: one geom, two in a bond.
+std::vector<OdeGeom> make_floor(Floor floor, const Brick& brick) {
+  std::vector<OdeGeom> geoms;
+  const auto add_brick = [&](double x) {
+    geoms.push_back(brick.make());
+    dGeomSetPosition(geoms.back().id(), x, 0, -kBrick.z());
+  };
+  switch (floor) {
+    case Floor::Plane:
+      geoms.emplace_back(dCreatePlane(nullptr, 0, 0, 1, 0));
+      break;
+    case Floor::Box:
+      geoms.emplace_back(dCreateBox(nullptr, kFloorSize, kFloorSize, 1));
+      dGeomSetPosition(geoms.back().id(), 0, 0, -0.5);
+      break;
+    case Floor::Face:
+      add_brick(0);
+      break;
+    case Floor::Bond:
+      add_brick(-kBrick.x());
+      add_brick(kBrick.x());
+      break;
+    case Floor::Trimesh:
+      geoms.push_back(make_trimesh(terrain(1, kFloorSize, 0)));
+      break;
+  }
+  return geoms;
+}
+
+/// The height at which a brick ceases to collide with a floor whose top is at z = 0. In a bond round bodies sink in.
+double touching_height(const OdePair& pair) {
+  std::array<dContactGeom, kMaxContacts> contacts;
+  double low = 0, high = 2 * kBrick.z();
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (low + high);
+    pair.move_body({{0, 0, middle}, supernormal::Matrix3::Identity()});
+    (pair.collide(contacts) > 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+/// A brick on its floor, and what a query of one pair costs there.
+class Rest {
+ public:
+  Rest(Floor floor, const Brick& brick) : brick_(brick.make()), floor_(make_floor(floor, brick)) {
+    height_ = touching_height({brick_.id(), floor_.front().id()});
+  }
+
+  void measure(const std::vector<Pose>& poses, int room, bool is_warm) {
+    snSetWarmStart(is_warm ? 1 : 0);
+    pass(poses, room);
+    snResetStatistics();
+    const double contacts = pass(poses, room);
+    snStatistics counted;
+    snGetStatistics(&counted);
+    const auto queries = static_cast<double>(poses.size() * floor_.size());
+    contacts_ = contacts / queries;
+    evaluations_ = static_cast<double>(counted.evaluations_cold + counted.evaluations_warm) / queries;
+    for (int batch = 0; batch < kBatches; ++batch) {
+      const double asking = time_of([&] { pass(poses, room); });
+      const double moving = time_of([&] { pass(poses, 0); });
+      times_.push_back((asking - moving) / queries);
+    }
+  }
+
+  double time() const { return median(times_); }  // s
+  double contacts() const { return contacts_; }
+  double evaluations() const { return evaluations_; }
+
+ private:
+  template <typename Function>
+  static double time_of(const Function& function) {
+    const auto start = std::chrono::steady_clock::now();
+    function();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  // Without room it only moves the brick.
+  double pass(const std::vector<Pose>& poses, int room) const {
+    std::array<dContactGeom, kMaxContacts> contacts;
+    double count = 0;
+    for (const Pose& pose : poses) {
+      OdePair{brick_.id(), nullptr}.move_body({pose.position + height_ * Vector3::UnitZ(), pose.rotation});
+      if (room == 0) continue;
+      for (const OdeGeom& geom : floor_) count += dCollide(brick_.id(), geom.id(), room, contacts.data(), sizeof(dContactGeom));
+    }
+    return count;
+  }
+
+  OdeGeom brick_;
+  std::vector<OdeGeom> floor_;
+  std::vector<double> times_;
+  double height_ = 0;  // m
+  double contacts_ = 0, evaluations_ = 0;
+};
+
+struct Row {
+  std::string name;
+  std::vector<Rest> rests;  // of bricks()
+};
+
+std::vector<Row> measure_rows(const Effort& effort) {
+  std::vector<Row> rows;
+  for (std::size_t f = 0; f < kFloors.size(); ++f) {
+    for (const int room : kRooms) {
+      for (const Start& start : kStarts) {
+        const std::vector<Pose> poses = resting_poses(start.move);
+        Row row{std::string(kFloorNames[f]) + " | " + std::to_string(room) + " | " + start.name, {}};
+        for (const Brick& brick : bricks()) row.rests.emplace_back(kFloors[f], brick);
+        for (int round = 0; round < effort.rounds; ++round) {
+          for (Rest& rest : row.rests) rest.measure(poses, room, start.is_warm);
+        }
+        rows.push_back(std::move(row));
+      }
+    }
+  }
+  return rows;
+}
+
+void write_rows(const std::vector<Row>& rows, const std::function<std::string(const Rest&)>& cell, std::ostream& out) {
+  out << "\n| on | room | start |";
+  for (const Brick& brick : bricks()) out << ' ' << brick.name << " |";
+  out << "\n|---|---:|---|";
+  for (std::size_t b = 0; b < bricks().size(); ++b) out << "---:|";
+  for (const Row& row : rows) {
+    out << "\n| " << row.name << " |";
+    for (const Rest& rest : row.rests) out << ' ' << cell(rest) << " |";
+  }
+  out << '\n';
+}
+
+}  // namespace
+
+void write_face_costs(const Effort& effort, std::ostream& out) {
+  if (snInit() == 0) throw std::runtime_error(snLastError());
+  const std::vector<Row> rows = measure_rows(effort);
+  for (const auto& [name, value] : environment()) out << "* " << name << ": " << value << "\n";
+  out << "* ODE: " << dODE_VERSION
+      << "\n\nMedian time of a dCollide, µs, of superellipsoids by their exponent, half-axes 0.5, 0.25, 0.15 m, that rest: "
+         "overlapped\n"
+         "by 1e-5 … 1e-3 of the half-height, and moved since the last query by 1 % of that; jolted, by all of it. Moving the body\n"
+         "is not counted. In a brick bond the brick lies on two others, half on each; the time is that of one pair.\n";
+  write_rows(
+      rows, [](const Rest& rest) { return text("%.2f", rest.time() * 1e6); }, out);
+  out << "\nMean number of contacts, and of evaluations of the gap function in the query; those for the corners come on top.\n";
+  write_rows(
+      rows, [](const Rest& rest) { return text("%.1f", rest.contacts()) + ", " + text("%.1f", rest.evaluations()); }, out);
+  snClose();
+}
+
+}  // namespace accuracy_cost

@@ -1,0 +1,56 @@
+#include "grain_form.hpp"
+
+#include <array>
+#include <stdexcept>
+
+#include "methods/method.hpp"
+#include "simulation/world.hpp"
+#include "supernormal/supernormal.h"
+
+namespace accuracy_cost {
+namespace {
+
+using falling_particles::Grain;
+
+constexpr int kMostEvaluations = 1000;  // the library's default
+
+Mesh grain_mesh(const Grain& grain, MeshSize size) {
+  const auto [a, b, c] = grain.half_axes;
+  const double r = grain.rounding;
+  return superellipsoid_mesh({a - r, b - r, c - r}, grain.delta, grain.epsilon, r, size);
+}
+
+}  // namespace
+
+GeomMaker grain_maker(const Form& form, const Grain& grain) {
+  switch (form.kind) {
+    case FormKind::Smooth:
+      return [grain, tolerance = form.tolerance] {
+        OdeGeom geom(falling_particles::create_geom(nullptr, grain));
+        if (snGeomSetSolver(geom.id(), SN_SOLVER_HYBRID, tolerance, kMostEvaluations) == 0)
+          throw std::invalid_argument(snLastError());
+        return geom;
+      };
+    case FormKind::Box:
+      return [s = grain.half_axes] { return OdeGeom(dCreateBox(nullptr, 2 * s[0], 2 * s[1], 2 * s[2])); };
+    case FormKind::Convex:
+      return convex_maker(grain_mesh(grain, form.mesh));
+    case FormKind::Trimesh:
+      return trimesh_maker(grain_mesh(grain, form.mesh));
+  }
+  throw std::logic_error("no such form");
+}
+
+std::string Form::name() const {
+  constexpr std::array<const char*, 4> kNames = {"Supernormal", "dBox", "dConvex", "dTriMesh"};
+  const std::string name = kNames[static_cast<std::size_t>(kind)];
+  return threads == 0 ? name : name + " (batch; " + std::to_string(threads) + (threads == 1 ? " thread)" : " threads)");
+}
+
+std::string Form::accuracy() const {
+  if (kind == FormKind::Box) return "";
+  if (kind != FormKind::Smooth) return std::to_string(mesh.vertices());
+  return power_of_ten(tolerance);
+}
+
+}  // namespace accuracy_cost

@@ -1,0 +1,26 @@
+// The grains of a scene as bodies of several classes.
+#pragma once
+
+#include <string>
+
+#include "ode_geom.hpp"
+#include "scene/grain.hpp"
+
+namespace accuracy_cost {
+
+enum class FormKind { Smooth, Box, Convex, Trimesh };  // ours; ODE's classes
+
+struct Form {
+  FormKind kind = FormKind::Smooth;
+  double tolerance = 1e-9;   ///< of Smooth
+  MeshSize mesh = {24, 20};  ///< of Convex and Trimesh, whose vertices are on the grain's boundary
+  int threads = 0;           ///< that collide, in a batch; 0: one pair after the other
+
+  std::string name() const;      ///< "dConvex"
+  std::string accuracy() const;  ///< the tolerance, or the number of vertices; "" of a box
+};
+
+/// Makes geoms of the grain, in no space; a dBox has the half-axes of its grain.
+GeomMaker grain_maker(const Form& form, const falling_particles::Grain& grain);
+
+}  // namespace accuracy_cost

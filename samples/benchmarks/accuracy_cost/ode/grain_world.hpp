@@ -1,0 +1,77 @@
+// A scene of grains in the form of one class, stepped and timed.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "grain_form.hpp"
+#include "simulation/contact_joints.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/stopwatch.hpp"
+#include "simulation/world.hpp"
+#include "supernormal/supernormal.h"
+
+namespace accuracy_cost {
+
+enum class SpaceKind { Hash, QuadTree, SweepAndPrune, Simple };
+inline constexpr std::array kSpaceKinds = {SpaceKind::Hash, SpaceKind::QuadTree, SpaceKind::SweepAndPrune, SpaceKind::Simple};
+const char* name_of(SpaceKind kind);
+
+struct PhaseCosts {
+  falling_particles::Stopwatch broad, narrow, joints, solver;
+  int steps = 0;
+  unsigned long long pairs = 0, contacts = 0;
+  unsigned long long refused = 0;  ///< contacts whose normal is not a unit vector: dJointAttach would abort (libccd)
+
+  double seconds() const { return broad.seconds() + narrow.seconds() + joints.seconds() + solver.seconds(); }
+};
+
+/// Where the grains are and how they move.
+struct Snapshot {
+  std::vector<falling_particles::Placement> placements;
+  std::vector<std::array<double, 6>> velocities;  ///< m/s, rad/s
+};
+
+class GrainWorld {
+ public:
+  /// The scene must outlive it. Masses are those of the smooth grains, whatever the form.
+  GrainWorld(const falling_particles::Scene& scene, const Snapshot& start, const Form& form, SpaceKind space = SpaceKind::Hash);
+  ~GrainWorld();
+  GrainWorld(const GrainWorld&) = delete;
+  GrainWorld& operator=(const GrainWorld&) = delete;
+
+  void step();
+
+  const PhaseCosts& costs() const { return costs_; }
+  void forget_costs() { costs_ = {}; }
+
+  Snapshot snapshot() const;
+
+  /// The bodies, to measure energies. Its own geoms are those of the smooth grains and meet nobody.
+  const falling_particles::World& world() const { return world_; }
+
+ private:
+  void add_geoms(const Form& form);
+  void set_velocities(const Snapshot& start);
+  void set_space_cells(SpaceKind kind);
+  void collide_one_by_one();
+  void collide_batch();
+  static int name_pair(void* self, dGeomID g1, dGeomID g2);
+  void make_joints();
+
+  const falling_particles::Scene& scene_;
+  std::vector<std::size_t> kinds_;
+  falling_particles::World world_;
+  dSpaceID space_;
+  std::vector<OdeGeom> geoms_;
+  std::unique_ptr<falling_particles::Walls> walls_;
+  falling_particles::ContactJoints joints_;
+  snBatchID batch_;  // null: one by one
+  std::vector<std::pair<dGeomID, dGeomID>> pairs_;
+  std::vector<dContactGeom> contacts_;
+  PhaseCosts costs_;
+};
+
+}  // namespace accuracy_cost

@@ -1,0 +1,56 @@
+// The pairs of bodies that every method is asked about.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "supernormal/proximity/pose.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace accuracy_cost {
+
+/// What kind of bodies: exponents 2; 1.3…5; 6…20; 1.1…1.3; 2…5, uniform. Half-axes 0.5…1.5 m each; of a needle two are a tenth of
+/// that.
+enum class BodyClass { Ellipsoid, Moderate, Boxy, Octahedral, Needle };
+inline constexpr std::array kBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy};
+inline constexpr std::array kAllBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy, BodyClass::Octahedral,
+                                               BodyClass::Needle};
+
+/// How they lie; shares are of the smallest half-axis of the two.
+enum class Situation { Shallow, Deep, Near, Far, Touching };  // 1 % overlap, 30 % overlap, 1 % apart, 1…5 m apart, 0
+inline constexpr std::array kSituations = {Situation::Shallow, Situation::Deep, Situation::Near, Situation::Far};
+inline constexpr std::array kAllSituations = {Situation::Touching, Situation::Shallow, Situation::Deep, Situation::Near,
+                                              Situation::Far};
+
+char letter(BodyClass body_class);
+char letter(Situation situation);
+
+inline constexpr std::size_t kNormalsPerPair = 16;
+
+struct Pair {
+  BodyClass body_class;
+  Situation situation;
+  std::shared_ptr<const supernormal::Shape> shape1, shape2;
+  supernormal::Pose pose1, pose2;
+  double size = 0;                   ///< m; smallest half-axis
+  double gap = 0;                    ///< m; the reference: the highest maximum of the gap function that is known
+  supernormal::Vector3 normal;       ///< its normal, world frame
+  supernormal::Vector3 contact;      ///< m; its contact point
+  supernormal::Vector3 warm_normal;  ///< body 1's frame; the answer for a pose 1e-3 (m and rad) away
+  std::array<supernormal::Vector3, kNormalsPerPair> normals;  ///< body 1's frame; within 0.1 rad of the answer, to time evaluations
+};
+
+/// About `count` pairs, equally many of each class and situation, mixed. Same seed, same pairs, on every machine. The bodies touch
+/// along a random normal and are then moved along it, so that they lie the given distance apart unless that normal is not the best
+/// one.
+std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed);
+
+/// `count` pairs of one class and situation.
+std::vector<Pair> draw_pairs_of(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed);
+
+/// Climbs from a world-frame normal at tolerance 1e-14 and raises pair.gap, with its normal, if that leads higher.
+void improve_reference(Pair& pair, const supernormal::Vector3& world_normal);
+
+}  // namespace accuracy_cost

@@ -1,0 +1,113 @@
+#include "query_cost.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+
+#include "report/statistics.hpp"
+#include "supernormal/supernormal.h"
+
+namespace accuracy_cost {
+namespace {
+
+using supernormal::Solver;
+
+// Exponents of ten: of our tolerance, which is relative, and of libccd's, which is in metres for bodies of about a metre. With
+// less than that EPA goes round in circles, and it has no limit of iterations.
+constexpr int kOurTightest = 14;
+constexpr int kEpaTightest = 7;
+constexpr int kMprTightest = 10;
+
+constexpr const char* kHeader =
+    "class,pose,method,accuracy,queries,time_s,time_p99_s,evaluations,gap_error,gap_error_p99,gap_error_worst,normal_error,"
+    "contact_error,failures";
+
+void add(Methods& methods, Methods&& more) { std::move(more.begin(), more.end(), std::back_inserter(methods)); }
+
+void add_sweep(Methods& methods, int tightest, const std::function<std::unique_ptr<Method>(double tolerance)>& make) {
+  for (int digits = 1; digits <= tightest; ++digits) methods.push_back(make(std::pow(10.0, -digits)));
+}
+
+Methods all_methods(BodyClass body_class) {
+  Methods methods;
+  const auto ours = [](const char* name, Solver solver, Start start) {
+    return [=](double tolerance) { return supernormal_method(name, solver, start, tolerance); };
+  };
+  add_sweep(methods, kOurTightest, ours("hybrid", Solver::Hybrid, Start::Cold));
+  add_sweep(methods, kOurTightest, ours("hybrid (warm)", Solver::Hybrid, Start::Warm));
+  add_sweep(methods, kOurTightest, ours("Newton (Algorithm I)", Solver::Newton, Start::Cold));
+  add_sweep(methods, kOurTightest, ours("fixed point (Algorithm II)", Solver::FixedPoint, Start::Cold));
+  methods.push_back(early_out("hybrid (early out)", Start::Cold));
+  methods.push_back(early_out("hybrid (early out; warm)", Start::Warm));
+  add_sweep(methods, kEpaTightest, [](double tolerance) { return ccd_epa("libccd GJK+EPA", tolerance); });
+  add_sweep(methods, kMprTightest, [](double tolerance) { return ccd_mpr("libccd MPR", tolerance); });
+  add(methods, bullet_methods());
+  if (body_class == BodyClass::Ellipsoid) {  // the only bodies of ours that they know
+    add(methods, fcl_methods());
+    add(methods, simbody_methods());
+  }
+  methods.push_back(evaluation_cost(supernormal::Order::Point));
+  methods.push_back(evaluation_cost(supernormal::Order::Hessian));
+  methods.push_back(floor_cost());
+  return methods;
+}
+
+std::string line(const Method& method, BodyClass body_class, Situation situation, Statistics s) {
+  if (is_unit_of_cost(method)) {  // not a question: the time of one
+    s.time /= static_cast<double>(kNormalsPerPair);
+    s.slow_time /= static_cast<double>(kNormalsPerPair);
+    s.evaluations = 1;
+    s.failures = 0;
+  }
+  std::array<char, 512> text{};
+  std::snprintf(text.data(), text.size(), "%c,%c,\"%s\",%s,%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%zu", letter(body_class),
+                letter(situation), method.name().c_str(), method.accuracy().c_str(), s.queries, s.time, s.slow_time, s.evaluations,
+                s.median_error, s.large_error, s.worst_error, s.normal_error, s.contact_error, s.failures);
+  return text.data();
+}
+
+using MethodsOf = std::function<Methods(BodyClass)>;
+
+Part part_of(const std::string& name, std::size_t pair_count, std::uint64_t seed, const Effort& effort,
+             const MethodsOf& methods_of) {
+  Part part{name, kHeader, {}};
+  for (const BodyClass body_class : kAllBodyClasses) {
+    for (const Situation situation : kAllSituations) {
+      part.tasks.push_back({std::string{letter(body_class), letter(situation)}, [=] {
+                              std::vector<Pair> pairs = draw_pairs_of(body_class, situation, pair_count, seed);
+                              const Methods methods = methods_of(body_class);
+                              const auto samples = measure(methods, pairs, effort);
+                              improve_references(samples, pairs);
+                              std::vector<std::string> lines;
+                              lines.reserve(methods.size());
+                              for (std::size_t m = 0; m < methods.size(); ++m) {
+                                const auto all = [](const Pair&) { return true; };
+                                lines.push_back(line(*methods[m], body_class, situation, statistics(samples[m], pairs, all)));
+                              }
+                              return lines;
+                            }});
+    }
+  }
+  return part;
+}
+
+}  // namespace
+
+Part query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
+  return part_of("query", pairs, seed, effort, all_methods);
+}
+
+Part mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
+  return part_of("meshes", pairs, seed, effort, [](BodyClass /*body_class*/) {
+    if (snInit() == 0) throw std::runtime_error(snLastError());
+    Methods methods = ode_mesh_methods();
+    methods.push_back(supernormal_method("hybrid", Solver::Hybrid, Start::Cold, 1e-9));
+    methods.push_back(supernormal_method("hybrid (warm)", Solver::Hybrid, Start::Warm, 1e-9));
+    return methods;
+  });
+}
+
+}  // namespace accuracy_cost

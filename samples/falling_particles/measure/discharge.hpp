@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "bed.hpp"
+#include "container/hopper.hpp"
+#include "simulation/random.hpp"
+#include "simulation/world.hpp"
+
+namespace falling_particles {
+
+/// The part of the discharge that counts as steady, in shares of the charge: after the start, and while the outlet is well covered.
+constexpr double kSteadyFrom = 0.2;
+constexpr double kSteadyTo = 0.6;
+
+/// The charge of a hopper when its outlet opens.
+struct Charge {
+  double time;            ///< s
+  double mass;            ///< kg, of all grains
+  double grain_diameter;  ///< m, of the sphere of the grains' mean volume
+  Bed bed;
+};
+
+/// Opens the outlet of a hopper when its time has come, and counts the grains whose centre passes it.
+class Discharge {
+ public:
+  Discharge(World& world, const Hopper& hopper, Random& random);
+
+  void after_step(double time);
+
+  const std::optional<Charge>& charge() const { return charge_; }  ///< empty: still closed
+  std::size_t count() const { return passages_.size(); }
+  double mass() const { return passages_.empty() ? 0 : passages_.back().total_mass; }    ///< kg
+  double last_passage() const { return passages_.empty() ? 0 : passages_.back().time; }  ///< s
+
+  /// kg/s, mean of the steady part; empty when less than that was discharged.
+  std::optional<double> mass_flow() const;
+
+ private:
+  struct Passage {
+    double time;
+    double total_mass;  // with this one
+  };
+  void open(double time);
+  const Passage* find_passage(double share) const;
+
+  World& world_;
+  const Hopper& hopper_;
+  Random& random_;
+  std::optional<Charge> charge_;
+  std::vector<bool> has_passed_;
+  std::vector<Passage> passages_;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/scene.hpp"
+#include "simulation/world.hpp"
+
+namespace falling_particles {
+
+struct Energy {
+  double kinetic;    ///< J, of translation and rotation
+  double potential;  ///< J, in the scene's gravity, 0 at the origin
+  double total() const { return kinetic + potential; }
+};
+
+Energy measure_energy(const World& world, const Scene& scene);
+
+/// The height, m, to which the kinetic energy would lift all grains together; 0 without gravity.
+double kinetic_height(const World& world, const Scene& scene);
+
+/// J, of the grain that has most.
+double largest_kinetic_energy(const World& world);
+
+/// Watches the energy of all grains together in all steps: nothing in a scene may add to it.
+class EnergyWatch {
+ public:
+  EnergyWatch(const World& world, const Scene& scene);
+
+  void after_step();
+
+  double gained() const { return gained_; }        ///< J, the largest rise over any step before
+  double lost() const { return start_ - least_; }  ///< J, from the start to the least
+
+ private:
+  const World& world_;
+  const Scene& scene_;
+  double start_;
+  double least_;
+  double gained_ = 0;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "container/container.hpp"
+#include "simulation/world.hpp"
+
+namespace falling_particles {
+
+/// A grain whose centre has left the container: through a wall, the floor or the ground, or over a hopper's rim.
+struct Leak {
+  double time;                       ///< s, of the first step after which it is outside
+  std::size_t body;                  ///< index in World::bodies()
+  std::string grain;                 ///< kind
+  Point position;                    ///< m
+  std::array<double, 4> quaternion;  ///< w, x, y, z
+  Point velocity;                    ///< m/s
+};
+
+/// "grain 17 (soybean) left the container at t = 0.51 s: position …"
+std::string describe(const Leak& leak);
+
+/// Watches all grains of a world in all steps.
+class LeakWatch {
+ public:
+  LeakWatch(const World& world, const Container& container);
+
+  void after_step(double time);
+
+  std::size_t count() const { return count_; }  ///< of the grains that have been outside at any time
+  const std::optional<Leak>& first() const { return first_; }
+
+ private:
+  const World& world_;
+  const Container& container_;
+  std::vector<bool> has_leaked_;
+  std::size_t count_ = 0;
+  std::optional<Leak> first_;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+
+#include "scene/scene.hpp"
+#include "simulation/world.hpp"
+
+namespace falling_particles {
+
+struct Overlap {
+  double depth = 0;             ///< m, the deepest of all pairs, walls included; 0 when nothing overlaps
+  double relative_to_pair = 0;  ///< the largest of depth / smallest half-axis of the pair's grains
+  std::size_t pairs = 0;        ///< that overlap
+};
+
+/// Over every pair whose bounding boxes meet (others cannot overlap), by snGeomProximity.
+Overlap measure_overlap(const World& world);
+
+/// Grains whose centre is beyond a wall or the floor, or nowhere (not a number).
+std::size_t count_outside(const World& world, const Container& container);
+
+}  // namespace falling_particles

@@ -1,0 +1,147 @@
+#include "output_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "output_files.hpp"
+#include "scene/input_error.hpp"
+
+namespace falling_particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Marks a folder of ours as unfinished, and is locked by the run that writes there.
+constexpr std::string_view kMarkFile = "UNFINISHED";
+constexpr std::string_view kMarkText =
+    "The run that writes here has not ended. If it was killed, these are its results up to then; the next run of the scene with\n"
+    "the same output folder removes them.\n";
+
+bool is_output_file(const fs::directory_entry& entry) {
+  return std::ranges::find(kOutputFiles, entry.path().filename().string()) != kOutputFiles.end();
+}
+
+/// Nothing of the user's is ever deleted: a folder is replaced only when everything in it was written by a run.
+void refuse_foreign(const fs::path& target) {
+  if (!fs::exists(fs::symlink_status(target))) return;
+  if (!fs::is_directory(fs::symlink_status(target))) {
+    throw InputError("output \"" + target.string() + "\" exists and is not a folder; allowed: a new folder or an earlier run's");
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
+    if (!is_output_file(entry)) {
+      throw InputError("output folder \"" + target.string() + "\" holds " + entry.path().filename().string() +
+                       ", which no run writes; allowed: a new folder or an earlier run's (see --out)");
+    }
+  }
+}
+
+std::string unfinished_prefix(const fs::path& target) { return target.filename().string() + ".unfinished-"; }
+
+int open_mark(const fs::path& folder, int flags) {
+  constexpr mode_t kReadable = 0644;
+  return open((folder / kMarkFile).c_str(), O_RDWR | O_CLOEXEC | flags, kReadable);
+}
+
+bool lock(int mark) { return flock(mark, LOCK_EX | LOCK_NB) == 0; }
+
+/// Whether another run took the mark for a leftover's before we had locked it: that run holds the lock, or has removed the file.
+bool is_taken_away(int mark) {
+  // Where the file system has no locks nobody removes anything, and what is left behind stays.
+  if (!lock(mark)) return errno == EWOULDBLOCK;
+  struct stat status {};
+  return fstat(mark, &status) == 0 && status.st_nlink == 0;
+}
+
+/// Whether it holds our mark and, besides, nothing but what a run writes.
+bool is_unfinished_run(const fs::path& folder) {
+  if (!fs::is_directory(fs::symlink_status(folder)) || !fs::is_regular_file(fs::symlink_status(folder / kMarkFile))) return false;
+  return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
+    return entry.path().filename() == kMarkFile || is_output_file(entry);
+  });
+}
+
+/// What runs that were killed have left beside `target`.
+void remove_leftovers(const fs::path& target) {
+  if (!fs::is_directory(target.parent_path())) return;
+  std::vector<fs::path> folders;
+  for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path())) {
+    if (entry.path().filename().string().starts_with(unfinished_prefix(target))) folders.push_back(entry.path());
+  }
+  for (const fs::path& folder : folders) {
+    if (!is_unfinished_run(folder)) continue;
+    const int mark = open_mark(folder, 0);
+    if (mark < 0) continue;
+    std::error_code ignored;
+    if (lock(mark)) fs::remove_all(folder, ignored);  // else its run is alive
+    close(mark);
+  }
+}
+
+std::size_t count_missing(fs::path folder) {
+  std::size_t missing = 0;
+  for (; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) ++missing;
+  return missing;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& parent, const std::string& name)
+    : target_((parent.empty() ? fs::path(".") : parent) / name), created_parents_(count_missing(target_.parent_path())) {
+  try {
+    refuse_foreign(target_);
+    remove_leftovers(target_);
+    create_staging();
+  } catch (const fs::filesystem_error& error) {
+    discard();
+    throw InputError("cannot create output folder \"" + target_.string() + "\": " + error.code().message());
+  }
+}
+
+void OutputFolder::create_staging() {
+  fs::create_directories(target_.parent_path());
+  for (int number = 1;; ++number) {
+    const fs::path folder = target_.parent_path() / (unfinished_prefix(target_) + std::to_string(number));
+    if (!fs::create_directory(folder)) continue;
+    staging_ = folder;
+    mark_ = open_mark(staging_, O_CREAT);
+    if (mark_ < 0 || write(mark_, kMarkText.data(), kMarkText.size()) != static_cast<ssize_t>(kMarkText.size())) {
+      throw fs::filesystem_error("", staging_, std::error_code(errno, std::generic_category()));
+    }
+    if (!is_taken_away(mark_)) return;
+    close(mark_);
+    staging_.clear();
+  }
+}
+
+OutputFolder::~OutputFolder() { discard(); }
+
+void OutputFolder::discard() {
+  std::error_code error;
+  if (!staging_.empty()) {
+    fs::remove_all(staging_, error);
+    // Folders above that this object has created go too, if nobody else has put anything into them.
+    fs::path folder = target_.parent_path();
+    for (std::size_t i = 0; i < created_parents_ && fs::remove(folder, error); ++i) folder = folder.parent_path();
+  }
+  if (mark_ >= 0) close(mark_);
+}
+
+void OutputFolder::commit() {
+  refuse_foreign(target_);  // somebody may have put something there during the run
+  fs::remove_all(target_);
+  fs::remove(staging_ / kMarkFile);
+  fs::rename(staging_, target_);
+  staging_.clear();
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,200 @@
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <variant>
+
+#include "measure/beverloo.hpp"
+#include "toml_string.hpp"
+
+namespace falling_particles {
+namespace {
+
+/// key = value with the values of all lines in one column and the comments in another.
+class Lines {
+ public:
+  void section(const char* name) { text_ += (text_.empty() ? "[" : "\n[") + std::string(name) + "]\n"; }
+  void add(const char* key, const std::string& value, const char* comment = "") {
+    text_ += padded(key, 32) + "= " + (*comment == '\0' ? value : padded(value, 12) + "# " + comment) + '\n';
+  }
+  void add(const char* key, unsigned long long value, const char* comment = "") { add(key, std::to_string(value), comment); }
+  void add(const char* key, bool value, const char* comment = "") { add(key, std::string(value ? "true" : "false"), comment); }
+  void add(const char* key, double value, const char* comment = "") {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.6g", value);
+    std::string number = buffer;
+    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float, whatever the value
+    add(key, number, comment);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size() + 1, width), ' ');
+    return text;
+  }
+  std::string text_;
+};
+
+double ratio(unsigned long long part, unsigned long long whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void add_run(Lines& lines, const Summary& s) {
+  lines.section("run");
+  lines.add("scene", toml_string(s.scene.name));
+  lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
+  lines.add("container", toml_string(kind_of(s.scene.container)));
+  lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()));
+  for (const GrainCount& kind : s.scene.grains) {
+    lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));
+  }
+  lines.add("steps", static_cast<unsigned long long>(s.steps));
+  lines.add("simulated", s.simulated_seconds, "s");
+  lines.add("interrupted", s.interrupted, "stopped by Ctrl-C before the end");
+}
+
+void add_queries(Lines& lines, const Summary& s) {
+  const snStatistics& n = s.statistics;
+  const auto steps = static_cast<unsigned long long>(s.steps);
+  lines.section("collision");
+  lines.add("pairs_tested", s.costs.pairs_tested, "whose bounding boxes met, in all steps");
+  lines.add("sweep_axis", toml_string(name_of(s.sweep_axis)), "of the broad phase, in the last step");
+  lines.add("queries_cold", n.queries_cold, "pairs without a remembered normal; mesh and ground have none");
+  lines.add("queries_warm", n.queries_warm, "with one");
+  lines.add("evaluations_per_cold_query", ratio(n.evaluations_cold, n.queries_cold), "of the gap function, mean");
+  lines.add("evaluations_per_warm_query", ratio(n.evaluations_warm, n.queries_warm));
+  lines.add("closed_forms", n.closed_forms, "pairs settled without iteration: grain and wall");
+  lines.add("not_converged", n.not_converged, "queries whose error bound exceeds the tolerance");
+  lines.add("contacts", s.costs.contacts, "in all steps");
+  lines.add("contacts_per_step", ratio(s.costs.contacts, steps), "mean");
+  lines.add("contacts_at_end", static_cast<unsigned long long>(s.contacts_at_end), "in the last step");
+  lines.add("deepest_contact", s.deepest_contact, "m, of all steps: grains hit one another in flight");
+}
+
+void add_bed(Lines& lines, const Bed& bed, const char* about_height) {
+  lines.add("bed_height", bed.height, about_height);
+  lines.add("volume_fraction", bed.volume_fraction,
+            "of the slab from 5 % to 80 % of bed_height, from wall to wall; overlaps count once");
+  lines.add("volume_fraction_standard_error", bed.standard_error, "of the sampling (stratified points, snGeomPointDepth)");
+}
+
+void add_end_state(Lines& lines, const Summary& s) {
+  const double size = s.scene.smallest_half_axis();
+  lines.section("end");
+  lines.add("smallest_half_axis", size, "m, of all grains");
+  lines.add("deepest_overlap", s.overlap.depth, "m, over all pairs of grains and walls");
+  lines.add("deepest_overlap_relative", s.overlap.depth / size, "to smallest_half_axis");
+  lines.add("deepest_overlap_of_pair", s.overlap.relative_to_pair, "largest of depth / smallest half-axis of the pair itself");
+  lines.add("overlapping_pairs", static_cast<unsigned long long>(s.overlap.pairs));
+  lines.add("bodies_outside", static_cast<unsigned long long>(s.outside), "centre beyond a wall or the floor");
+  lines.add("bodies_leaked", static_cast<unsigned long long>(s.leaked), "outside after any step");
+  if (s.scene.gravity() != nullptr) {
+    lines.add("kinetic_height", s.kinetic_height, "m, to which the kinetic energy would lift all grains");
+    lines.add("settled", s.kinetic_height < kSettledHeight * size, "kinetic_height below 0.1 % of smallest_half_axis");
+  }
+  lines.add("largest_kinetic_energy", s.largest_kinetic_energy, "J, of the grain that has most");
+  lines.add("energy_lost", s.energy.lost(), "J, from the start to the least of all steps");
+  lines.add("energy_gained", s.energy.gained(), "J, largest rise over any step before");
+  if (s.bed) add_bed(lines, *s.bed, "m, twice the mean height of the grains' volume");
+}
+
+/// Against Beverloo's law. Keys whose value does not exist (nothing discharged, say) are left out.
+void add_mass_flow(Lines& lines, const Scene& scene, const Hopper& hopper, const Discharge& discharge) {
+  const Charge& charge = *discharge.charge();
+  const std::optional<double> flow = discharge.mass_flow();
+  if (flow) lines.add("mass_flow", *flow, "kg/s, mean from 20 % to 60 % of the charge");
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr) return;
+  const double predicted =
+      beverloo_mass_flow(hopper.outlet, charge.grain_diameter, charge.bed.bulk_density, gravity->acceleration.norm());
+  lines.add("beverloo", predicted, "kg/s, 0.58 rho_b sqrt(g) (D - 1.4 d)^2.5 (Beverloo et al. 1961), flat bottom");
+  if (flow && predicted > 0) lines.add("mass_flow_relative", *flow / predicted, "to beverloo");
+}
+
+void add_discharge(Lines& lines, const Scene& scene, const Discharge& discharge) {
+  const auto& hopper = std::get<Hopper>(scene.container);
+  lines.section("discharge");
+  lines.add("opened", discharge.charge().has_value());
+  if (!discharge.charge()) return;
+  const Charge& charge = *discharge.charge();
+  lines.add("opened_at", charge.time, "s");
+  lines.add("charge", charge.mass, "kg, all grains");
+  lines.add("grain_diameter", charge.grain_diameter, "m, d: of the sphere of the grains' mean volume");
+  lines.add("outlet_relative", hopper.outlet / charge.grain_diameter, "diameter D of the outlet / d");
+  add_bed(lines, charge.bed, "m, above the outlet when it opens, of a level bed with the grains' mean height");
+  lines.add("bulk_density", charge.bed.bulk_density, "kg/m^3, rho_b, of the same slab");
+  lines.add("discharged", discharge.mass(), "kg");
+  lines.add("discharged_grains", static_cast<unsigned long long>(discharge.count()), "whose centre has passed the outlet");
+  if (discharge.count() > 0) lines.add("last_passage", discharge.last_passage(), "s");
+  add_mass_flow(lines, scene, hopper, discharge);
+}
+
+void add_packing(Lines& lines, const Packing& packing) {
+  lines.section("packing");
+  lines.add("cell_side", packing.side, "m");
+  lines.add("volume_fraction", packing.volume_fraction, "volume of the grains / of the cell");
+  lines.add("volume_fraction_at_contact", packing.at_contact, "of grains shrunk by mean_overlap");
+  lines.add("mean_overlap", packing.overlap.relative,
+            "of all contacts, relative to the distance of their tangent planes from centre to centre");
+  lines.add("contacts_per_grain", packing.contacts_per_grain, "that overlap in the last step, mean; rattlers included");
+}
+
+void add_heap(Lines& lines, const Heap& heap) {
+  lines.section("heap");
+  lines.add("angle_of_repose", heap.angle, "degrees, of the flank from a quarter to 85 % of the dish's radius");
+  lines.add("angle_standard_error", heap.standard_error, "degrees, of the mean of twelve sectors");
+  lines.add("heap_height", heap.height, "m, of the flank continued to the axis, above the dish");
+  lines.add("heap_grains", static_cast<unsigned long long>(heap.grains), "on the dish");
+}
+
+void add_costs(Lines& lines, const Summary& s) {
+  const StepCosts& c = s.costs;
+  const double total = s.real_seconds;
+  const double narrow = c.narrow_phase_seconds();
+  const double solver = c.solver.seconds();
+  lines.section("cost");
+  lines.add("real", total, "s, steps and output");
+  lines.add("real_per_step", total / s.steps, "s");
+  lines.add("share_broad_phase", c.broad_phase.seconds() / total, "bounding boxes, the sweep along them, and walls");
+  lines.add("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
+  lines.add("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
+  lines.add("share_solver", solver / total, "dWorldQuickStep");
+  lines.add("share_output", (total - c.collision.seconds() - c.contact_setup.seconds() - solver) / total, "the rest");
+  lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
+}
+
+/// What each effect that the scene names cost; rigid contact itself comes first. Seconds are those of its own passes and, by rows,
+/// its share of the solver's.
+void add_effect_costs(Lines& lines, const Summary& s) {
+  unsigned long long rows = 0;
+  for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;
+  for (const supernormal::effects::Cost& cost : s.effects) {
+    const std::string section = std::string("effect.") + cost.name + ".";
+    const auto add = [&](const char* key, auto value, const char* comment) { lines.add((section + key).c_str(), value, comment); };
+    add("seconds", cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(),
+        "s, in its passes and its rows' share of the solver");
+    if (cost.rows > 0) add("rows", cost.rows, "constraint rows added");
+    if (cost.contacts > 0) add("contacts", cost.contacts, "touched");
+    if (cost.coarse > 0) add("coarse", cost.coarse, "contacts of fewer than ten steps: a shorter step would be better");
+    if (cost.bodies > 0) add("bodies", cost.bodies, "visited");
+  }
+}
+
+}  // namespace
+
+std::string to_toml(const Summary& summary) {
+  Lines lines;
+  add_run(lines, summary);
+  add_queries(lines, summary);
+  add_end_state(lines, summary);
+  if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);
+  if (summary.packing) add_packing(lines, *summary.packing);
+  if (summary.heap) add_heap(lines, *summary.heap);
+  add_costs(lines, summary);
+  add_effect_costs(lines, summary);
+  return lines.text();
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,126 @@
+#include "load_container.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "simulation/lattice.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr double kLargest = 1000;  // m, of all lengths
+constexpr std::int64_t kMostSegments = 10'000;
+constexpr std::int64_t kMostSamples = 4096;
+
+std::array<double, 2> read_width(const TomlTable& table) {
+  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargest, "m"));
+  return {width[0], width[1]};
+}
+
+Box read_box(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "width"});
+  return {read_width(table)};
+}
+
+std::optional<Dish> read_dish(const TomlTable& container, const Hopper& hopper) {
+  const auto table = container.find_table("dish", {"diameter", "height", "rim"});
+  if (!table) return std::nullopt;
+  Dish dish{};
+  dish.height = table->number("height", {0, hopper.clearance, false, false, "m (below the outlet)"});
+  dish.rim = table->number("rim", {0, hopper.clearance - dish.height, false, false, "m (below the outlet)"});
+  const double widest = hopper.tray_width * std::cos(std::numbers::pi / hopper.segments) - 2 * dish.rim_width();
+  dish.diameter = table->number("diameter", {0, widest, false, false, "m (with its rim within the tray)"});
+  return dish;
+}
+
+Hopper read_hopper(const TomlTable& table, const Time& time) {
+  table.refuse_unknown_keys(
+      {"kind", "outlet", "wall_angle", "diameter", "cylinder_height", "segments", "clearance", "tray_width", "opens_at", "dish"});
+  Hopper hopper{};
+  hopper.outlet = table.number("outlet", Interval::positive(kLargest, "m"));
+  hopper.diameter = table.number("diameter", {hopper.outlet, kLargest, false, true, "m (above container.outlet)"});
+  hopper.wall_angle = table.number("wall_angle", Interval::closed(1, 89, "degrees from the vertical"));
+  hopper.cylinder_height = table.number("cylinder_height", Interval::positive(kLargest, "m"));
+  hopper.segments = static_cast<int>(table.integer("segments", 3, kMostSegments));
+  hopper.clearance = table.number("clearance", Interval::positive(kLargest, "m"));
+  const double outer = hopper.diameter / std::cos(std::numbers::pi / hopper.segments);
+  hopper.tray_width = table.number("tray_width", Interval::closed(outer, 2 * kLargest, "m (the hopper hangs between its walls)"));
+  hopper.opens_at = table.number("opens_at", {0, time.duration, false, false, "s (before time.duration)"});
+  hopper.dish = read_dish(table, hopper);
+  return hopper;
+}
+
+Terrain read_terrain(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "width", "amplitude", "wavelength", "ridge_height", "samples", "seed"});
+  TerrainParameters parameters{};
+  parameters.width = read_width(table);
+  parameters.amplitude = table.number("amplitude", Interval::closed(0, kLargest, "m"));
+  parameters.wavelength = table.number("wavelength", Interval::positive(kLargest, "m"));
+  parameters.ridge_height = table.number("ridge_height", Interval::closed(0, kLargest, "m"));
+  parameters.samples = static_cast<int>(table.integer("samples", 2, kMostSamples));
+  parameters.seed = static_cast<std::uint64_t>(table.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  return Terrain(parameters);
+}
+
+Periodic read_periodic(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "side"});
+  return {table.number("side", Interval::positive(kLargest, "m"))};
+}
+
+/// The lattice needs room for one cell at least, whatever the attitude of the largest grain.
+void check_width(const TomlTable& table, const Scene& scene) {
+  const Rectangle plan = plan_of(scene.container);
+  const double narrowest = std::min(plan.width[0], plan.width[1]);
+  const double cell = scene.smallest_cell();
+  if (narrowest >= cell) return;
+  table.fail("width", "container.width is " + shortest(narrowest) + " at its narrowest; allowed: at least " + shortest(cell) +
+                          " m, so that the largest grain fits in any attitude");
+}
+
+void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& periodic) {
+  const double least = 4 * scene.largest_bounding_radius();
+  if (periodic.side >= least) return;
+  table.fail("side", "container.side is " + shortest(periodic.side) + "; allowed: at least " + shortest(least) +
+                         " m, so that no grain meets itself");
+}
+
+/// A lattice of three by three cells has one that lies within the circle around them, one of two by two has none.
+void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopper) {
+  const double narrowest = 3 * scene.smallest_cell();
+  if (hopper.diameter < narrowest) {
+    table.fail("diameter", "container.diameter is " + shortest(hopper.diameter) + "; allowed: at least " + shortest(narrowest) +
+                               " m, so that the lattice of the grains' starts has a cell in it");
+  }
+  Lattice lattice(scene);
+  for (int i = 0; i < scene.bodies(); ++i) lattice.next();
+  const double missing = lattice.top() - hopper.top();
+  if (missing <= 0) return;
+  table.fail("cylinder_height", "container.cylinder_height is " + shortest(hopper.cylinder_height) + "; allowed: at least " +
+                                    shortest(hopper.cylinder_height + missing) + " m, so that all grains start within the hopper");
+}
+
+}  // namespace
+
+Container read_container(const TomlTable& root, const Time& time) {
+  const TomlTable table = root.table("container");
+  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic"});
+  if (kind == "hopper") return read_hopper(table, time);
+  if (kind == "terrain") return read_terrain(table);
+  if (kind == "periodic") return read_periodic(table);
+  return read_box(table);
+}
+
+void check_fit(const TomlTable& root, const Scene& scene) {
+  const TomlTable table = root.table("container");
+  if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) {
+    check_hopper(table, scene, *hopper);
+  } else if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) {
+    check_periodic(table, scene, *periodic);
+  } else {
+    check_width(table, scene);
+  }
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "scene/scene.hpp"
+
+namespace falling_particles {
+
+/// The cells in which the grains of a scene start, layer upon layer from the container's lowest possible start: each holds the
+/// largest grain in any attitude, is free of walls, and a layer's cells share out the plan of the container.
+class Lattice {
+ public:
+  /// The container's plan is at least one cell wide.
+  explicit Lattice(const Scene& scene);
+
+  /// Indices of the next cell along x, y, z.
+  std::array<std::size_t, 3> next();
+
+  const Point& corner() const { return corner_; }  ///< m, of cell 0, 0, 0
+  const Point& cell() const { return cell_; }      ///< m, size of a cell
+  std::size_t layers() const { return layers_; }   ///< that next() has used
+
+  double top() const { return corner_[2] + static_cast<double>(layers_) * cell_[2]; }  ///< m, of those layers
+
+ private:
+  const Container& container_;
+  Point corner_;
+  Point cell_;
+  std::array<std::size_t, 2> cells_;  // of a layer
+  std::size_t visited_ = 0;
+  std::size_t layers_ = 0;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,174 @@
+#include "run.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <variant>
+
+#include "compression.hpp"
+#include "interrupt.hpp"
+#include "measure/discharge.hpp"
+#include "measure/energy.hpp"
+#include "measure/leaks.hpp"
+#include "output/output_files.hpp"
+#include "output/output_folder.hpp"
+#include "output/summary.hpp"
+#include "placement.hpp"
+#include "progress.hpp"
+#include "random.hpp"
+#include "stepper.hpp"
+#include "world.hpp"
+
+namespace falling_particles {
+namespace {
+
+/// What is looked at after every step.
+struct Watches {
+  Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene.container), energy(world, scene) {
+    if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
+    if (scene.compression) compressor.emplace(world, *world.cell(), *scene.compression, scene.time.duration);
+  }
+  void after_step(double time, const Stepper& stepper) {
+    leaks.after_step(time);
+    energy.after_step();
+    if (discharge) discharge->after_step(time);
+    if (compressor) compressor->after_step(time, stepper.contact_geoms());
+  }
+
+  LeakWatch leaks;
+  EnergyWatch energy;
+  std::optional<Discharge> discharge;    // of a hopper
+  std::optional<Compressor> compressor;  // of a periodic cell
+};
+
+/// The frames of a run, written as it goes.
+class Recorder {
+ public:
+  Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const std::optional<Discharge>& discharge)
+      : world_(world),
+        scene_(scene),
+        discharge_(discharge),
+        trajectory_(folder.file(std::string(kTrajectoryFile))),
+        energies_(folder.file(std::string(kEnergiesFile))) {
+    if (discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
+  }
+
+  void record(double time, std::size_t contacts) {
+    trajectory_.write(time, world_);
+    energies_.write(time, measure_energy(world_, scene_), contacts);
+    if (discharge_file_) discharge_file_->write(time, discharge_->mass(), discharge_->count());
+  }
+
+  void close() {
+    trajectory_.close();
+    energies_.close();
+    if (discharge_file_) discharge_file_->close();
+  }
+
+ private:
+  const World& world_;
+  const Scene& scene_;
+  const std::optional<Discharge>& discharge_;
+  Trajectory trajectory_;
+  Energies energies_;
+  std::optional<DischargeFile> discharge_file_;
+};
+
+double time_after(int step, const Time& time) {
+  return std::round(step * time.step * 1e9) / 1e9;  // 0.7 and not 0.7000000000000001
+}
+
+/// Steps until the end or until the user interrupts; a frame at the start, at every interval and at the end. Returns the steps
+/// done.
+int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& time, bool quiet) {
+  const int steps = time.steps();
+  std::optional<Progress> progress;
+  if (!quiet) progress.emplace(stderr, steps);
+  recorder.record(0, 0);
+  int step = 0;
+  while (step < steps && !interrupted()) {
+    stepper.step();
+    ++step;
+    const double now = time_after(step, time);
+    watches.after_step(now, stepper);
+    const bool last = step == steps || interrupted();
+    if (last || step % time.steps_per_frame() == 0) recorder.record(now, stepper.contacts());
+    if (progress) progress->update(step, now, stepper.contacts());
+    if (last) break;
+  }
+  recorder.close();
+  if (progress) progress->finish();
+  return step;
+}
+
+/// On the dish below a hopper.
+std::optional<Heap> find_heap(const World& world, const Container& container) {
+  const Hopper* hopper = std::get_if<Hopper>(&container);
+  if (hopper == nullptr || !hopper->dish) return std::nullopt;
+  return measure_heap(world, {0, 0, hopper->dish->height}, hopper->dish->diameter / 2);
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream stream(path);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot write \"" + path.string() + "\" (is the disk full?)");
+}
+
+}  // namespace
+
+RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int threads) {
+  OutputFolder folder(out, scene.name);
+  Random random(scene.seed);
+  World world(scene, place(scene, random));
+  Stepper stepper(world, scene, threads);
+  Watches watches(world, scene, random);
+  Recorder recorder(folder, world, scene, watches.discharge);
+  snResetStatistics();
+  const auto start = std::chrono::steady_clock::now();
+  const int steps = advance(stepper, watches, recorder, scene.time, quiet);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  snStatistics statistics;  // before the measurements at the end add to them
+  snGetStatistics(&statistics);
+
+  if (world.cell() != nullptr) world.cell()->place_images();  // where the grains have gone to
+  const bool early = steps < scene.time.steps();
+  const Box* box = std::get_if<Box>(&scene.container);
+  const Summary summary{scene,
+                        early,
+                        steps,
+                        steps * scene.time.step,
+                        seconds,
+                        stepper.costs(),
+                        statistics,
+                        world.sweep().axis(),
+                        stepper.contacts(),
+                        stepper.deepest_contact(),
+                        kinetic_height(world, scene),
+                        largest_kinetic_energy(world),
+                        watches.energy,
+                        measure_overlap(world),
+                        count_outside(world, scene.container),
+                        watches.leaks.count(),
+                        box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, random)),
+                        watches.discharge ? &*watches.discharge : nullptr,
+                        watches.compressor ? std::optional(watches.compressor->packing()) : std::nullopt,
+                        find_heap(world, scene.container),
+                        world.effects().costs()};
+  const std::string text = to_toml(summary);
+  write_file(folder.file(std::string(kSummaryFile)), text);
+  folder.commit();
+  std::fputs(text.c_str(), stdout);
+  if (early) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", steps, scene.time.steps());
+  if (watches.leaks.first()) {
+    std::fprintf(stderr, "Leak: %zu of %d grains; the first: %s\n", watches.leaks.count(), scene.bodies(),
+                 describe(*watches.leaks.first()).c_str());
+  }
+  if (!quiet) std::fprintf(stderr, "Results: %s\n", folder.path().c_str());
+  return {early, watches.leaks.count() > 0};
+}
+
+}  // namespace falling_particles

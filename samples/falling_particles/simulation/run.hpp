@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.hpp"
+
+namespace falling_particles {
+
+struct RunEnd {
+  bool interrupted;
+  bool leaked;  ///< a grain was outside the container at some time
+};
+
+/// Simulates the scene, looking for contacts on `threads` (0: as many as the machine has), and writes `out`/<scene>/; prints the
+/// summary to stdout, warnings to stderr and, unless quiet, progress too.
+RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int threads);
+
+}  // namespace falling_particles

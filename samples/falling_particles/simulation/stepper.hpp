@@ -1,0 +1,61 @@
+#pragma once
+
+#include <ode/ode.h>
+#include <supernormal/supernormal.h>
+
+#include <utility>
+#include <vector>
+
+#include "contact_joints.hpp"
+#include "scene/scene.hpp"
+#include "stopwatch.hpp"
+#include "world.hpp"
+
+namespace falling_particles {
+
+/// Where the time of the steps went, and how much was done in them.
+struct StepCosts {
+  Stopwatch collision;      ///< broad and narrow phase
+  Stopwatch broad_phase;    ///< bounding boxes and pairs, within collision
+  Stopwatch contact_setup;  ///< effects' passes, contact joints made and removed
+  Stopwatch solver;         ///< dWorldQuickStep
+  unsigned long long pairs_tested = 0;
+  unsigned long long contacts = 0;
+  double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
+};
+
+/// Advances a world: find contacts, turn them into constraints, step.
+class Stepper {
+ public:
+  /// `threads` that look for contacts, in [1, 256]; 0: as many as the machine has. The motion is the same with any number.
+  Stepper(const World& world, const Scene& scene, int threads = 1);
+  ~Stepper();
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  void step();
+
+  std::size_t contacts() const { return contacts_.size(); }                     ///< of the last step
+  const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< of the last step
+  double deepest_contact() const { return deepest_contact_; }                   ///< m, of all steps
+  const StepCosts& costs() const { return costs_; }
+
+ private:
+  void collide_grains();
+  void collide_with_walls();
+  void sort_contacts();
+  static int name_pair(void* self, dGeomID g1, dGeomID g2);
+  static void add_contacts(void* self, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
+
+  const World& world_;
+  double step_;
+  bool may_sleep_;  // then pairs of which neither is awake are left alone
+  ContactJoints joints_;
+  snBatchID batch_;
+  std::vector<std::pair<dGeomID, dGeomID>> wall_pairs_;
+  std::vector<dContactGeom> contacts_;
+  double deepest_contact_ = 0;
+  StepCosts costs_;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <supernormal/effects.hpp>
+#include <vector>
+
+#include "container/walls.hpp"
+#include "periodic_cell.hpp"
+#include "placement.hpp"
+#include "scene/material.hpp"
+#include "scene/scene.hpp"
+#include "sweep_space.hpp"
+
+namespace falling_particles {
+
+struct Body {
+  dBodyID body;
+  dGeomID geom;
+  const Grain* grain;
+  dMass mass;
+
+  double volume() const { return mass.mass / grain->density; }  ///< m^3
+  Point position() const {                                      ///< m, of the centre
+    const dReal* p = dBodyGetPosition(body);
+    return {p[0], p[1], p[2]};
+  }
+  std::array<double, 4> quaternion() const {  ///< w, x, y, z
+    const dReal* q = dBodyGetQuaternion(body);
+    return {q[0], q[1], q[2], q[3]};
+  }
+};
+
+/// The body of a geom in a World; null for a wall.
+inline const Body* body_of(dGeomID geom) { return static_cast<const Body*>(dGeomGetData(geom)); }
+
+inline supernormal::effects::Material material_of(dGeomID geom) {
+  return body_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;
+}
+
+/// The grain as a geom of ours. Throws std::runtime_error when the library refuses it.
+dGeomID create_geom(dSpaceID space, const Grain& grain);
+
+/// The ODE world of a scene, which must outlive it.
+class World {
+ public:
+  /// Throws std::runtime_error when the library refuses a body.
+  World(const Scene& scene, const std::vector<Placement>& placements);
+  World(const Scene&& scene, const std::vector<Placement>& placements) = delete;  // would be gone at once
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  dWorldID id() const { return world_; }
+  /// Of the grains, and of their images; the walls are not in it.
+  SweepSpace& sweep() const { return *sweep_; }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  /// Compiled from what the scene names.
+  supernormal::effects::Effects& effects() const { return *effects_; }
+  const Walls& walls() const { return *walls_; }
+  /// Calls back for every pair of a grain and a wall whose bounding boxes meet.
+  void name_wall_pairs(void* data, dNearCallback* callback) const;
+  /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
+  void name_pairs(void* data, dNearCallback* callback) const;
+  PeriodicCell* cell() const { return cell_.get(); }  ///< of a periodic container, or null
+
+  /// Takes the lid off a hopper's outlet; once.
+  void open_outlet() { walls_->open_outlet(); }
+
+ private:
+  void set_parameters(const Scene& scene);
+  void add_body(const Grain& grain, const Placement& placement);
+
+  dWorldID world_;
+  std::unique_ptr<SweepSpace> sweep_;
+  std::unique_ptr<supernormal::effects::Effects> effects_;
+  std::vector<Body> bodies_;
+  std::optional<Walls> walls_;
+  std::unique_ptr<PeriodicCell> cell_;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,255 @@
+// What flat bodies rest on.
+#include "supernormal/contact/contact_manifold.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "relative.hpp"
+#include "supernormal/proximity/plane.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/raycast/ray.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+using namespace supernormal;
+
+namespace {
+
+using Random = std::mt19937_64;
+
+// How exactly corners are repeated, of the extent of the body: on a flat face the support point that they are seen from depends on
+// the last digits of the normal.
+constexpr double kCornerTolerance = 1e-3;
+
+double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+
+Matrix3 random_rotation(Random& random) {
+  std::normal_distribution<double> normal;
+  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+}
+
+Matrix3 tilt(double angle, double direction) {
+  return Eigen::AngleAxisd(angle, Vector3(std::cos(direction), std::sin(direction), 0)).toRotationMatrix();
+}
+
+/// The manifold of a body that overlaps the plane z = 0 by `depth`.
+ContactManifold manifold_on_floor(const Shape& shape, const Matrix3& rotation, double depth, Pose* pose_out = nullptr) {
+  Pose pose{Vector3(0.3, -0.2, 0), rotation};
+  pose.position.z() = -find_plane_proximity(shape, pose, Vector3::UnitZ(), 0).gap - depth;
+  if (pose_out != nullptr) *pose_out = pose;
+  return find_plane_contact_manifold(shape, pose, find_plane_proximity(shape, pose, Vector3::UnitZ(), 0));
+}
+
+/// The manifold of two bodies with parallel faces, the second on top of the first by (x, y), overlapping by `depth`.
+ContactManifold manifold_of_stacked(const Shape& lower, const Shape& upper, double x, double y, double turn, double depth) {
+  const Pose pose1;
+  const Pose pose2{Vector3(x, y, lower.half_extents().z() + upper.half_extents().z() - depth),
+                   Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix()};
+  return find_contact_manifold(lower, pose1, upper, pose2, find_proximity(lower, pose1, upper, pose2));
+}
+
+/// Smallest distance of a corner of one manifold to those of the other, the largest of these.
+double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
+  double largest = 0;
+  for (int i = 0; i < a.corner_count; ++i) {
+    double nearest = HUGE_VAL;
+    for (int k = 0; k < b.corner_count; ++k) {
+      nearest =
+          std::min(nearest, (a.corners[static_cast<std::size_t>(i)].point - b.corners[static_cast<std::size_t>(k)].point).norm());
+    }
+    largest = std::max(largest, nearest);
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("ellipsoids have one contact, however deep") {
+  Random random(1);
+  for (int repetition = 0; repetition < 500; ++repetition) {
+    const Ellipsoid first(Vector3{uniform(random, 0.2, 1), uniform(random, 0.2, 1), uniform(random, 0.2, 1)});
+    const Ellipsoid second(Vector3{uniform(random, 0.2, 3), uniform(random, 0.2, 3), uniform(random, 0.2, 3)});
+    const double depth = 0.2 * std::pow(10, uniform(random, -6, 0));
+    CHECK(manifold_on_floor(first, random_rotation(random), depth).corner_count == 0);
+    const Pose pose1{Vector3::Zero(), random_rotation(random)};
+    Pose pose2{Vector3{uniform(random, -1, 1), uniform(random, -1, 1), 5}, random_rotation(random)};
+    const Proximity apart = find_proximity(first, pose1, second, pose2);
+    pose2.position -= (apart.gap + depth) * apart.normal;
+    const ContactManifold manifold =
+        find_contact_manifold(first, pose1, second, pose2, find_proximity(first, pose1, second, pose2));
+    CHECK(manifold.deepest.gap < 0);
+    CHECK(manifold.corner_count == 0);
+  }
+}
+
+TEST_CASE("bodies that are apart or only contact_tolerance have no corners") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
+  CHECK(manifold_on_floor(brick, Matrix3::Identity(), -1e-3).corner_count == 0);
+  CHECK(manifold_on_floor(brick, Matrix3::Identity(), 0).corner_count == 0);
+  CHECK(find_contact_manifold(brick, {}, brick, {}, Proximity{}).corner_count == 0);
+}
+
+TEST_CASE("a plate without thickness has one contact") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
+  const Box plate(Vector3(2, 2, 0));
+  const Pose pose{Vector3(0, 0, 0.0499), Matrix3::Identity()};
+  const ContactManifold manifold = find_contact_manifold(brick, pose, plate, {}, find_proximity(brick, pose, plate, {}));
+  CHECK(manifold.deepest.gap < 0);
+  CHECK(manifold.corner_count == 0);
+}
+
+TEST_CASE("a flat body has four corners on the floor, with little between them and it") {
+  Random random(2);
+  for (int repetition = 0; repetition < 500; ++repetition) {
+    const Vector3 half_axes{uniform(random, 0.5, 2), uniform(random, 0.5, 2), uniform(random, 0.5, 2)};
+    const Superellipsoid body(half_axes, uniform(random, 8, 100), uniform(random, 8, 100));
+    const double depth = half_axes.z() * std::pow(10, uniform(random, -4, -2));
+    Pose pose;
+    const ContactManifold manifold =
+        manifold_on_floor(body, tilt(uniform(random, 0, 0.2) * depth / half_axes.maxCoeff(), uniform(random, 0, 7)), depth, &pose);
+    CHECK(manifold.deepest.gap == test::relative(-depth).epsilon(1e-9));
+    REQUIRE(manifold.corner_count == 4);
+    CHECK(manifold.flatness == 1);
+    for (const ManifoldCorner& corner : manifold.corners) {
+      CHECK(corner.depth >= 0);
+      CHECK(corner.depth <= depth * (1 + 1e-9));
+      // Up from below the body's deepest point.
+      const Vector3 below = corner.point - 2 * manifold.margin * Vector3::UnitZ();
+      const RayHit hit = find_ray_hit(body, pose, below, Vector3::UnitZ(), 1);
+      REQUIRE(hit.hit);
+      CHECK(hit.point.z() <= manifold.margin * (1 + 1e-6));
+      // The chord to the corner lies in the body, and its end not far within.
+      CHECK(hit.point.z() <= corner.point.z() + 1e-9 * half_axes.z());
+    }
+    // They span most of the face.
+    CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
+    CHECK((manifold.corners[3].point - manifold.corners[1].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
+  }
+}
+
+TEST_CASE("a can rests on two points on its side and on four on its end") {
+  const Superellipsoid can(Vector3(0.03, 0.03, 0.06), 2, 30);
+  const ContactManifold upright = manifold_on_floor(can, Matrix3::Identity(), 1e-5);
+  REQUIRE(upright.corner_count == 4);
+  const ContactManifold lying = reduced_to(manifold_on_floor(can, tilt(0.5 * std::numbers::pi, 0), 1e-5), 8);
+  REQUIRE(lying.corner_count == 2);
+  const Vector3 between = lying.corners[1].point - lying.corners[0].point;
+  CHECK(std::abs(between.y()) >= 0.1);
+  // On the line on which it rolls.
+  CHECK(std::abs(between.x()) <= 1e-12);
+  CHECK(std::abs(lying.corners[0].point.x() - lying.deepest.contact.x()) <= 1e-12);
+}
+
+TEST_CASE("a body on a box has the corners that it has on a plane") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 12, 20);
+  const Box table(Vector3(2, 2, 1));
+  const Pose under{Vector3(0, 0, -1), Matrix3::Identity()};
+  for (const double turn : {0.0, 0.3, 0.785398}) {
+    const Matrix3 rotation = Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix();
+    Pose pose;
+    ContactManifold on_plane = manifold_on_floor(brick, rotation, 1e-4, &pose);
+    const ContactManifold on_box = find_contact_manifold(brick, pose, table, under, find_proximity(brick, pose, table, under));
+    REQUIRE(on_plane.corner_count == 4);
+    REQUIRE(on_box.corner_count == 4);
+    // Those on a plane are points of the body, the others in the plane of the contact.
+    for (ManifoldCorner& corner : on_plane.corners) corner.point.z() = on_box.corners[0].point.z();
+    CHECK(distance_of_corners(on_plane, on_box) <= 1e-4);
+  }
+}
+
+TEST_CASE("what hangs over is not supported") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
+  const ContactManifold manifold = manifold_of_stacked(brick, brick, 0.1, 0.0, 0, 1e-4);
+  REQUIRE(manifold.corner_count == 4);
+  for (const ManifoldCorner& corner : manifold.corners) {
+    CHECK(corner.point.x() >= -1e-3);
+    CHECK(corner.point.x() <= 0.1 + 1e-3);
+    CHECK(std::abs(corner.point.y()) <= 0.07);
+  }
+  CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= 0.8 * std::hypot(0.1, 0.14));
+}
+
+TEST_CASE("the deepest point of a face that hangs over is on both bodies") {
+  Random random(5);
+  // 1 on the surface of a superellipsoid, less inside.
+  const auto gauge = [](const Superellipsoid& body, const Pose& pose, const Vector3& point) {
+    const Vector3 local = (pose.rotation.transpose() * (point - pose.position)).cwiseQuotient(body.half_axes()).cwiseAbs();
+    const double largest = local.maxCoeff();
+    return largest * std::pow((local / largest).array().pow(body.delta()).sum(), 1 / body.delta());
+  };
+  int moved = 0;
+  for (int repetition = 0; repetition < 3000; ++repetition) {
+    const auto brick = [&](double exponent) {
+      return Superellipsoid({uniform(random, 0.1, 1), uniform(random, 0.1, 1), uniform(random, 0.1, 1)}, exponent, exponent);
+    };
+    const Superellipsoid lower = brick(repetition % 2 == 0 ? 8 : 60);
+    const Superellipsoid upper = brick(repetition % 3 == 0 ? 8 : 60);
+    const Pose pose1{Vector3(uniform(random, -1, 1), 0, 0), random_rotation(random)};
+    const double overlap = 1e-3 * lower.half_axes().z() * std::pow(10, uniform(random, -4, 0));
+    const Vector3 beside{uniform(random, -1, 1) * lower.half_axes().x(), uniform(random, -1, 1) * lower.half_axes().y(),
+                         lower.half_axes().z() + upper.half_axes().z() - overlap};
+    const Matrix3 yaw = Eigen::AngleAxisd(uniform(random, 0, 6), Vector3::UnitZ()).toRotationMatrix();
+    const Pose pose2{pose1.position + pose1.rotation * beside, pose1.rotation * yaw};
+    const Proximity proximity = find_proximity(lower, pose1, upper, pose2);
+    if (proximity.gap >= 0) continue;
+    const ContactManifold manifold = find_contact_manifold(lower, pose1, upper, pose2, proximity);
+    moved += (manifold.deepest.contact - proximity.contact).norm() > 0.01 ? 1 : 0;
+    CHECK(gauge(lower, pose1, manifold.deepest.contact) <= 1.02);
+    CHECK(gauge(upper, pose2, manifold.deepest.contact) <= 1.02);
+  }
+  CHECK(moved > 30);
+}
+
+TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of the brick") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 30, 30);
+  const Capsule capsule(0.02, 0.06);
+  Pose pose{Vector3(0, 0, 0.07 - 1e-5), Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3::UnitY()).toRotationMatrix()};
+  const ContactManifold along =
+      reduced_to(find_contact_manifold(brick, {}, capsule, pose, find_proximity(brick, {}, capsule, pose)), 8);
+  REQUIRE(along.corner_count == 2);
+  CHECK((along.corners[1].point - along.corners[0].point).norm() == test::relative(0.12).epsilon(0.05));
+}
+
+TEST_CASE("the corners do not depend on the order of the bodies, nor on where they are") {
+  Random random(3);
+  const Vector3 far(3e3, -4e3, 5e3);
+  int wide = 0;
+  for (int repetition = 0; repetition < 300; ++repetition) {
+    const Superellipsoid lower(Vector3{uniform(random, 0.5, 2), uniform(random, 0.5, 2), 0.7}, uniform(random, 6, 50),
+                               uniform(random, 6, 50));
+    const Superellipsoid upper(Vector3{uniform(random, 0.5, 2), uniform(random, 0.5, 2), 0.4}, uniform(random, 6, 50),
+                               uniform(random, 6, 50));
+    const Pose pose1;
+    const Pose pose2{Vector3{uniform(random, -1, 1), uniform(random, -1, 1), 1.1 - 1e-3},
+                     Matrix3(Eigen::AngleAxisd(uniform(random, 0, 6), Vector3::UnitZ()) * tilt(1e-4, uniform(random, 0, 7)))};
+    const Proximity proximity = find_proximity(lower, pose1, upper, pose2);
+    const ContactManifold manifold = find_contact_manifold(lower, pose1, upper, pose2, proximity);
+    wide += manifold.corner_count > 0 ? 1 : 0;
+
+    Proximity swapped = proximity;
+    swapped.normal = -swapped.normal;
+    std::swap(swapped.point1, swapped.point2);
+    const ContactManifold of_swapped = find_contact_manifold(upper, pose2, lower, pose1, swapped);
+    CHECK(of_swapped.corner_count == manifold.corner_count);
+    CHECK(distance_of_corners(manifold, of_swapped) <= 1e-9);
+
+    const Matrix3 turn = random_rotation(random);
+    const auto moved = [&](const Pose& pose) { return Pose{turn * pose.position + far, turn * pose.rotation}; };
+    Proximity there = proximity;
+    there.normal = turn * proximity.normal;
+    for (Vector3* const point : {&there.point1, &there.point2, &there.contact}) *point = turn * *point + far;
+    ContactManifold back = find_contact_manifold(lower, moved(pose1), upper, moved(pose2), there);
+    for (ManifoldCorner& corner : back.corners) corner.point = turn.transpose() * (corner.point - far);
+    CHECK(back.corner_count == manifold.corner_count);
+    CHECK(distance_of_corners(manifold, back) <= kCornerTolerance * 2);
+  }
+  CHECK(wide > 200);
+}

@@ -1,0 +1,116 @@
+// A body over one edge, against dense sampling of the angle.
+#include "contact/mesh/arc.hpp"
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "contact/mesh/mesh_samples.hpp"
+#include "relative.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+Arc random_arc(Draw& draw) {
+  const Matrix3 frame = draw.rotation();
+  Arc arc;
+  arc.from = frame.col(0);
+  arc.towards = frame.col(1);
+  arc.end = draw.uniform(0.1, std::numbers::pi);
+  return arc;
+}
+
+double highest_sample(const Arc& arc, SupportProbe& probe) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= 2000; ++i) highest = std::max(highest, arc.sample(arc.end * i / 2000, probe).gap);
+  return highest;
+}
+
+}  // namespace
+
+TEST_CASE("the slope is the derivative of the gap") {
+  Draw draw(11);
+  const Ellipsoid body({1, 0.7, 0.5});
+  for (int i = 0; i < 100; ++i) {
+    Arc arc = random_arc(draw);
+    arc.edge_point = draw.in_box({0.5, 0.5, 0.5});
+    SupportProbe probe(body, draw.rotation());
+    const double angle = draw.uniform(0.01, arc.end - 0.01);
+    const double step = 1e-5;
+    const double difference = (arc.sample(angle + step, probe).gap - arc.sample(angle - step, probe).gap) / (2 * step);
+    CHECK(std::abs(arc.sample(angle, probe).slope - difference) < 1e-8);
+  }
+}
+
+TEST_CASE("the maximum over an arc, against sampling") {
+  Draw draw(12);
+  int maxima = 0;
+  for (int i = 0; i < 1000; ++i) {
+    CAPTURE(i);
+    const std::unique_ptr<Shape> body = draw.body();
+    SupportProbe probe(*body, draw.rotation());
+    Arc arc = random_arc(draw);
+    // So that the gap along the normal in the middle is this one, and the point nearly over the edge.
+    const ArcSample middle = arc.sample(0.5 * arc.end, probe);
+    arc.edge_point = middle.point + draw.uniform(0, 0.03) * arc.normal(0.5 * arc.end) + 0.02 * draw.direction();
+    const ArcSample low = arc.sample(0, probe);
+    const ArcSample high = arc.sample(arc.end, probe);
+    if (!have_maximum_between(low, high, 1e-12)) continue;
+    const double highest = highest_sample(arc, probe);
+    const int before = probe.evaluations();
+    const ArcMaximum found = maximize_between(probe, arc, low, high, 1e-11, 1000);
+    CHECK(probe.evaluations() - before <= 80);
+    if (found.is_apart) {
+      CHECK(highest > -1e-5);
+      continue;
+    }
+    ++maxima;
+    CHECK(found.converged);
+    CHECK(found.error <= 1e-11);
+    CHECK(found.gap <= 1e-11);
+    // Local, and over the edge: seen along the normal the point is on the edge's line.
+    CHECK(std::abs(found.normal.dot(found.point - arc.edge_point) - found.gap) < 1e-14);
+    CHECK(std::abs(arc.from.cross(arc.towards).cross(found.normal).dot(found.point - arc.edge_point)) < 1e-9);
+    CHECK(found.gap >= std::max(low.gap, high.gap));
+    // The body is nowhere deeper.
+    CHECK(std::abs(probe.deepest(found.normal).height - found.normal.dot(found.point)) < 2e-11);
+    // The highest there is, where there is one only.
+    const auto* const ellipsoid = dynamic_cast<const Ellipsoid*>(body.get());
+    if (ellipsoid != nullptr) CHECK(found.gap >= highest - 1e-11);
+  }
+  CHECK(maxima > 500);
+}
+
+TEST_CASE("a flat side across the edge: the point of it that is over the edge") {
+  const Superellipsoid body({1, 1, 0.5}, 200, 200);
+  SupportProbe probe(body, Matrix3::Identity());
+  Arc arc;
+  arc.from = Vector3(-0.6, 0, 0.8);
+  arc.towards = Vector3(0.8, 0, 0.6);
+  arc.end = std::acos(0.28);  // to (0.6, 0, 0.8)
+  arc.edge_point = {0.3, 0, -0.45};
+  const ArcMaximum found = maximize_between(probe, arc, arc.sample(0, probe), arc.sample(arc.end, probe), 1e-11, 1000);
+  REQUIRE(!found.is_apart);
+  CHECK(found.gap == relative(-0.05));
+  CHECK((found.normal - Vector3::UnitZ()).norm() < 1e-6);
+  CHECK(found.point.x() == relative(0.3).epsilon(1e-6));
+  CHECK(found.point.z() == relative(-0.5).epsilon(1e-6));
+}
+
+TEST_CASE("too few evaluations are reported") {
+  const Superellipsoid body({1, 0.7, 0.5}, 5, 3);
+  SupportProbe probe(body, Draw(13).rotation());
+  Arc arc;
+  arc.end = 2;
+  arc.edge_point = arc.sample(1, probe).point + 0.01 * arc.normal(1);
+  const ArcSample low = arc.sample(0, probe);
+  const ArcSample high = arc.sample(arc.end, probe);
+  REQUIRE(have_maximum_between(low, high, 0));
+  const ArcMaximum exact = maximize_between(probe, arc, low, high, 1e-13, 1000);
+  const ArcMaximum rough = maximize_between(probe, arc, low, high, 1e-13, 1);
+  CHECK(exact.converged);
+  CHECK(!rough.converged);
+  CHECK(std::abs(rough.gap - exact.gap) <= rough.error);
+}

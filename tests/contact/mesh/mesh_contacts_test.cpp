@@ -1,0 +1,363 @@
+// A body against triangles: as on a plane where the surface is flat, as against a solid hull where it is one.
+#include "contact/mesh/mesh_contacts.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <numbers>
+
+#include "contact/mesh/mesh_samples.hpp"
+#include "contact/mesh/triangle_proximity.hpp"
+#include "relative.hpp"
+#include "supernormal/proximity/plane.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/sphere.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+// The gap function itself.
+double separation_along(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& normal) {
+  return normal.dot(pose2.position - pose1.position) - shape1.support(pose1.rotation.transpose() * normal) -
+         shape2.support(pose2.rotation.transpose() * -normal);
+}
+
+// Of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a corner.
+Vector3 nearest_point(const MeshTriangle& triangle, const Vector3& point, int& kind) {
+  const Vector3 normal = normal_of(triangle);
+  const std::array<Vector3, 3>& v = triangle.vertices;
+  Vector3 nearest = point - normal * normal.dot(point - v[0]);
+  kind = 0;
+  bool is_inside = true;
+  for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && normal.cross(v[(k + 1) % 3] - v[k]).dot(nearest - v[k]) >= 0;
+  if (is_inside) return nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3 edge = v[(k + 1) % 3] - v[k];
+    const double share = std::clamp(edge.dot(point - v[k]) / edge.squaredNorm(), 0.0, 1.0);
+    const Vector3 candidate = v[k] + share * edge;
+    if ((candidate - point).norm() >= least) continue;
+    least = (candidate - point).norm();
+    nearest = candidate;
+    kind = share > 0 && share < 1 ? 1 : 2;
+  }
+  return nearest;
+}
+
+// Digit by digit.
+void check_is_plane_contact(const std::vector<MeshContact>& contacts, const Proximity& plane) {
+  if (plane.gap > 0) {
+    CHECK(contacts.empty());
+    return;
+  }
+  REQUIRE(contacts.size() == 1);
+  const Proximity& contact = contacts[0].proximity;
+  CHECK(contact.gap == plane.gap);
+  CHECK(contact.normal == plane.normal);
+  CHECK(contact.contact == plane.contact);
+  CHECK(contact.point1 == plane.point1);
+  CHECK(contact.point2 == plane.point2);
+  CHECK(contact.status == Status::Converged);
+}
+
+}  // namespace
+
+TEST_CASE("a tessellated floor is a plane: the same contact, the same digits") {
+  Draw draw(1);
+  const Vector3 up = Vector3::UnitZ();
+  const std::vector<MeshTriangle> coarse = floor_mesh(4, 4).placed();
+  const std::vector<MeshTriangle> fine = floor_mesh(24, 0.25).placed();
+  for (int i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    const std::unique_ptr<Shape> body = draw.body();
+    Pose pose{draw.in_box({1, 1, 0}), draw.rotation()};
+    const double smallest = body->half_extents().minCoeff();
+    const double height = find_plane_proximity(*body, pose, up, 0).gap;
+    pose.position.z() = draw.uniform(-0.3, 0.05) * smallest - height;
+    // The deepest point exactly above a vertex, and exactly above an edge.
+    if (i % 4 == 1) pose = {{0.25 * (i % 3), -0.25 * (i % 5), 0.9 * body->half_extents().z()}, Matrix3::Identity()};
+    if (i % 4 == 2) pose = {{draw.uniform(-1, 1), 0.25, 0.9 * body->half_extents().z()}, Matrix3::Identity()};
+    const Proximity plane = find_plane_proximity(*body, pose, up, 0);
+    check_is_plane_contact(contacts_of(*body, pose, coarse), plane);
+    check_is_plane_contact(contacts_of(*body, pose, fine), plane);
+  }
+}
+
+TEST_CASE("a turned and tessellated floor far from the origin is a plane") {
+  Draw draw(2);
+  for (int i = 0; i < 200; ++i) {
+    CAPTURE(i);
+    const Pose floor{draw.in_box({1e4, 1e4, 1e4}), draw.rotation()};
+    const std::vector<MeshTriangle> triangles = floor_mesh(12, 0.5).placed(floor);
+    const std::unique_ptr<Shape> body = draw.body();
+    const Vector3 up = floor.rotation.col(2);
+    Pose pose{floor.position + floor.rotation * draw.in_box({1, 1, 0}), draw.rotation()};
+    const double smallest = body->half_extents().minCoeff();
+    const double height = find_plane_proximity(*body, {Vector3::Zero(), pose.rotation}, up, 0).gap;
+    const double depth = draw.uniform(0.001, 0.3) * smallest;
+    pose.position -= (depth + height) * up;
+    const std::vector<MeshContact> contacts = contacts_of(*body, pose, triangles);
+    REQUIRE(contacts.size() == 1);
+    CHECK(std::abs(contacts[0].proximity.gap + depth) < 2e-11);  // ten units in the last place of 10 km
+    CHECK((contacts[0].proximity.normal + up).norm() < 2e-11);
+  }
+}
+
+TEST_CASE("a rod deep in a fine floor, of which only what touches the rod's box is known") {
+  const Ellipsoid rod({0.05, 0.05, 1});
+  const std::vector<MeshTriangle> floor = floor_mesh(40, 0.1).placed();
+  int standing = 0;
+  Draw draw(7);
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    Pose pose{draw.in_box({0.1, 0.1, 0}), Eigen::AngleAxisd(draw.uniform(0, 1.5), Vector3::UnitY()).toRotationMatrix()};
+    pose.position.z() = -draw.uniform(0.01, 0.9) - find_plane_proximity(rod, pose, Vector3::UnitZ(), 0).gap;
+    const BodyBox box = BodyBox::of(rod);
+    std::vector<MeshTriangle> near;
+    for (const MeshTriangle& triangle : floor) {
+      if (box.touches(pose, triangle.vertices)) near.push_back(triangle);
+    }
+    const Proximity plane = find_plane_proximity(rod, pose, Vector3::UnitZ(), 0);
+    if (plane.gap < -2 * rod.support(pose.rotation.transpose() * Vector3::UnitZ())) {
+      CHECK(contacts_of(rod, pose, near).empty());  // all of it is behind
+      continue;
+    }
+    ++standing;
+    check_is_plane_contact(contacts_of(rod, pose, near), plane);
+  }
+  CHECK(standing > 200);
+}
+
+TEST_CASE("closed convex meshes against the solid hull of their vertices") {
+  Draw draw(3);
+  const std::array<TriangleMesh, 4> meshes = {
+      icosahedron_mesh(), box_mesh({0.9, 1.4, 0.7}), hull_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}),
+      hull_mesh({{1, 0, 0}, {-1, 0, 0}, {0, 1.5, 0}, {0, -1.5, 0}, {0, 0, 0.3}, {0, 0, -2}})};
+  int overlapping = 0;
+  for (int i = 0; i < 3000; ++i) {
+    CAPTURE(i);
+    const TriangleMesh& mesh = meshes[static_cast<std::size_t>(i) % meshes.size()];
+    const Polytope hull(mesh.vertices);
+    const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
+    const std::unique_ptr<Shape> body = draw.body();
+    const double smallest = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
+    // On the way out from the middle to where the gap is the wanted one.
+    Pose pose{mesh_pose.position, draw.rotation()};
+    const double wanted = i % 5 == 0 ? 0 : draw.uniform(-0.1, 0.02) * smallest;
+    const Vector3 way = draw.direction();
+    double inside = 0;
+    double outside = 10;
+    for (int step = 0; step < 25; ++step) {
+      const double middle = 0.5 * (inside + outside);
+      pose.position = mesh_pose.position + middle * way;
+      (find_proximity(*body, pose, hull, mesh_pose).gap < wanted ? inside : outside) = middle;
+    }
+    const Proximity expected = find_proximity(*body, pose, hull, mesh_pose);
+    const std::vector<MeshContact> contacts = contacts_of(*body, pose, mesh.placed(mesh_pose));
+    if (std::abs(expected.gap) < 1e-9 * smallest) continue;  // to the tolerance neither apart nor overlapping
+    if (expected.gap > 0) {
+      CHECK(contacts.empty());
+      continue;
+    }
+    ++overlapping;
+    CAPTURE(expected.gap);
+    REQUIRE(contacts.size() == 1);
+    const Proximity& contact = contacts[0].proximity;
+    CHECK(std::abs(contact.gap - expected.gap) < 1e-9 * smallest);
+    // Two ways out may be equally long to that tolerance.
+    CHECK(std::abs(separation_along(*body, pose, hull, mesh_pose, contact.normal) - expected.gap) < 1e-9 * smallest);
+    if (body->has_flat_faces()) continue;  // points of one support are many
+    CHECK((contact.point1 - expected.point1).norm() < 1e-3 * smallest);
+    CHECK((contact.point2 - expected.point2).norm() < 1e-3 * smallest);
+  }
+  CHECK(overlapping > 1500);
+}
+
+TEST_CASE("a ball on one triangle: the distance of its centre, at faces, edges and corners") {
+  Draw draw(4);
+  int kinds[3] = {0, 0, 0};
+  for (int i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    MeshTriangle triangle;
+    for (Vector3& vertex : triangle.vertices) vertex = draw.in_box({1, 1, 1});
+    const Vector3 normal = normal_of(triangle);
+    const double radius = draw.uniform(0.3, 1);
+    const Sphere ball(radius);
+    const Vector3 above = (triangle.vertices[0] + triangle.vertices[1] + triangle.vertices[2]) / 3;
+    const Pose pose{above + draw.in_box({1.5, 1.5, 1.5}), draw.rotation()};
+    if (!(normal.dot(pose.position - above) > 1e-6)) continue;
+    int kind = 0;
+    const Vector3 nearest = nearest_point(triangle, pose.position, kind);
+    const double gap = (pose.position - nearest).norm() - radius;
+    const std::vector<MeshContact> contacts = contacts_of(ball, pose, {&triangle, 1});
+    if (gap > 1e-9) {
+      CHECK(contacts.empty());
+    } else if (gap < -1e-9) {
+      REQUIRE(contacts.size() == 1);
+      ++kinds[kind];
+      const Proximity& contact = contacts[0].proximity;
+      CHECK(std::abs(contact.gap - gap) < 1e-9);
+      CHECK((contact.normal - (nearest - pose.position).normalized()).norm() < 1e-6);
+      CHECK((contact.point2 - nearest).norm() < 1e-6);
+    }
+  }
+  for (const int count : kinds) CHECK(count > 20);
+}
+
+TEST_CASE("no contact with one triangle pushes behind it") {
+  Draw draw(9);
+  int contacts_seen = 0;
+  for (int i = 0; i < 3000; ++i) {
+    CAPTURE(i);
+    MeshTriangle triangle;
+    for (Vector3& vertex : triangle.vertices) vertex = draw.in_box({0.8, 0.8, 0.8});
+    const std::unique_ptr<Shape> body = draw.body();
+    const Pose pose{draw.in_box({0.8, 0.8, 0.8}), draw.rotation()};
+    for (const MeshContact& contact : contacts_of(*body, pose, {&triangle, 1})) {
+      ++contacts_seen;
+      CHECK(contact.proximity.normal.dot(normal_of(triangle)) <= 1e-9);
+      CHECK(find_triangle_proximity(*body, pose, triangle.vertices, {}).gap < 1e-9);
+      // A maximum of the gap function is a translation that separates.
+      const Pose apart{pose.position + 1.001 * contact.proximity.gap * contact.proximity.normal, pose.rotation};
+      CHECK(find_triangle_proximity(*body, apart, triangle.vertices, {}).gap > -1e-9);
+    }
+  }
+  CHECK(contacts_seen > 1000);
+}
+
+TEST_CASE("steps, T-junctions and borders make no ghosts") {
+  const Ellipsoid body({0.5, 0.7, 0.3});
+  // A floor of two strips whose vertices do not match, and a body that moves across the seam.
+  TriangleMesh floor;
+  for (const double x : {-5.0, 0.0}) {
+    for (const double y : {-5.0, 5.0}) floor.add({x, y, 0});
+  }
+  floor.triangles = {{0, 2, 1}, {2, 3, 1}};
+  int previous = floor.add({0, -5, 0});
+  int previous_far = floor.add({5, -5, 0});
+  for (const double y : {-1.3, 0.1, 0.7, 5.0}) {
+    const int near = floor.add({0, y, 0});
+    const int far = floor.add({5, y, 0});
+    floor.triangles.push_back({previous, previous_far, near});
+    floor.triangles.push_back({previous_far, far, near});
+    previous = near;
+    previous_far = far;
+  }
+  Draw draw(6);
+  for (int i = 0; i < 500; ++i) {
+    CAPTURE(i);
+    Pose pose{draw.in_box({0.3, 1, 0}), draw.rotation()};
+    pose.position.z() = -0.02 - find_plane_proximity(body, pose, Vector3::UnitZ(), 0).gap;
+    check_is_plane_contact(contacts_of(body, pose, floor.placed()), find_plane_proximity(body, pose, Vector3::UnitZ(), 0));
+  }
+
+  // A step down along x = 0: on the upper floor, beyond it, and at its edge.
+  TriangleMesh step;
+  for (const double y : {-5.0, 5.0}) {
+    step.add({-5, y, 0});
+    step.add({0, y, 0});
+    step.add({0, y, -0.1});
+    step.add({5, y, -0.1});
+  }
+  for (int k = 0; k < 3; ++k) {
+    step.triangles.push_back({k, k + 1, k + 4});
+    step.triangles.push_back({k + 1, k + 5, k + 4});
+  }
+  const auto at = [&](double x, double z) { return contacts_of(body, {{x, 0, z}, Matrix3::Identity()}, step.placed()); };
+  REQUIRE(at(-0.1, 0.29).size() == 1);
+  CHECK(at(-0.1, 0.29)[0].proximity.normal == -Vector3::UnitZ());
+  REQUIRE(at(0.2, 0.27).size() == 1);
+  CHECK(at(0.2, 0.27)[0].proximity.normal.x() < -0.01);
+  CHECK(at(0.2, 0.30).empty());
+  REQUIRE(at(0.37, 0.19).size() == 2);  // the lower floor and the edge
+  CHECK(at(0.37, 0.19)[0].proximity.gap + at(0.37, 0.19)[1].proximity.gap < -0.01);
+}
+
+TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
+  const Ellipsoid rod({0.1, 0.1, 2});
+  const std::vector<MeshTriangle> sheet = floor_mesh(4, 1).placed();
+  CHECK(contacts_of(rod, {{0, 0, -2.001}, Matrix3::Identity()}, sheet).empty());
+  CHECK(contacts_of(rod, {{0, 0, -1}, Matrix3::Identity()}, sheet).size() == 1);
+  // Leaning against the border, the lower end below the sheet: it touches the sheet from behind.
+  const double offset = 0.1 * std::sqrt(2.0);
+  const auto leaning = [](double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix(); };
+  const double eighth = 0.25 * std::numbers::pi;
+  CHECK(contacts_of(rod, {{2 + offset + 0.02, 0, 0}, leaning(eighth)}, sheet).empty());
+  CHECK(contacts_of(rod, {{2 + offset - 0.02, 0, 0}, leaning(eighth)}, sheet).empty());
+  // The upper end above the sheet: against its border, from in front.
+  CHECK(contacts_of(rod, {{2 + offset + 0.02, 0, 0}, leaning(-eighth)}, sheet).empty());
+  const std::vector<MeshContact> contacts = contacts_of(rod, {{2 + offset - 0.02, 0, 0}, leaning(-eighth)}, sheet);
+  REQUIRE(contacts.size() == 1);
+  CHECK(contacts[0].proximity.gap == relative(-0.02 * std::sqrt(0.5)).epsilon(0.01));
+  CHECK((contacts[0].proximity.normal - Vector3(-1, 0, -1).normalized()).norm() < 0.01);
+}
+
+TEST_CASE("a plate: the shorter way out") {
+  const Ellipsoid body({1, 1, 1});
+  const std::vector<MeshTriangle> plate = box_mesh({20, 20, 0.1}).placed();
+  for (const double height : {0.3, -0.2}) {
+    const std::vector<MeshContact> contacts = contacts_of(body, {{0.3, 0.2, height}, Matrix3::Identity()}, plate);
+    REQUIRE(contacts.size() == 1);
+    CHECK(contacts[0].proximity.gap == relative(-1.1 + std::abs(height)));
+    CHECK(contacts[0].proximity.normal.z() * height < 0);
+  }
+}
+
+TEST_CASE("degenerate, repeated and unusable triangles") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Ellipsoid body({0.5, 0.7, 0.3});
+  const Pose pose{{0.1, 0.2, 0.28}, Matrix3::Identity()};
+  const Proximity plane = find_plane_proximity(body, pose, Vector3::UnitZ(), 0);
+  std::vector<MeshTriangle> triangles = floor_mesh(8, 0.3).placed();
+  const std::vector<MeshTriangle> once = triangles;
+  triangles.insert(triangles.end(), once.begin(), once.end());
+  check_is_plane_contact(contacts_of(body, pose, triangles), plane);
+  const Vector3 a{0.1, 0.2, 0};
+  const Vector3 b{0.7, 0.2, 0};
+  const std::array<std::array<Vector3, 3>, 8> bad = {{{a, a, a},
+                                                      {a, b, a},
+                                                      {a, b, 0.5 * (a + b)},
+                                                      {a, b, Vector3(nan, 0, 0)},
+                                                      {a, b, Vector3(0, infinity, 0)},
+                                                      {a, b, Vector3(0, 1e200, 0)},
+                                                      {Vector3(nan, nan, nan), a, b},
+                                                      {a, b, Vector3(0.4, 0.2 + 1e-14, 0)}}};
+  for (const auto& vertices : bad) {
+    const MeshTriangle alone{vertices, 7};
+    CHECK(contacts_of(body, pose, {&alone, 1}).empty());
+    triangles.push_back(alone);
+  }
+  check_is_plane_contact(contacts_of(body, pose, triangles), plane);
+  CHECK(contacts_of(body, pose, {}).empty());
+  CHECK(contacts_of(body, {{nan, 0, 0}, Matrix3::Identity()}, once).empty());
+
+  const MeshTriangle one{{Vector3(-1, -1, 0), Vector3(1, -1, 0), Vector3(0, 1, 0)}, 42};
+  const std::vector<MeshContact> contacts = contacts_of(body, pose, {&one, 1});
+  check_is_plane_contact(contacts, plane);
+  CHECK(contacts[0].triangle == 42);
+}
+
+TEST_CASE("contacts come deepest first and name their triangle") {
+  // Four posts of different heights under a flat body.
+  std::vector<MeshTriangle> triangles;
+  const Superellipsoid body({2, 2, 0.5}, 8, 8);
+  for (int i = 0; i < 4; ++i) {
+    const Vector3 foot{i < 2 ? -0.8 : 0.8, i % 2 == 0 ? -0.8 : 0.8, 0};
+    TriangleMesh post = box_mesh({0.1, 0.1, 1 + 0.01 * i});
+    for (const MeshTriangle& triangle : post.placed({foot, Matrix3::Identity()})) {
+      triangles.push_back(triangle);
+      triangles.back().index += 100 * i;
+    }
+  }
+  const std::vector<MeshContact> contacts = contacts_of(body, {{0, 0, 1.49}, Matrix3::Identity()}, triangles);
+  REQUIRE(contacts.size() == 4);
+  for (int i = 0; i < 4; ++i) {
+    CHECK(contacts[static_cast<std::size_t>(i)].triangle / 100 == 3 - i);
+    if (i > 0)
+      CHECK(contacts[static_cast<std::size_t>(i)].proximity.gap >= contacts[static_cast<std::size_t>(i - 1)].proximity.gap);
+  }
+}

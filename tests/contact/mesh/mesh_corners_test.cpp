@@ -1,0 +1,108 @@
+// A body in the hollows of a mesh: one contact for each side that holds it.
+#include <doctest/doctest.h>
+
+#include "contact/mesh/mesh_samples.hpp"
+#include "relative.hpp"
+#include "supernormal/proximity/plane.hpp"
+#include "z_axis_to.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+TEST_CASE("valleys and room corners: one contact for each side") {
+  const Ellipsoid ball(Vector3::Ones());
+  // Two slopes at 90 degrees, the valley along y.
+  TriangleMesh valley;
+  for (const double x : {-4.0, 0.0, 4.0}) {
+    for (const double y : {-3.0, 3.0}) valley.add({x, y, std::abs(x)});
+  }
+  valley.triangles = {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}};
+  const double height = std::sqrt(2.0) * 0.99;
+  std::vector<MeshContact> contacts = contacts_of(ball, {{0, 0.2, height}, Matrix3::Identity()}, valley.placed());
+  REQUIRE(contacts.size() == 2);
+  for (const MeshContact& contact : contacts) {
+    CHECK(contact.proximity.gap == relative(-0.01).epsilon(1e-12));
+    CHECK(contact.proximity.normal.z() == relative(-std::sqrt(0.5)).epsilon(1e-12));
+  }
+  CHECK(contacts[0].proximity.normal.x() == relative(-contacts[1].proximity.normal.x()));
+
+  const std::vector<MeshTriangle> room = box_mesh({3, 4, 5}, true).placed();
+  contacts = contacts_of(ball, {{2.01, 3.02, -4.03}, Matrix3::Identity()}, room);
+  REQUIRE(contacts.size() == 3);
+  CHECK(contacts[0].proximity.gap == relative(-0.03).epsilon(1e-12));
+  CHECK(contacts[1].proximity.gap == relative(-0.02).epsilon(1e-12));
+  CHECK(contacts[2].proximity.gap == relative(-0.01).epsilon(1e-12));
+  CHECK((contacts[0].proximity.normal + Vector3::UnitZ()).norm() == 0);
+  CHECK((contacts[1].proximity.normal - Vector3::UnitY()).norm() == 0);
+  CHECK((contacts[2].proximity.normal - Vector3::UnitX()).norm() == 0);
+}
+
+namespace {
+
+// A rhombic bipyramid, all but for the exponents: its tip is the deepest point for all normals within 45 degrees of the axis.
+const Superellipsoid kTip({0.5, 0.5, 1.5}, 1.02, 1.02);
+
+// With the tip along (1, 1, 1), nearly, that far beyond the planes x = 3, y = 4, z = 5.
+Pose pressed_into_corner(Draw& draw, const Vector3& depths) {
+  Pose pose;
+  pose.rotation = z_axis_to(Vector3::Ones() + draw.in_box({0.1, 0.1, 0.1}));
+  for (int axis = 0; axis < 3; ++axis) {
+    pose.position[axis] = Vector3(3, 4, 5)[axis] + depths[axis] - kTip.support(pose.rotation.transpose() * Vector3::Unit(axis));
+  }
+  return pose;
+}
+
+void check_is_held_by_all_walls(const std::vector<MeshContact>& contacts, const Vector3& depths) {
+  REQUIRE(contacts.size() == 3);
+  Vector3 sum = Vector3::Zero();
+  for (const MeshContact& contact : contacts) {
+    int axis = 0;
+    CHECK(contact.proximity.normal.maxCoeff(&axis) == 1);
+    CHECK(contact.proximity.gap == relative(-depths[axis]).epsilon(1e-12));
+    sum += contact.proximity.normal;
+  }
+  CHECK(sum == Vector3::Ones());
+}
+
+}  // namespace
+
+TEST_CASE("a sharp tip pressed into a corner of three walls is held by all of them") {
+  Draw draw(5);
+  const std::vector<MeshTriangle> room = box_mesh({3, 4, 5}, true).placed();
+  // The same walls, but each goes on behind the others: the mesh crosses itself.
+  std::vector<MeshTriangle> crossing;
+  for (int axis = 0; axis < 3; ++axis) {
+    Pose wall;
+    wall.position = Vector3(3, 4, 5)[axis] * Vector3::Unit(axis);
+    wall.rotation << Vector3::Unit((axis + 2) % 3), Vector3::Unit((axis + 1) % 3), -Vector3::Unit(axis);
+    for (const MeshTriangle& triangle : floor_mesh(8, 2).placed(wall)) crossing.push_back(triangle);
+  }
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    const Vector3 depths{draw.uniform(0.001, 0.05), draw.uniform(0.001, 0.05), draw.uniform(0.001, 0.05)};
+    const Pose pose = pressed_into_corner(draw, depths);
+    check_is_held_by_all_walls(contacts_of(kTip, pose, room), depths);
+    check_is_held_by_all_walls(contacts_of(kTip, pose, crossing), depths);
+  }
+}
+
+TEST_CASE("in a finely divided bowl a few contacts say it all") {
+  TriangleMesh bowl = floor_mesh(60, 0.05);
+  for (Vector3& vertex : bowl.vertices) vertex.z() = 0.25 * (vertex.x() * vertex.x() + vertex.y() * vertex.y());
+  const std::vector<MeshTriangle> triangles = bowl.placed();
+  Draw draw(8);
+  for (int i = 0; i < 30; ++i) {
+    const Superellipsoid body({0.6, 0.5, 0.4}, draw.uniform(1.5, 8), draw.uniform(1.5, 8));
+    Pose pose{{draw.uniform(-0.2, 0.2), draw.uniform(-0.2, 0.2), 0}, draw.rotation()};
+    pose.position.z() = 0.1 - find_plane_proximity(body, pose, Vector3::UnitZ(), 0).gap;
+    const std::vector<MeshContact> contacts = contacts_of(body, pose, triangles);
+    for (std::size_t a = 0; a < contacts.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const Proximity& one = contacts[a].proximity;
+        const Proximity& other = contacts[b].proximity;
+        CHECK(((one.normal - other.normal).norm() > 1e-6 || (one.point1 - other.point1).norm() > 1e-7));
+      }
+    }
+    CHECK(contacts.size() <= 12);
+  }
+}

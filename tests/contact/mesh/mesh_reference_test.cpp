@@ -1,0 +1,69 @@
+// Gaps of bodies and closed meshes, apart and overlapping, against branch and bound on the solid hull: nothing of lib/solvers is in
+// the reference.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "contact/mesh/mesh_contacts.hpp"
+#include "contact/mesh/mesh_samples.hpp"
+#include "contact/mesh/nearest_triangle.hpp"
+#include "proximity/collider_reference.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/polytope.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+constexpr std::array kGaps = {0.5, 0.05, 0.01, 0.0, -0.01, -0.03, -0.1};  // of the smallest half-extent
+
+// Moved along `way` until the gap is about the wanted one.
+Pose placed_at(double wanted, const Shape& body, const Shape& hull, const Pose& hull_pose, const Vector3& way,
+               const Matrix3& turn) {
+  Pose pose{hull_pose.position, turn};
+  double inside = 0;
+  double outside = 10;
+  for (int step = 0; step < 25; ++step) {
+    const double middle = 0.5 * (inside + outside);
+    pose.position = hull_pose.position + middle * way;
+    (find_proximity(body, pose, hull, hull_pose).gap < wanted ? inside : outside) = middle;
+  }
+  return pose;
+}
+
+double height_over(const Shape& shape, const Pose& pose, const Vector3& normal, const Vector3& point) {
+  return normal.dot(point - pose.position) - shape.support(pose.rotation.transpose() * normal);
+}
+
+}  // namespace
+
+TEST_CASE("2000 bodies and closed meshes, apart, touching, overlapping by up to 10 %: the gap to 1e-9, points on both surfaces") {
+  Draw draw(31);
+  const std::array<TriangleMesh, 4> meshes = {
+      icosahedron_mesh(), box_mesh({0.9, 1.4, 0.7}), hull_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}),
+      hull_mesh({{1, 0, 0}, {-1, 0, 0}, {0, 1.5, 0}, {0, -1.5, 0}, {0, 0, 0.3}, {0, 0, -2}})};
+  MeshContacts query;
+  double worst = 0;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    const TriangleMesh& mesh = meshes[i % meshes.size()];
+    const Polytope hull(mesh.vertices);
+    const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
+    const std::unique_ptr<Shape> body = draw.body();
+    const double unit = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
+    const Pose pose = placed_at(kGaps[i % kGaps.size()] * unit, *body, hull, mesh_pose, draw.direction(), draw.rotation());
+    const GapBounds expected = bound_gap(*body, pose, hull, mesh_pose, 1e-10 * unit);
+    REQUIRE(expected.upper - expected.lower <= 1.1e-10 * unit);
+    const std::vector<MeshTriangle> triangles = mesh.placed(mesh_pose);
+    const std::span<const MeshContact> contacts = query.find(*body, pose, triangles, {});
+    if (std::abs(expected.lower) > 1e-9 * unit) REQUIRE(contacts.empty() == (expected.lower > 0));
+    const Proximity found = contacts.empty() ? find_nearest_triangle(*body, pose, triangles, {}).proximity : contacts[0].proximity;
+    worst = std::max({worst, (expected.lower - found.gap) / unit, (found.gap - expected.upper) / unit});
+    CHECK(found.gap > expected.lower - 1e-9 * unit);
+    CHECK(found.gap < expected.upper + 1e-9 * unit);
+    CHECK(std::abs(height_over(*body, pose, found.normal, found.point1)) < 1e-9 * unit);
+    CHECK(std::abs(height_over(hull, mesh_pose, -found.normal, found.point2)) < 1e-9 * unit);
+  }
+  MESSAGE("worst gap error / smallest half-extent: ", worst);
+}

@@ -1,0 +1,168 @@
+// Surfaces and bodies that the tests of mesh contacts share.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "contact/mesh/mesh_contacts.hpp"
+#include "supernormal/proximity/pose.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+namespace supernormal::test {
+
+struct TriangleMesh {
+  std::vector<Vector3> vertices;
+  std::vector<std::array<int, 3>> triangles;
+
+  int add(const Vector3& vertex) {
+    vertices.push_back(vertex);
+    return static_cast<int>(vertices.size()) - 1;
+  }
+
+  std::vector<MeshTriangle> placed(const Pose& pose = {}) const {
+    std::vector<MeshTriangle> out;
+    for (const std::array<int, 3>& corners : triangles) {
+      MeshTriangle triangle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangle.vertices[k] = pose.rotation * vertices[static_cast<std::size_t>(corners[k])] + pose.position;
+      }
+      triangle.index = static_cast<int>(out.size());
+      out.push_back(triangle);
+    }
+    return out;
+  }
+};
+
+/// A level square of cells * cells * 2 triangles with the middle at the origin.
+inline TriangleMesh floor_mesh(int cells, double cell) {
+  TriangleMesh mesh;
+  for (int i = 0; i <= cells; ++i) {
+    for (int j = 0; j <= cells; ++j) mesh.add({(i - 0.5 * cells) * cell, (j - 0.5 * cells) * cell, 0});
+  }
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const int a = i * (cells + 1) + j;
+      const int b = a + cells + 1;
+      mesh.triangles.push_back({a, b, a + 1});
+      mesh.triangles.push_back({b, b + 1, a + 1});
+    }
+  }
+  return mesh;
+}
+
+/// The closed surface of the hull of points in general position or with quadrangles: every supporting triangle, outward. For few
+/// points.
+inline TriangleMesh hull_mesh(const std::vector<Vector3>& points) {
+  TriangleMesh mesh;
+  mesh.vertices = points;
+  const int count = static_cast<int>(points.size());
+  const auto point = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      for (int c = b + 1; c < count; ++c) {
+        const Vector3 normal = (point(b) - point(a)).cross(point(c) - point(a));
+        double low = 0;
+        double high = 0;
+        for (int i = 0; i < count; ++i) {
+          const double height = normal.dot(point(i) - point(a)) / normal.norm();
+          low = std::min(low, height);
+          high = std::max(high, height);
+        }
+        if (high < 1e-9) mesh.triangles.push_back({a, b, c});
+        if (low > -1e-9) mesh.triangles.push_back({a, c, b});
+      }
+    }
+  }
+  return mesh;
+}
+
+inline TriangleMesh icosahedron_mesh() {
+  const double golden = 0.5 * (1 + std::sqrt(5.0));
+  std::vector<Vector3> points;
+  for (const double one : {-1.0, 1.0}) {
+    for (const double phi : {-golden, golden}) {
+      points.emplace_back(0, one, phi);
+      points.emplace_back(one, phi, 0);
+      points.emplace_back(phi, 0, one);
+    }
+  }
+  return hull_mesh(points);
+}
+
+/// `inward`: a room instead of a block.
+inline TriangleMesh box_mesh(const Vector3& half_lengths, bool inward = false) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3 sign{(i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0};
+    mesh.add(half_lengths.cwiseProduct(sign));
+  }
+  const std::array<std::array<int, 4>, 6> sides = {
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (const auto& [a, b, c, d] : sides) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  }
+  if (inward) {
+    for (std::array<int, 3>& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return mesh;
+}
+
+/// The same numbers in every run.
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : engine_(seed) {}
+
+  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53); }
+
+  Vector3 in_box(const Vector3& half_lengths) {
+    const Vector3 share{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+    return share.cwiseProduct(half_lengths);
+  }
+
+  Vector3 direction() {
+    while (true) {
+      const Vector3 v = in_box(Vector3::Ones());
+      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+    }
+  }
+
+  Matrix3 rotation() {
+    while (true) {
+      const Eigen::Vector4d q{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+      if (q.norm() > 0.1 && q.norm() < 1) return Eigen::Quaterniond(q.normalized()).toRotationMatrix();
+    }
+  }
+
+  /// An ellipsoid, or a superellipsoid with exponents from the range 1.02…200.
+  std::unique_ptr<Shape> body() {
+    const Vector3 half_axes{uniform(0.4, 1.2), uniform(0.4, 1.2), uniform(0.4, 1.2)};
+    if (uniform(0, 1) < 0.3) return std::make_unique<Ellipsoid>(half_axes);
+    const double delta = 1 + 0.02 * std::pow(1e4, uniform(0, 1));
+    const double epsilon = 1 + 0.02 * std::pow(1e4, uniform(0, 1));
+    return std::make_unique<Superellipsoid>(half_axes, delta, epsilon);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Copied, from one query object that is used again and again.
+inline std::vector<MeshContact> contacts_of(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
+  static MeshContacts query;
+  const std::span<const MeshContact> found = query.find(shape, pose, triangles, {});
+  return {found.begin(), found.end()};
+}
+
+/// Outward, unit.
+inline Vector3 normal_of(const MeshTriangle& t) {
+  return (t.vertices[1] - t.vertices[0]).cross(t.vertices[2] - t.vertices[0]).normalized();
+}
+
+}  // namespace supernormal::test

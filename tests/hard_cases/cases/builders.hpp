@@ -1,0 +1,44 @@
+// How the cases are put together.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "catalogue.hpp"
+
+namespace supernormal::samples {
+
+/// Body 1 at the origin, unrotated.
+HardCase pair(std::string name, std::string reason, const Body& body1, const Body& body2, const Pose& pose2,
+              std::optional<double> gap = {});
+
+/// Body 2 with attitude `rotation2` where its tangent plane of normal -n is `gap` m above body 1's of normal n and the two boundary
+/// points lie above one another: n is a common normal. Apart or touching it is the only one and the gap is known.
+HardCase on_normal(std::string name, std::string reason, const Body& body1, const Vector3& n, const Body& body2,
+                   const Matrix3& rotation2, double gap);
+
+/// Unrotated at `position`.
+inline Pose at(const Vector3& position) { return {position, Matrix3::Identity()}; }
+inline Pose at(const Vector3& position, const Matrix3& rotation) { return {position, rotation}; }
+
+/// The attitude turned about an axis (of any length) by an angle in radians.
+inline Matrix3 turned(const Vector3& axis, double angle) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
+
+/// Far from any symmetry.
+inline Matrix3 askew() { return Eigen::Quaterniond(0.3, -0.7, 0.2, 0.6).normalized().toRotationMatrix(); }
+
+inline constexpr double kQuarterTurn = 1.5707963267948966;
+inline constexpr double kEighthTurn = 0.7853981633974483;
+
+std::vector<HardCase> concentric_cases();
+std::vector<HardCase> face_cases();
+std::vector<HardCase> edge_and_vertex_cases();
+std::vector<HardCase> exponent_cases();
+std::vector<HardCase> aspect_ratio_cases();
+std::vector<HardCase> size_cases();
+std::vector<HardCase> containment_cases();
+std::vector<HardCase> touching_cases();
+std::vector<HardCase> place_cases();
+std::vector<HardCase> collider_cases();
+std::vector<HardCase> other_shape_cases();
+
+}  // namespace supernormal::samples

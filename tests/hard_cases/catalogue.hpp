@@ -1,0 +1,51 @@
+// The catalogue of hard cases: pairs of bodies on which methods for smooth convex bodies break, each with its reason.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "body.hpp"
+#include "supernormal/proximity/pose.hpp"
+
+namespace supernormal::samples {
+
+/// Two bodies in their places.
+struct HardCase {
+  std::string name;    ///< unique, "theme: what"
+  std::string reason;  ///< why it is hard
+  Body body1, body2;
+  std::shared_ptr<const Shape> shape1, shape2;  ///< made of the bodies
+  Pose pose1, pose2;
+  std::optional<double> gap = {};            ///< m; signed, in closed form where there is one; a reference has to find it otherwise
+  std::optional<Vector3> first_normal = {};  ///< unit, body 1's frame; where the solver is to start
+};
+
+/// All of them, in the order of the themes. They live in cases/, one file a theme.
+std::vector<HardCase> hard_cases();
+
+/// The bodies' names exchanged.
+HardCase swapped(const HardCase& original);
+
+/// As seen from another frame: x is now at motion.rotation x + motion.position.
+HardCase moved(const HardCase& original, const Pose& motion);
+
+/// In a unit of length of `unit` m. std::invalid_argument when a length leaves the range of its shape.
+HardCase scaled(const HardCase& original, double unit);
+
+/// Something that must be refused with std::invalid_argument.
+struct Refusal {
+  std::string name;
+  std::string reason;
+  std::function<void()> attempt;
+};
+
+/// Parameters of shapes and settings that are not finite, too small, too large or contradict each other.
+std::vector<Refusal> refusals();
+
+/// Poses that are not finite: a query has to end with Status::InvalidInput.
+std::vector<HardCase> cases_without_answer();
+
+}  // namespace supernormal::samples

@@ -1,0 +1,65 @@
+// The move-out check of battery_test.cpp for the colliders of many triangles. Rays have theirs in ray_test.cpp.
+#include <doctest/doctest.h>
+
+#include "ode/battery_bodies.hpp"
+#include "ode/collider_fixture.hpp"
+#include "ode/mesh_fixture.hpp"
+#include "ode/terrain.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr int kRepetitions = 10000;
+
+/// Whether the pair touched: moves the body out by 0.96 of the depth, and by another 0.08.
+bool check_way_out(dGeomID body, dGeomID collider, bool body_first) {
+  const dGeomID g1 = body_first ? body : collider;
+  const dGeomID g2 = body_first ? collider : body;
+  const auto contacts = collide(g1, g2);
+  if (contacts.empty()) return false;
+  const Vec out = (body_first ? 1.0 : -1.0) * double{contacts[0].depth} * to_vec(contacts[0].normal);
+  move(body, 0.96 * out);
+  CHECK(!collide(g1, g2).empty());
+  move(body, 0.08 * out);
+  CHECK(collide(g1, g2).empty());
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("a block of triangles: out by 0.96 of the depth: still touching; by another 0.08: apart") {
+  OdeSession session;
+  Random random(43);
+  int touching = 0;
+  for (int i = 0; i < kRepetitions; ++i) {
+    CAPTURE(i);
+    const Geom body(draw_body(random));
+    const MeshGeom block(box_arrays(random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1)));
+    random.turn(block);
+    overlap(body, block, random.uniform(0, 0.3) * size_of(body), random);
+    touching += check_way_out(body, block, i % 2 == 0);
+  }
+  CHECK(touching > 0.98 * kRepetitions);
+}
+
+TEST_CASE("a heightfield domed upwards: out by 0.96 of the depth: still touching; by another 0.08: apart") {
+  OdeSession session;
+  Random random(44);
+  const Terrain dome({17, 17, 16, 16}, [](int i, int j) { return -0.06 * ((i - 8) * (i - 8) + (j - 8) * (j - 8)); });
+  const Geom heightfield(dome.create(true));
+  random.turn(heightfield);
+  int touching = 0;
+  for (int i = 0; i < kRepetitions; ++i) {
+    CAPTURE(i);
+    const Geom body(draw_body(random));
+    dVector3 above;
+    dGeomGetRelPointPos(heightfield, dReal(random.uniform(-3, 3)), 3, dReal(random.uniform(-3, 3)), above);
+    place(body, to_vec(above));
+    snProximity apart;
+    REQUIRE(snGeomProximity(body, heightfield, &apart) == 1);
+    move(body, (apart.gap + random.uniform(0, 0.3) * size_of(body)) * to_vec(apart.normal));
+    touching += check_way_out(body, heightfield, i % 2 == 0);
+  }
+  CHECK(touching > 0.98 * kRepetitions);
+}

@@ -1,0 +1,192 @@
+// What dCollide promises: order, normal, depth, skip, flags, fields.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "ode/collider_fixture.hpp"
+#include "ode/ode_fixture.hpp"
+#include "relative.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+// Overlaps a body at the origin (half-axes 0.5…1.5) or stays just clear of it.
+ColliderGeom make_collider(ColliderKind kind, Random& random) {
+  ColliderGeom collider(kind, random);
+  if (kind != ColliderKind::Plane) place(collider, random.uniform(0.6, 1.8) * random.direction());
+  return collider;
+}
+
+// One of every kind, around a point.
+std::vector<ColliderGeom> make_colliders_at(const Vec& point) {
+  Random random(7);
+  std::vector<ColliderGeom> colliders;
+  for (const ColliderKind kind : kColliderKinds) {
+    colliders.emplace_back(kind, random);
+    if (kind != ColliderKind::Plane) place(colliders.back(), point);
+  }
+  return colliders;
+}
+
+// Takes the unit normal into g1 and a depth at their word.
+void check_contact(const dContactGeom& contact, dGeomID g1, dGeomID g2) {
+  CHECK(contact.g1 == g1);
+  CHECK(contact.g2 == g2);
+  CHECK(contact.side1 == -1);
+  CHECK(contact.side2 == -1);
+  CHECK(norm(to_vec(contact.normal)) == relative(1).epsilon(within_rounding(1e-14)));
+  CHECK(contact.depth >= 0);
+  CHECK(std::isfinite(norm(to_vec(contact.pos))));
+}
+
+}  // namespace
+
+TEST_CASE("a contact moves the geoms apart, and nothing less does") {
+  OdeSession session;
+  Random random(1);
+  for (const ColliderKind kind : kColliderKinds) {
+    CAPTURE(name_of(kind));
+    int overlapping = 0;
+    for (int i = 0; i < 300; ++i) {
+      CAPTURE(i);
+      const Geom body(random_body(random));
+      const ColliderGeom collider(make_collider(kind, random));
+      for (const bool ours_first : {true, false}) {
+        CAPTURE(ours_first);
+        const dGeomID g1 = ours_first ? body : collider;
+        const dGeomID g2 = ours_first ? collider : body;
+        const auto contacts = collide(g1, g2);
+        if (contacts.empty()) continue;
+        ++overlapping;
+        check_contact(contacts[0], g1, g2);
+        // The corners of a flat overlap.
+        for (std::size_t k = 1; k < contacts.size(); ++k) {
+          CHECK(contacts[k].depth >= 0);
+          CHECK(contacts[k].depth <= contacts[0].depth);
+          CHECK(to_vec(contacts[k].normal) == to_vec(contacts[0].normal));
+        }
+
+        // Move our body: along the normal when it is g1, against it otherwise.
+        const double sign = ours_first ? 1 : -1;
+        const Vec out = sign * double{contacts[0].depth} * to_vec(contacts[0].normal);
+        const Vec start = to_vec(dGeomGetPosition(body));
+        place(body, start + 0.96 * out);
+        CHECK(!collide(g1, g2).empty());
+        place(body, start + (1 + 1e-6) * out);
+        CHECK(collide(g1, g2).empty());
+        place(body, start);
+      }
+    }
+    CHECK(overlapping > 200);
+  }
+}
+
+TEST_CASE("both call orders give the same contact, turned around") {
+  OdeSession session;
+  Random random(2);
+  for (const bool warm_start : {true, false}) {
+    snSetWarmStart(warm_start ? 1 : 0);
+    for (const ColliderKind kind : kColliderKinds) {
+      for (int i = 0; i < 100; ++i) {
+        const Geom body(random_body(random));
+        const ColliderGeom collider(make_collider(kind, random));
+        collide(body, collider);  // so that both of the following find the same remembered normal
+        collide(body, collider);
+        const auto forth = collide(body, collider);
+        const auto back = collide(collider, body);
+        REQUIRE(forth.size() == back.size());
+        if (forth.empty()) continue;
+        CHECK(forth[0].g1 == back[0].g2);
+        CHECK(forth[0].g2 == back[0].g1);
+        CHECK(norm(to_vec(forth[0].normal) + to_vec(back[0].normal)) <= within_rounding(1e-6, 4));
+        CHECK(forth[0].depth == relative(back[0].depth).epsilon(1e-8));
+        if (warm_start) continue;
+        for (int axis = 0; axis < 3; ++axis) {  // a pure function of the poses: to the last bit
+          CHECK(forth[0].normal[axis] == -back[0].normal[axis]);
+          CHECK(forth[0].pos[axis] == back[0].pos[axis]);
+        }
+        CHECK(forth[0].depth == back[0].depth);
+      }
+    }
+  }
+}
+
+TEST_CASE("skip and flags: nothing is written beside the contacts asked for") {
+  OdeSession session;
+  const Geom body(snCreateSuperellipsoid(nullptr, 1, 1, 1, 4, 4));
+  const auto colliders = make_colliders_at({0.7, 0.3, 0});
+
+  constexpr unsigned char kUntouched = 0xA5;
+  constexpr int kSlots = 4;
+  for (const ColliderGeom& collider : colliders) {
+    for (const std::size_t skip : {sizeof(dContactGeom), sizeof(dContact), sizeof(dContactGeom) + 40}) {
+      for (const unsigned flags : {1U, 4U, 0x00070001U, 0x80000001U, 0x80000004U, 0xffffU}) {
+        std::vector<unsigned char> memory(kSlots * skip, kUntouched);
+        auto* const contacts = reinterpret_cast<dContactGeom*>(memory.data());
+        const int count = dCollide(body, collider, static_cast<int>(flags), contacts, static_cast<int>(skip));
+        REQUIRE(count == 1);
+        check_contact(contacts[0], body, collider);
+        for (std::size_t i = sizeof(dContactGeom); i < memory.size(); ++i) REQUIRE(memory[i] == kUntouched);
+      }
+    }
+  }
+}
+
+TEST_CASE("the array is not touched when the geoms are apart") {
+  OdeSession session;
+  const Geom body(snCreateEllipsoid(nullptr, 1, 2, 3));
+  place(body, {10, 0, 0});
+  for (const ColliderGeom& collider : make_colliders_at({12, 3, 0})) {
+    if (dGeomGetClass(collider) == dPlaneClass) dGeomPlaneSetParams(collider, 0, 0, 1, -4);
+    std::vector<unsigned char> memory(sizeof(dContactGeom), 0x5A);
+    const auto before = memory;
+    CHECK(dCollide(body, collider, 1, reinterpret_cast<dContactGeom*>(memory.data()), sizeof(dContactGeom)) == 0);
+    CHECK(memory == before);
+  }
+}
+
+TEST_CASE("geoms of one body do not collide; a body with itself neither") {
+  OdeSession session;
+  const dWorldID world = dWorldCreate();
+  const dBodyID body = dBodyCreate(world);
+  {
+    const Geom one(snCreateEllipsoid(nullptr, 1, 1, 1));
+    const Geom two(snCreateEllipsoid(nullptr, 1, 1, 1));
+    dGeomSetBody(one, body);
+    CHECK(collide(one, two).size() == 1);
+    CHECK(collide(one, one).empty());
+    dGeomSetBody(two, body);
+    CHECK(collide(one, two).empty());
+  }
+  dWorldDestroy(world);
+}
+
+TEST_CASE("a geom whose pose is not a number gives no contact and does not stop a space") {
+  OdeSession session;
+  const dReal nan = std::numeric_limits<dReal>::quiet_NaN();
+  const dSpaceID space = dHashSpaceCreate(nullptr);
+  const dGeomID broken = snCreateEllipsoid(space, 1, 1, 1);
+  const dGeomID whole = snCreateSuperellipsoid(space, 1, 1, 1, 3, 3);
+  dGeomSetPosition(broken, nan, nan, nan);
+  {
+    const auto colliders = make_colliders_at({0, 0, 0});
+    for (const ColliderGeom& collider : colliders) {
+      CHECK(collide(broken, collider).empty());
+      CHECK(collide(collider, broken).empty());
+      if (dGeomGetClass(collider) == dPlaneClass) continue;
+      CHECK(collide(whole, collider).size() == 1);
+      dGeomSetPosition(collider, nan, nan, nan);
+      CHECK(collide(whole, collider).empty());
+      CHECK(collide(collider, whole).empty());
+    }
+  }
+  const dGeomID plane = dCreatePlane(space, 0, 0, 1, 0);
+  int pairs = 0;
+  dSpaceCollide(space, &pairs, [](void* count, dGeomID, dGeomID) { ++*static_cast<int*>(count); });
+  CHECK(pairs > 0);
+  dGeomDestroy(plane);
+  dSpaceDestroy(space);
+}

@@ -1,0 +1,88 @@
+// What the core is given for the rotation of a geom.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "ode/geom/convert.hpp"
+#include "ode/ode_fixture.hpp"
+
+using namespace supernormal;
+using namespace supernormal::ode;
+using supernormal::test::Geom;
+using supernormal::test::OdeSession;
+
+namespace {
+
+constexpr double kRealEpsilon = std::numeric_limits<dReal>::epsilon();
+
+struct Draw {
+  std::mt19937_64 engine{5};
+  std::normal_distribution<double> gauss;
+
+  dReal operator()() { return dReal(gauss(engine)); }
+  Matrix3 noise() {
+    Matrix3 N;
+    for (double& entry : N.reshaped()) entry = gauss(engine);
+    return N;
+  }
+  Matrix3 rotation() {
+    dQuaternion q = {(*this)(), (*this)(), (*this)(), (*this)()};
+    dNormalize4(q);
+    dMatrix3 R;
+    dQtoR(q, R);
+    return to_rotation(R);
+  }
+};
+
+double orthonormality_error(const Matrix3& R) { return (R.transpose() * R - Matrix3::Identity()).norm(); }
+
+}  // namespace
+
+TEST_CASE("the rotations of double precision that ODE makes are taken to the bit") {
+  OdeSession session;
+  if (kRealEpsilon > 1e-10) return;  // those of single precision are not orthonormal to rounding
+  Draw draw;
+  const Geom geom(dCreateSphere(nullptr, 1));
+  for (int k = 0; k < 100000; ++k) {
+    dMatrix3 R;
+    if (k % 2 == 0) {
+      dRFromAxisAndAngle(R, draw(), draw(), draw(), 3 * draw());
+    } else {
+      dRFromEulerAngles(R, 3 * draw(), 3 * draw(), 3 * draw());
+    }
+    const Matrix3 of_quaternion = draw.rotation();
+    const bool is_taken = orthonormal(to_rotation(R), geom) == to_rotation(R) && orthonormal(of_quaternion, geom) == of_quaternion;
+    if (!is_taken) FAIL_CHECK("rotation ", k, " is changed");
+  }
+}
+
+TEST_CASE("the nearest rotation: orthonormal to rounding, and no farther away than the error") {
+  OdeSession session;
+  Draw draw;
+  const Geom geom(dCreateSphere(nullptr, 1));
+  for (const double size : {1e-13, 1e-10, 1e-7, 1e-5, 1e-3}) {
+    for (int k = 0; k < 1000; ++k) {
+      const Matrix3 exact = draw.rotation();
+      const Matrix3 rough = exact + size / 4 * draw.noise();
+      if (rotation_error(rough) > 9e-3) continue;
+      const Matrix3 Q = orthonormal(rough, geom);
+      CHECK(orthonormality_error(Q) <= 2e-15);
+      // Of a polar decomposition the other factor is symmetric.
+      const Matrix3 stretch = Q.transpose() * rough;
+      CHECK((stretch - stretch.transpose()).norm() <= 1e-14);
+    }
+  }
+}
+
+TEST_CASE("entries that are no numbers are left to the core") {
+  OdeSession session;
+  const Geom geom(dCreateSphere(nullptr, 1));
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Matrix3 R = Matrix3::Identity();
+    R(1, 2) = wrong;
+    CHECK_FALSE(orthonormal(R, geom).allFinite());
+  }
+}

@@ -1,0 +1,264 @@
+// In every kind of space, inside a dGeomTransform, with an offset: what collides is the same.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ode/collider_fixture.hpp"
+#include "relative.hpp"
+
+// dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+
+using namespace supernormal::test;
+
+namespace {
+
+struct SpaceKind {
+  std::string name;
+  std::function<dSpaceID()> create;
+};
+
+std::vector<SpaceKind> space_kinds() {
+  std::vector<SpaceKind> kinds = {{"simple", [] { return dSimpleSpaceCreate(nullptr); }},
+                                  {"hash", [] { return dHashSpaceCreate(nullptr); }},
+                                  {"quadtree", [] {
+                                     const dVector3 centre = {0, 0, 0};
+                                     const dVector3 extents = {20, 20, 20};
+                                     return dQuadTreeSpaceCreate(nullptr, centre, extents, 5);
+                                   }}};
+  const std::vector<std::pair<std::string, int>> orders = {{"XYZ", dSAP_AXES_XYZ}, {"XZY", dSAP_AXES_XZY}, {"YXZ", dSAP_AXES_YXZ},
+                                                           {"YZX", dSAP_AXES_YZX}, {"ZXY", dSAP_AXES_ZXY}, {"ZYX", dSAP_AXES_ZYX}};
+  for (const auto& [name, order] : orders) {
+    kinds.push_back({"SAP " + name, [axes = order] { return dSweepAndPruneSpaceCreate(nullptr, axes); }});
+  }
+  return kinds;
+}
+
+using Pairs = std::set<std::pair<dGeomID, dGeomID>>;  // smaller address first
+
+struct Found {
+  Pairs near_pairs, touching;
+};
+
+// What ODE's own geoms do among themselves is not our business.
+bool is_one_ours(dGeomID o1, dGeomID o2) { return dGeomGetClass(o1) == snGeomClass() || dGeomGetClass(o2) == snGeomClass(); }
+
+void near_callback(void* data, dGeomID o1, dGeomID o2) {
+  if (!is_one_ours(o1, o2)) return;
+  auto& found = *static_cast<Found*>(data);
+  const auto pair = std::minmax(o1, o2);
+  found.near_pairs.insert(pair);
+  if (!collide(o1, o2).empty()) found.touching.insert(pair);
+}
+
+// 60 bodies, five of each of ODE's geoms and two planes, crowded. Destroy it before the space.
+struct Crowd {
+  std::vector<ColliderGeom> colliders;
+  std::vector<dGeomID> geoms;
+
+  explicit Crowd(dSpaceID space) {
+    Random random(3);
+    for (int i = 0; i < 60; ++i) geoms.push_back(random_body(random, space));
+    for (const ColliderKind kind : kSolidKinds) {
+      for (int i = 0; i < 5; ++i) geoms.push_back(colliders.emplace_back(kind, random, space));
+    }
+    for (const dGeomID geom : geoms) place(geom, {random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)});
+    geoms.push_back(dCreatePlane(space, 0, 0, 1, -4));
+    geoms.push_back(dCreatePlane(space, dReal(0.6), dReal(0.48), dReal(0.64), -5));
+  }
+};
+
+Pairs touching_without_space(const std::vector<dGeomID>& geoms) {
+  Pairs touching;
+  for (std::size_t i = 0; i < geoms.size(); ++i) {
+    for (std::size_t j = i + 1; j < geoms.size(); ++j) {
+      if (is_one_ours(geoms[i], geoms[j]) && !collide(geoms[i], geoms[j]).empty()) touching.insert(std::minmax(geoms[i], geoms[j]));
+    }
+  }
+  return touching;
+}
+
+}  // namespace
+
+TEST_CASE("every space finds exactly the pairs that touch") {
+  OdeSession session;
+  for (const SpaceKind& kind : space_kinds()) {
+    CAPTURE(kind.name);
+    const dSpaceID space = kind.create();
+    {
+      const Crowd crowd(space);
+      const Pairs expected = touching_without_space(crowd.geoms);
+      REQUIRE(expected.size() > 60);
+      Found found;
+      dSpaceCollide(space, &found, near_callback);
+      CHECK(found.touching == expected);
+    }
+    dSpaceDestroy(space);
+  }
+}
+
+TEST_CASE("a plane that no body touches calls nobody") {
+  OdeSession session;
+  const std::vector<std::array<dReal, 4>> planes = {
+      {0, 0, 1, -8}, {1, 0, 0, -8}, {0, -1, 0, -8}, {dReal(0.6), dReal(0.48), dReal(0.64), -12}};
+  for (const SpaceKind& kind : space_kinds()) {
+    CAPTURE(kind.name);
+    const dSpaceID space = kind.create();
+    Random random(4);
+    for (int i = 0; i < 100; ++i)
+      place(random_body(random, space), {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)});
+    for (const auto& p : planes) {
+      const dGeomID plane = dCreatePlane(space, p[0], p[1], p[2], p[3]);
+      Found found;
+      dSpaceCollide(space, &found, near_callback);
+      const auto calls = std::count_if(found.near_pairs.begin(), found.near_pairs.end(),
+                                       [&](const auto& pair) { return pair.first == plane || pair.second == plane; });
+      CHECK(calls == 0);
+      dGeomDestroy(plane);
+    }
+    dSpaceDestroy(space);
+  }
+}
+
+TEST_CASE("a box whose corner is in the bounding box but not near the body is pruned; one that is near is not") {
+  OdeSession session;
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  snCreateEllipsoid(space, 1, 1, 1);
+  const dGeomID box = dCreateBox(space, 1, 1, 1);
+  const auto calls = [&] {
+    int count = 0;
+    dSpaceCollide(space, &count, [](void* n, dGeomID, dGeomID) { ++*static_cast<int*>(n); });
+    return count;
+  };
+  const double touching = 0.5 + 1 / std::sqrt(3.0);  // corner on the unit sphere
+  const double aside = within_rounding(1e-9, 4);
+  place(box, {touching - aside, touching - aside, touching - aside});
+  CHECK(calls() == 1);
+  place(box, {touching + aside, touching + aside, touching + aside});
+  CHECK(calls() == 0);
+  dSpaceDestroy(space);
+}
+
+namespace {
+
+// Puts `inner` into the transform, both anywhere near the origin, and `direct`, the same geom again, to where `inner` is then.
+void wrap(dGeomID transform, dGeomID inner, dGeomID direct, Random& random) {
+  random.turn(inner);
+  place(inner, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+  random.turn(transform);
+  place(transform, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.5, 1.5)});
+  dGeomTransformSetGeom(transform, inner);
+
+  const dReal* const R1 = dGeomGetRotation(transform);
+  dMatrix3 R;
+  dMultiply0(R, R1, dGeomGetRotation(inner), 3, 3, 3);
+  dVector3 p;
+  dMultiply0(p, R1, dGeomGetPosition(inner), 3, 3, 1);
+  dGeomSetRotation(direct, R);
+  place(direct, to_vec(p) + to_vec(dGeomGetPosition(transform)));
+}
+
+// Returns how many there are.
+int check_same_contacts(dGeomID transform, dGeomID direct, dGeomID other) {
+  const auto by_transform = collide(transform, other);
+  const auto by_hand = collide(direct, other);
+  REQUIRE(by_transform.size() == by_hand.size());
+  if (by_hand.empty()) return 0;
+  CHECK(by_transform[0].depth == relative(by_hand[0].depth).epsilon(1e-9));
+  CHECK(norm(to_vec(by_transform[0].normal) - to_vec(by_hand[0].normal)) < 1e-5);
+  CHECK(norm(to_vec(by_transform[0].pos) - to_vec(by_hand[0].pos)) < 1e-5);
+  return 1;
+}
+
+}  // namespace
+
+TEST_CASE("inside a dGeomTransform") {
+  OdeSession session;
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  Random random(5);
+  const Geom transform(dCreateGeomTransform(nullptr));
+  std::vector<ColliderGeom> others;
+  for (const ColliderKind kind : kColliderKinds) {
+    others.emplace_back(kind, random);
+    if (kind != ColliderKind::Plane) place(others.back(), {0, 0, -0.8});
+  }
+  int touching = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto a = dReal(random.uniform(0.5, 1.5));
+    const Geom inner(snCreateSuperellipsoid(nullptr, a, 1, dReal(0.7), 3, dReal(2.5)));
+    const Geom direct(snCreateSuperellipsoid(nullptr, a, 1, dReal(0.7), 3, dReal(2.5)));
+    wrap(transform, inner, direct, random);
+    dReal box1[6], box2[6];
+    dGeomGetAABB(transform, box1);
+    dGeomGetAABB(direct, box2);
+    for (int k = 0; k < 6; ++k) CHECK(box1[k] == relative(box2[k]).epsilon(1e-13));
+    for (const ColliderGeom& other : others) touching += check_same_contacts(transform, direct, other);
+  }
+  CHECK(touching > 200);
+}
+
+TEST_CASE("a collider inside a dGeomTransform") {
+  OdeSession session;
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  Random random(8);
+  const Geom transform(dCreateGeomTransform(nullptr));
+  for (const ColliderKind kind : kSolidKinds) {
+    CAPTURE(name_of(kind));
+    int touching = 0;
+    for (int i = 0; i < 50; ++i) {
+      Random one = random;
+      Random same = random;
+      const ColliderGeom inner(kind, one);
+      const ColliderGeom direct(kind, same);
+      const Geom body(random_body(random));
+      wrap(transform, inner, direct, random);
+      touching += check_same_contacts(transform, direct, body);
+    }
+    CHECK(touching > 10);
+  }
+}
+
+TEST_CASE("a geom offset moves the geom, not the body") {
+  OdeSession session;
+  const dWorldID world = dWorldCreate();
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  Random random(6);
+  int touching = 0;
+  {
+    std::vector<ColliderGeom> colliders;
+    for (const ColliderKind kind : kColliderKinds) {
+      colliders.emplace_back(kind, random);
+      if (kind != ColliderKind::Plane) place(colliders.back(), {1, 2, -0.3});
+    }
+    for (int i = 0; i < 50; ++i) {
+      const dBodyID body = dBodyCreate(world);
+      dBodySetPosition(body, 1, 2, dReal(random.uniform(-0.5, 1)));
+      dQuaternion q = {dReal(random.uniform(-1, 1)), dReal(random.uniform(-1, 1)), dReal(random.uniform(-1, 1)), 1};
+      dNormalize4(q);
+      dBodySetQuaternion(body, q);
+      const Geom with_offset(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 4));
+      dGeomSetBody(with_offset, body);
+      dGeomSetOffsetPosition(with_offset, dReal(0.3), dReal(-0.2), dReal(0.5));
+      dMatrix3 turned;
+      dRFromAxisAndAngle(turned, 1, 2, 3, dReal(0.8));
+      dGeomSetOffsetRotation(with_offset, turned);
+
+      const Geom direct(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 4));
+      dVector3 p;
+      dBodyGetRelPointPos(body, dReal(0.3), dReal(-0.2), dReal(0.5), p);
+      dMatrix3 R;
+      dMultiply0(R, dBodyGetRotation(body), turned, 3, 3, 3);
+      dGeomSetPosition(direct, p[0], p[1], p[2]);
+      dGeomSetRotation(direct, R);
+
+      for (const ColliderGeom& collider : colliders) touching += check_same_contacts(with_offset, direct, collider);
+    }
+    CHECK(touching > 100);
+  }
+  dWorldDestroy(world);
+}

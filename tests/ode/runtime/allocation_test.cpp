@@ -1,0 +1,160 @@
+// Colliders do not allocate. An executable of its own, because it replaces operator new for everybody in it.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "ode/collider_fixture.hpp"
+#include "ode/mesh_fixture.hpp"
+#include "ode/terrain.hpp"
+#include "supernormal/effects.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* const memory = alignment <= alignof(std::max_align_t)
+                           ? std::malloc(size)
+                           : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size, 1); }
+void* operator new[](std::size_t size) { return allocate(size, 1); }
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  ++allocations;
+  return std::malloc(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+TEST_CASE("no allocation in a collider, a box or a query after the first") {
+  OdeSession session;
+  {
+    const long before = allocations;
+    const Geom counted(snCreateEllipsoid(nullptr, 1, 1, 1));
+    REQUIRE(allocations > before);  // the counter sees what the library does
+  }
+  Random random(26);
+  std::vector<Geom> bodies;
+  for (int i = 0; i < 40; ++i) {
+    bodies.emplace_back(i % 2 == 0 ? random_body(random)
+                                   : snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), i % 3 == 0 ? 20 : dReal(1.3), 8));
+    if (i % 5 == 0) snGeomSetRounding(bodies.back(), dReal(0.1));
+    place(bodies.back(), random.uniform(0, 4) * random.direction());
+  }
+  std::vector<ColliderGeom> colliders;
+  colliders.reserve(kColliderKinds.size());
+  for (const ColliderKind kind : kColliderKinds) colliders.emplace_back(kind, random);
+  const ConvexGeom crowded(std::vector<Vec>(2000, Vec{0.5, 0.5, 0.5}));
+  const MeshGeom mesh(box_arrays(2, 2.5, 1.5));
+  const Terrain terrain({}, [](int i, int j) { return 0.3 * ((3 * i + 5 * j) % 4); });
+  const Geom hills(terrain.create(true));
+
+  long contacts_seen = 0;
+  const auto everything = [&] {
+    std::array<dContactGeom, 8> contacts;
+    snProximity answer;
+    dReal aabb[6];
+    for (const Geom& g1 : bodies) {
+      for (const Geom& g2 : bodies) {
+        contacts_seen += dCollide(g1, g2, 8, contacts.data(), sizeof contacts[0]);
+        if (dGeomID(g1) != dGeomID(g2)) snGeomProximity(g1, g2, &answer);
+      }
+      for (const ColliderGeom& collider : colliders) {
+        contacts_seen += dCollide(g1, collider, 8, contacts.data(), sizeof contacts[0]);
+        snGeomProximity(g1, collider, &answer);
+      }
+      contacts_seen += dCollide(g1, crowded, 8, contacts.data(), sizeof contacts[0]);
+      contacts_seen += dCollide(g1, mesh, 8, contacts.data(), sizeof contacts[0]);
+      snGeomProximity(g1, mesh, &answer);
+      contacts_seen += dCollide(g1, hills, 8, contacts.data(), sizeof contacts[0]);
+      snGeomProximity(g1, hills, &answer);
+      snGeomPointDepth(g1, 1, 2, 3);
+      dGeomMoved(g1);
+      dGeomGetAABB(g1, aabb);
+    }
+  };
+  everything();
+  for (const int warm_start : {1, 0}) {
+    snSetWarmStart(warm_start);
+    for (const Geom& body : bodies) move(body, 0.01 * random.direction());
+    const long before = allocations;
+    everything();
+    CHECK(allocations == before);
+  }
+  CHECK(contacts_seen > 1000);
+}
+
+TEST_CASE("no allocation in a batch after the first") {
+  OdeSession session;
+  Random random(27);
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  std::vector<dGeomID> bodies;
+  for (int i = 0; i < 60; ++i) {
+    bodies.push_back(random_body(random, space));
+    place(bodies.back(), random.uniform(0, 4) * random.direction());
+  }
+  dCreatePlane(space, 0, 0, 1, -1);
+  const snBatchID batch = snBatchCreate(1);  // of several, a thread might come too late for the warm-up
+  int contacts_seen = 0;
+  const auto collide_all = [&] {
+    const auto count = [](void* seen, dGeomID, dGeomID, const dContactGeom*, int more) { *static_cast<int*>(seen) += more; };
+    snBatchCollide(batch, space, 8, &contacts_seen, nullptr, count);
+  };
+  collide_all();
+  for (const dGeomID body : bodies) place(body, 1.001 * to_vec(dGeomGetPosition(body)));  // apart: not more pairs than before
+  const long before = allocations;
+  collide_all();
+  CHECK(allocations == before);
+  CHECK(contacts_seen > 500);
+  snBatchDestroy(batch);
+  dSpaceDestroy(space);
+}
+
+TEST_CASE("effects set up contacts and add forces without allocation") {
+  namespace fx = supernormal::effects;
+  OdeSession session;
+  const dWorldID world = dWorldCreate();
+  fx::Effects effects(
+      {fx::Gravity{{0, 0, -9.81}}, fx::Friction{0.5, {}}, fx::RollingResistance{1e-3, 1e-3, {}}, fx::Hertz{1e7, 0.3, 0.8, {}},
+       fx::Adhesion{1, {}}, fx::QuadraticDrag{1.2, 0.5}, fx::StokesDrag{1e-3}, fx::Buoyancy{1000, 0}},
+      1e-3);
+  effects.set_up(world);
+  const dBodyID body = dBodyCreate(world);
+  const Geom puck(snCreateSuperellipsoid(nullptr, 1, 1, dReal(0.2), 20, 20));
+  dGeomSetBody(puck, body);
+  effects.add_body(body);
+  dBodySetLinearVel(body, 1, 0, 0);
+  const Geom floor(dCreatePlane(nullptr, 0, 0, 1, dReal(-0.199)));
+  std::array<dContact, 8> contacts{};
+  const int count = dCollide(puck, floor, 8, &contacts[0].geom, sizeof(dContact));
+  REQUIRE(count > 1);
+  const long before = allocations;
+  for (int i = 0; i < 3; ++i) {
+    CHECK(effects.set_up_contacts(std::span(contacts).first(static_cast<std::size_t>(count))) == count);
+    effects.apply_forces();
+  }
+  CHECK(allocations == before);
+  dWorldDestroy(world);
+}

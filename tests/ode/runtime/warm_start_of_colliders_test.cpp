@@ -1,0 +1,163 @@
+// Warm start with ODE's own geoms, which have no serial numbers: they are known by where they are.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "ode/collider_fixture.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+snStatistics statistics() {
+  snStatistics out;
+  snGetStatistics(&out);
+  return out;
+}
+
+// Bodies among ODE's geoms, crowded.
+struct Scene {
+  std::vector<Geom> bodies;
+  std::vector<ColliderGeom> colliders;
+
+  Scene() {
+    Random random(60);
+    const auto anywhere = [&] { return Vec{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)}; };
+    for (int i = 0; i < 30; ++i) place(bodies.emplace_back(random_body(random)), anywhere());
+    for (const ColliderKind kind : kSolidKinds) {
+      for (int i = 0; i < 6; ++i) place(colliders.emplace_back(kind, random), anywhere());
+    }
+  }
+
+  // All contacts of some steps, in which the bodies turn and move a little.
+  std::vector<dContactGeom> run() {
+    Random random(61);
+    std::vector<dContactGeom> all;
+    for (int step = 0; step < 5; ++step) {
+      for (const Geom& body : bodies) {
+        for (const ColliderGeom& collider : colliders) {
+          for (const dContactGeom& contact : collide(body, collider)) all.push_back(contact);
+        }
+        move(body, 0.01 * random.direction());
+        turn_by(body, 0.02, random.direction());
+      }
+    }
+    return all;
+  }
+
+  static void turn_by(dGeomID geom, double angle, const Vec& axis) {
+    dMatrix3 turn, turned;
+    dRFromAxisAndAngle(turn, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));
+    dMultiply0(turned, turn, dGeomGetRotation(geom), 3, 3, 3);
+    dGeomSetRotation(geom, turned);
+  }
+};
+
+bool same_bits(const std::vector<dContactGeom>& a, const std::vector<dContactGeom>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (to_vec(a[i].pos) != to_vec(b[i].pos) || to_vec(a[i].normal) != to_vec(b[i].normal) || a[i].depth != b[i].depth)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("a separated pair costs one evaluation from the second time on, with every collider") {
+  OdeSession session;
+  Random random(62);
+  for (const ColliderKind kind : kSolidKinds) {
+    CAPTURE(name_of(kind));
+    int remembered = 0;
+    for (int i = 0; i < 50; ++i) {
+      const Geom body(random_body(random));
+      const ColliderGeom collider(kind, random);
+      place(collider, 4.0 * random.direction());
+      CHECK(collide(body, collider).empty());
+      move(body, 1e-3 * random.direction());
+      snResetStatistics();
+      CHECK(collide(body, collider).empty());
+      if (statistics().queries_warm == 0) continue;  // seen in another cell of directions now
+      ++remembered;
+      CHECK(statistics().evaluations_warm == 1);
+    }
+    CHECK(remembered > 40);
+  }
+}
+
+TEST_CASE("a body that rolls across a wide dBox stays warm, at three evaluations") {
+  OdeSession session;
+  const Geom floor(dCreateBox(nullptr, 100, 100, 1));
+  const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.45), dReal(0.4)));
+  constexpr int kSteps = 1000;
+  constexpr double kStep = 0.01;
+  for (int step = 0; step < kSteps; ++step) {
+    place(ball, {-5 + kStep * step, 3, 0.9});
+    Scene::turn_by(ball, kStep / 0.45, {0, 1, 0});
+    collide(ball, floor);
+  }
+  const snStatistics s = statistics();
+  CHECK(s.contacts > kSteps / 2);
+  CHECK(s.queries_warm > 0.97 * kSteps);
+  CHECK(s.evaluations_warm < 3 * s.queries_warm);
+}
+
+TEST_CASE("a collider in another's place, or the same one elsewhere, gives what it gives without memory") {
+  OdeSession session;
+  Random random(63);
+  for (const ColliderKind kind : kSolidKinds) {
+    CAPTURE(name_of(kind));
+    int touching = 0;
+    for (int i = 0; i < 200; ++i) {
+      CAPTURE(i);
+      const Geom body(random_body(random));
+      const ColliderGeom first(kind, random);
+      const ColliderGeom second(kind, random);
+      overlap(body, first, 0.2 * size_of(body), random);
+      collide(body, first);
+      place(second, to_vec(dGeomGetPosition(first)));
+      overlap(body, second, 0.1 * size_of(body), random);
+      const auto warm = collide(body, second);
+      snSetWarmStart(0);
+      const auto cold = collide(body, second);
+      snSetWarmStart(1);
+      REQUIRE(warm.size() == cold.size());
+      if (cold.empty()) continue;
+      ++touching;
+      CHECK(std::abs(warm[0].depth - cold[0].depth) < 3e-9);
+    }
+    CHECK(touching > 190);
+  }
+}
+
+TEST_CASE("on: the same scene built again gives the same bits, wherever its geoms lie in memory and whatever was remembered") {
+  OdeSession session;
+  std::vector<dContactGeom> first;
+  {
+    Scene scene;
+    first = scene.run();
+  }
+  REQUIRE(first.size() > 400);
+  std::vector<Geom> in_the_way;
+  in_the_way.reserve(100);
+  for (int i = 0; i < 100; ++i) in_the_way.emplace_back(dCreateBox(nullptr, 1, 1, 1));
+  Scene scene;
+  CHECK(same_bits(scene.run(), first));
+  CHECK(statistics().queries_warm > statistics().queries_cold);
+}
+
+TEST_CASE("off: bit for bit a function of the poses") {
+  OdeSession session;
+  snSetWarmStart(0);
+  Scene scene;
+  const auto once = scene.run();
+  const Scene poses;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    place(scene.bodies[i], to_vec(dGeomGetPosition(poses.bodies[i])));
+    dGeomSetRotation(scene.bodies[i], dGeomGetRotation(poses.bodies[i]));
+  }
+  CHECK(same_bits(scene.run(), once));
+}

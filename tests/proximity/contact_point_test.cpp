@@ -1,0 +1,82 @@
+// Where a contact acts: halfway in depth, and at the sharper body's point.
+#include "proximity/contact_point.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "proximity/reference_pairs.hpp"
+#include "shapes/shape_samples.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/callback_shape.hpp"
+#include "supernormal/shapes/sphere.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+Pose at(const Vector3& position) { return {position, Matrix3::Identity()}; }
+
+}  // namespace
+
+TEST_CASE("the contact does not depend on the order of the bodies") {
+  for (const ReferencePair& pair : reference_pairs()) {
+    // One evaluation each, with the same normal: what differs is the choice of the point alone.
+    GapFunction gap(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2),
+        swapped(*pair.shape2, pair.pose2, *pair.shape1, pair.pose1);
+    GapJet jet, swapped_jet;
+    const Vector3 n = pair.normal.normalized();
+    gap.evaluate(n, Order::Hessian, jet);
+    swapped.evaluate(-(pair.pose2.rotation.transpose() * n), Order::Hessian, swapped_jet);
+    const Vector3 contact = contact_point(gap, jet);
+    const Vector3 from_body2 = pair.pose2.position + pair.pose2.rotation * contact_point(swapped, swapped_jet);
+    // A boundary point of a flat face is known to no digit, but lies on the face: it weighs little.
+    const double difference = (contact - from_body2).norm();
+    if (pair.is_well && !(difference <= 1e-6 * pair.unit)) FAIL_CHECK(pair.name, " contacts differ by ", difference);
+    const double height = std::abs(n.dot(contact - from_body2));
+    if (!(height <= 1e-12)) FAIL_CHECK(pair.name, " heights differ by ", height);
+  }
+}
+
+TEST_CASE("the contact lies halfway between the two supporting planes") {
+  for (const ReferencePair& pair : reference_pairs()) {
+    const Proximity out = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
+    const double above1 = out.normal.dot(out.contact - out.point1);
+    const double size = pair.surface1.half_axes().maxCoeff() + pair.surface2.half_axes().maxCoeff();
+    if (!(std::abs(above1 - 0.5 * out.gap) <= 1e-14 * size)) FAIL_CHECK(pair.name, " height ", above1, " of ", out.gap);
+  }
+}
+
+TEST_CASE("two spheres: the middle of the overlap") {
+  for (const Vector3& n : random_normals(20, 81)) {
+    for (const double distance : {2.9, 3.0, 3.1}) {
+      const Proximity out = find_proximity(Sphere(1), at({5, 6, 7}), Sphere(2), at(Vector3(5, 6, 7) + distance * n));
+      const Vector3 middle = Vector3(5, 6, 7) + 0.5 * (1 + distance - 2) * n;
+      CHECK((out.contact - middle).norm() <= 1e-14);
+    }
+  }
+}
+
+TEST_CASE("a flat face and a sharp corner: at the corner") {
+  // The corner of an octahedron, off the middle of the face of a box, pushed in by 0.01.
+  const Superellipsoid box(Vector3(3, 2, 1), 100, 100), corner(Vector3::Constant(1), 1.05, 1.05);
+  for (const Vector3& place : {Vector3(0, 0, 0), Vector3(1, 0.5, 0), Vector3(-2, -1.2, 0)}) {
+    const Vector3 centre = place + Vector3(0, 0, 1 + 1 - 0.01);
+    const Vector3 tip = centre - Vector3(0, 0, 1);
+    for (const bool box_first : {true, false}) {
+      const Proximity out = box_first ? find_proximity(box, {}, corner, at(centre)) : find_proximity(corner, at(centre), box, {});
+      CHECK(out.status == Status::Converged);
+      CHECK(std::abs(out.gap + 0.01) <= 1e-6);
+      CHECK_MESSAGE((out.contact - (tip + Vector3(0, 0, 0.005))).norm() <= 1e-4, text(out.contact));
+    }
+  }
+}
+
+TEST_CASE("without curvature: the middle of the witness points") {
+  const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(3, 2, 1));
+  const CallbackShape plain([=](const Vector3& n) { return ellipsoid->support(n); },
+                            [=](const Vector3& n) { return ellipsoid->point(n); });
+  const Proximity out = find_proximity(plain, {}, *ellipsoid, at({4, 3, 1}));
+  CHECK((out.contact - 0.5 * (out.point1 + out.point2)).norm() <= 1e-15);
+}

@@ -1,0 +1,106 @@
+// The gap function: its value from the shapes' own, its derivatives from differences.
+#include "supernormal/proximity/gap_function.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "reference_pairs.hpp"
+#include "shapes/shape_samples.hpp"
+#include "supernormal/shapes/callback_shape.hpp"
+#include "supernormal/shapes/sphere.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+const Superellipsoid kShape1(Vector3(3, 2, 1), 2.4, 1.8), kShape2(Vector3(1, 0.5, 2), 1.6, 3);
+const Pose kPose1{{10, -4, 2}, Eigen::Quaterniond(0.5, 0.1, -0.7, 0.2).normalized().toRotationMatrix()};
+const Pose kPose2{{12, -1, 5}, Eigen::Quaterniond(-0.3, 0.8, 0.2, 0.4).normalized().toRotationMatrix()};
+
+}  // namespace
+
+TEST_CASE("s is the distance of the two supporting planes, d joins the boundary points") {
+  GapFunction gap(kShape1, kPose1, kShape2, kPose2);
+  for (const Vector3& n : random_normals(100, 41)) {
+    GapJet jet;
+    gap.evaluate(n, Order::Hessian, jet);
+    const Vector3 world = kPose1.rotation * n;
+    const Vector3 in_body2 = -(kPose2.rotation.transpose() * world);
+    const Vector3 point1 = kPose1.position + kPose1.rotation * kShape1.point(n);
+    const Vector3 point2 = kPose2.position + kPose2.rotation * kShape2.point(in_body2);
+    CHECK(std::abs(jet.s - world.dot(point2 - point1)) <= 1e-14);
+    CHECK((kPose1.rotation * jet.d - (point2 - point1)).norm() <= 2e-14);
+    CHECK((jet.m - in_body2).norm() <= 4e-16);
+    CHECK(std::abs(n.dot(jet.d) - jet.s) <= 1e-14);
+    CHECK((gap.curvature(jet) * n).norm() <= 1e-13);
+  }
+  CHECK(gap.evaluations() == 100);
+}
+
+TEST_CASE("d is the gradient of s, -H that of d") {
+  GapFunction gap(kShape1, kPose1, kShape2, kPose2);
+  int checked = 0;
+  for (const Vector3& n : random_normals(50, 42)) {
+    GapJet jet, turned;
+    gap.evaluate(n, Order::Hessian, jet);
+    if (n.cwiseAbs().minCoeff() < 0.1 || jet.m.cwiseAbs().minCoeff() < 0.1) continue;
+    ++checked;
+    const Matrix3 curvature = gap.curvature(jet);
+    for (const Vector3& t : tangents(n)) {
+      const auto at = [&](double angle, Order order) -> const GapJet& {
+        gap.evaluate(std::cos(angle) * n + std::sin(angle) * t, order, turned);
+        return turned;
+      };
+      const Derivative slope = derivative([&](double angle) { return Vector3(at(angle, Order::Value).s, 0, 0); }, 0.02);
+      const Derivative bend = derivative([&](double angle) { return at(angle, Order::Point).d; }, 0.02);
+      CHECK(std::abs(slope.value.x() - t.dot(jet.d)) <= 1e-10);
+      CHECK((bend.value + curvature * t).norm() <= 1e-9 * (1 + curvature.norm()));
+    }
+  }
+  CHECK(checked >= 10);
+}
+
+TEST_CASE("an order asks for no more than it names") {
+  GapFunction gap(kShape1, kPose1, kShape2, kPose2);
+  GapJet jet;
+  gap.evaluate(Vector3::UnitZ(), Order::Value, jet);
+  CHECK(jet.d == Vector3::Zero());
+  gap.evaluate(Vector3::UnitZ(), Order::Point, jet);
+  CHECK(jet.d != Vector3::Zero());
+  CHECK(jet.jet1.H == Matrix3::Zero());
+}
+
+TEST_CASE("the unit of length is the smallest half-extent of what is not a point") {
+  const auto unit = [](const Shape& a, const Shape& b) { return GapFunction(a, {}, b, {}).length_unit(); };
+  CHECK(unit(kShape1, kShape2) == 0.5);
+  CHECK(unit(Sphere(0), kShape1) == 1);
+  CHECK(unit(kShape2, Sphere(0)) == 0.5);
+  CHECK(unit(Sphere(0), Sphere(0)) == 0);
+}
+
+TEST_CASE("the stated rounding of s is one") {
+  // Against a closed form: the supporting planes of two ellipsoids, in long double.
+  const Vector3 half1(3, 2, 1), half2(0.5, 4, 2);
+  const Ellipsoid shape1(half1), shape2(half2);
+  const Vector3 offset(5, 1, -3);
+  GapFunction gap(shape1, {}, shape2, {offset, Matrix3::Identity()});
+  CHECK(gap.rounding() < 5e-14);
+  for (const Vector3& n : random_normals(1000, 43)) {
+    GapJet jet;
+    gap.evaluate(n, Order::Value, jet);
+    const auto support = [&](const Vector3& half) {
+      return std::sqrt((half.cast<long double>().cwiseProduct(n.cast<long double>())).squaredNorm());
+    };
+    const long double exact = n.cast<long double>().dot(offset.cast<long double>()) - support(half1) - support(half2);
+    CHECK(std::abs(static_cast<double>(jet.s - exact)) <= gap.rounding());
+  }
+}
+
+TEST_CASE("curvature needs both bodies'") {
+  const CallbackShape plain([](const Vector3& n) { return kShape1.support(n); }, [](const Vector3& n) { return kShape1.point(n); });
+  CHECK(GapFunction(kShape1, {}, kShape2, {}).has_hessian());
+  CHECK_FALSE(GapFunction(plain, {}, kShape2, {}).has_hessian());
+  CHECK_FALSE(GapFunction(kShape2, {}, plain, {}).has_hessian());
+}

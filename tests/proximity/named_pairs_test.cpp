@@ -1,0 +1,121 @@
+// Pairs with published inputs or closed forms (shared/reference/README.md), to 1e-10 of the bodies' size.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "reference_pairs.hpp"
+#include "shapes/shape_samples.hpp"
+#include "supernormal/proximity/solve.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+Settings tight() {
+  Settings settings;
+  settings.tolerance = 1e-12;
+  return settings;
+}
+
+Pose at(const Vector3& position, const Eigen::Quaterniond& attitude = Eigen::Quaterniond::Identity()) {
+  return {position, attitude.toRotationMatrix()};
+}
+
+Superellipsoid superball(double radius, double exponent) { return {Vector3::Constant(radius), exponent, exponent}; }
+
+/// Vectors given to 13 decimals.
+void check_near(const Vector3& value, const Vector3& expected, double tolerance) {
+  CHECK_MESSAGE((value - expected).norm() <= tolerance, text(value), " instead of ", text(expected));
+}
+
+const Eigen::Quaterniond kHalfTurnAboutX(0, 1, 0, 0);
+
+}  // namespace
+
+TEST_CASE("R1: superellipsoids of the closed-form contact space demos, apart") {
+  const Superellipsoid shape1(Vector3(15, 10, 5), 2 / 0.7, 2 / 0.5), shape2(Vector3(5, 3, 2), 2 / 0.2, 2 / 1.25);
+  const Proximity out =
+      find_proximity(shape1, at({2.82, -16.4, 7.52}, kHalfTurnAboutX), shape2, at({-0.47, 8.44, 0.8}, kHalfTurnAboutX), tight());
+  CHECK(out.status == Status::Converged);
+  CHECK(std::abs(out.gap - 12.6945142566438972) <= 1e-10 * out.gap);
+  // A gap exact to e fixes the normal to sqrt(2 e / (H1 + H2 + s)), here 1e-6 for e = 1e-11.
+  check_near(out.normal, Vector3(-0.0018948754308, 0.9516017981184, -0.3073278823422), 1e-6);
+  check_near(out.point1, Vector3(2.1781654632855, -6.6089213379082, 4.8540806508774), 1e-5);
+  check_near(out.point2, Vector3(2.1541109401146, 5.4712012549538, 0.9527024670205), 1e-5);
+}
+
+TEST_CASE("R2: ellipsoids of the closed-form contact space demos, overlapping") {
+  const Ellipsoid shape1(Vector3(20, 15, 10)), shape2(Vector3(15, 12, 8));
+  const Proximity out =
+      find_proximity(shape1, at({-10, 7.25, 3.56}, kHalfTurnAboutX), shape2, at({15.3, -2.2, 2.84}, kHalfTurnAboutX), tight());
+  CHECK(out.status == Status::Converged);
+  CHECK(std::abs(out.gap - -6.3690451349138511) <= 1e-10 * 6.369);
+}
+
+TEST_CASE("L1: equal superballs of the LAMMPS unit tests touch at the origin") {
+  constexpr double kRadius = 3.456;
+  for (int halves = 4; halves <= 16; ++halves) {
+    const double exponent = 0.5 * halves;
+    const Superellipsoid shape = superball(kRadius, exponent);
+    const Proximity out = find_proximity(shape, at({-kRadius, 0, 0}), shape, at({kRadius, 0, 0}), tight());
+    CHECK(out.status == Status::Converged);
+    CHECK(std::abs(out.gap) <= 1e-10 * kRadius);
+    check_near(out.normal, Vector3::UnitX(), 1e-10);
+    check_near(out.contact, Vector3::Zero(), 1e-10 * kRadius);
+  }
+}
+
+TEST_CASE("L2: superballs of the LAMMPS unit tests overlap by a tenth of the radius") {
+  constexpr double kRadius = 3.456;
+  for (int halves = 4; halves <= 20; ++halves) {
+    const double exponent = 0.5 * halves;
+    const Proximity out = find_proximity(superball(kRadius, exponent), at({-0.95 * kRadius, 0, 0}),
+                                         superball(2 * kRadius, exponent), at({1.95 * kRadius, 0, 0}), tight());
+    CHECK(out.status == Status::Converged);
+    CHECK(std::abs(out.gap - -0.3456) <= 1e-10 * 0.3456);
+    check_near(out.normal, Vector3::UnitX(), 1e-10);
+  }
+}
+
+TEST_CASE("concentric, identical, aligned bodies: twice the smallest half-axis") {
+  for (const Superellipsoid& shape : superellipsoids(2, 200)) {
+    for (const Eigen::Quaterniond& attitude :
+         {Eigen::Quaterniond::Identity(), Eigen::Quaterniond(0.8, 0.1, -0.3, 0.5).normalized()}) {
+      const Pose pose = at({1, 2, 3}, attitude);
+      const Proximity out = find_proximity(*make_shape(shape), pose, *make_shape(shape), pose, tight());
+      const double depth = 2 * shape.half_axes().minCoeff();
+      const bool good = out.status == Status::Converged && std::abs(out.gap + depth) <= 1e-10 * depth;
+      if (!good) FAIL_CHECK(text(shape), " gap ", out.gap, " instead of ", -depth, " status ", static_cast<int>(out.status));
+    }
+  }
+}
+
+TEST_CASE("concentric, identical, aligned superballs below exponent 2 separate through a face") {
+  constexpr double kRadius = 0.7;
+  for (const double exponent : {1.02, 1.1, 1.3, 1.5, 1.8, 1.95}) {
+    const Proximity out = find_proximity(superball(kRadius, exponent), {}, superball(kRadius, exponent), {}, tight());
+    const double depth = 2 * kRadius * std::pow(3, 0.5 - 1 / exponent);
+    const bool good = out.status == Status::Converged && std::abs(out.gap + depth) <= 1e-10 * depth;
+    if (!good)
+      FAIL_CHECK("exponent ", exponent, " gap ", out.gap, " instead of ", -depth, " status ", static_cast<int>(out.status));
+  }
+}
+
+TEST_CASE("homothetic aligned bodies touch where their common boundary says so") {
+  Settings settings;
+  settings.tolerance = 1e-10;
+  constexpr double kScale1 = 0.3, kScale2 = 1.1;
+  for (const Superellipsoid& shape : superellipsoids(1.02, 200)) {
+    const Superellipsoid shape1(kScale1 * shape.half_axes(), shape.delta(), shape.epsilon());
+    const Superellipsoid shape2(kScale2 * shape.half_axes(), shape.delta(), shape.epsilon());
+    for (const Vector3& direction : random_normals(5, 21)) {
+      const Vector3 offset = direction * ((kScale1 + kScale2) / gauge(shape, direction));
+      const Proximity out = find_proximity(*make_shape(shape1), {}, *make_shape(shape2), at(offset), settings);
+      const double rounding = 1e-14 * (offset.norm() + shape2.half_axes().maxCoeff());
+      const bool good = out.status == Status::Converged && std::abs(out.gap) <= 1e-10 * shape1.half_axes().minCoeff() + rounding;
+      if (!good) FAIL_CHECK(text(shape), " towards ", text(direction), " gap ", out.gap, " status ", static_cast<int>(out.status));
+    }
+  }
+}

@@ -1,0 +1,107 @@
+// Random pairs beyond the reference file: what must hold whatever the answer is.
+#include <doctest/doctest.h>
+
+#include <cfenv>
+#include <cmath>
+#include <random>
+
+#include "reference_pairs.hpp"
+#include "shapes/shape_samples.hpp"
+#include "superellipsoid_classes.hpp"
+#include "supernormal/proximity/gap_function.hpp"
+#include "supernormal/proximity/solve.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+constexpr int kPairsPerClass = 2000;
+constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+
+class RandomPairs {
+ public:
+  RandomPairs(const SuperellipsoidClass& from, unsigned seed) : class_(from), engine_(seed) {}
+
+  // Braces: arguments in parentheses are evaluated in an order that the compiler chooses.
+  Superellipsoid shape() {
+    const Vector3 half_axes{axis(), axis(), axis()};
+    const double delta = between(class_.least_exponent, class_.largest_exponent);
+    return {half_axes, delta, between(class_.least_exponent, class_.largest_exponent)};
+  }
+
+  /// Near touching, apart or overlapping by up to about half of the size.
+  Pose pose(const Superellipsoid& shape1, const Superellipsoid& shape2) {
+    const Vector3 direction{gauss_(engine_), gauss_(engine_), gauss_(engine_)};
+    const Eigen::Quaterniond attitude{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
+    const Vector3 n = direction.normalized();
+    const double reach = std::exp(std::log(2.0) * between_linear(-1, 0.5));
+    return {reach * (shape1.support(n) + shape2.support(attitude.normalized().conjugate() * -n)) * n,
+            attitude.normalized().toRotationMatrix()};
+  }
+
+ private:
+  double axis() { return between(class_.least_axis, class_.largest_axis); }
+  double between_linear(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  double between(double low, double high) { return std::exp(between_linear(std::log(low), std::log(high))); }
+
+  SuperellipsoidClass class_;
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> gauss_;
+};
+
+}  // namespace
+
+TEST_CASE("random pairs: finite, consistent, quiet, and within the reported error") {
+  unsigned seed = 100;
+  for (const SuperellipsoidClass& kind : kSuperellipsoidClasses) {
+    RandomPairs random(kind, ++seed);
+    int higher = 0, overlapping = 0, unconverged = 0;
+    for (int k = 0; k < kPairsPerClass; ++k) {
+      const Superellipsoid surface1 = random.shape(), surface2 = random.shape();
+      const auto shape1 = make_shape(surface1), shape2 = make_shape(surface2);
+      const Pose pose2 = random.pose(surface1, surface2);
+      const std::string name = std::string(kind.name) + " " + std::to_string(k);
+
+      std::feclearexcept(kTrapped);
+      const Proximity out = find_proximity(*shape1, {}, *shape2, pose2);
+      if (std::fetestexcept(kTrapped)) FAIL_CHECK(name, " raised ", std::fetestexcept(kTrapped));
+      const bool finite = std::isfinite(out.gap) && std::isfinite(out.error) && out.point1.allFinite() && out.point2.allFinite() &&
+                          out.contact.allFinite();
+      if (!finite) FAIL_CHECK(name, " is not finite");
+      if (!(std::abs(out.normal.norm() - 1) <= 4e-16)) FAIL_CHECK(name, " normal of length ", out.normal.norm());
+      if (out.status != Status::Converged) {
+        ++unconverged;
+        MESSAGE(name, " status ", static_cast<int>(out.status), " gap ", out.gap, " error ", out.error);
+      }
+
+      GapFunction gap(*shape1, {}, *shape2, pose2);
+      GapJet jet;
+      gap.evaluate(out.normal, Order::Point, jet);
+      if (!(std::abs(jet.s - out.gap) <= gap.rounding())) FAIL_CHECK(name, " gap ", out.gap, " but s ", jet.s);
+      overlapping += out.gap < 0;
+
+      // From here on as well as double precision can. What it finds more is the error, unless it is another maximum.
+      Settings tight;
+      tight.tolerance = 1e-14;
+      const Proximity again = find_proximity(*shape1, {}, *shape2, pose2, tight, &out.normal);
+      const double rise = again.gap - out.gap;
+      if (rise < -(gap.rounding() + again.error)) FAIL_CHECK(name, " fell by ", -rise);
+      if (rise <= out.error + again.error) continue;
+      ++higher;
+      const double turn = (again.normal - out.normal).norm();
+      // Another hill begins beyond a valley: s falls between.
+      bool has_valley = false;
+      for (int percent = 1; percent < 100; ++percent) {
+        const double share = 0.01 * percent;
+        gap.evaluate(((1 - share) * out.normal + share * again.normal).normalized(), Order::Value, jet);
+        has_valley = has_valley || jet.s < out.gap - out.error;
+      }
+      if (!has_valley) FAIL_CHECK(name, " gap ", out.gap, " rose by ", rise, " turned by ", turn, " reported error ", out.error);
+    }
+    MESSAGE(std::string(kind.name), ": ", overlapping, " overlapping, ", higher, " found a higher maximum in a second solve");
+    CHECK(overlapping > kPairsPerClass / 5);
+    CHECK(overlapping < kPairsPerClass);
+    CHECK(unconverged == 0);
+  }
+}

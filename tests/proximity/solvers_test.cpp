@@ -1,0 +1,322 @@
+// The three solvers, every way a solve can end, and the special pairs.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "reference_pairs.hpp"
+#include "relative.hpp"
+#include "shapes/shape_samples.hpp"
+#include "shapes/without_hessian.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/rounded.hpp"
+#include "supernormal/shapes/sphere.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Pose at(const Vector3& position) { return {position, Eigen::Matrix3d::Identity()}; }
+
+Settings with(Solver solver) {
+  Settings settings;
+  settings.solver = solver;
+  return settings;
+}
+
+Proximity solve(const ReferencePair& pair, const Settings& settings = {}, const Vector3* first_normal = nullptr) {
+  return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, first_normal);
+}
+
+/// A body whose functions return what is not a number.
+class NotANumber final : public Shape {
+ public:
+  void evaluate(const Vector3&, Order, Jet& jet) const override { jet = {kNan, Vector3::Constant(kNan), Matrix3::Constant(kNan)}; }
+  Vector3 half_extents() const override { return Vector3::Ones(); }
+};
+
+/// A ball whose functions return what is not a number where the normal's z is above a limit.
+class KnownBelow final : public Shape {
+ public:
+  explicit KnownBelow(double limit) : limit_(limit) {}
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override {
+    (n.z() > limit_ ? static_cast<const Shape&>(nothing_) : ball_).evaluate(n, order, jet);
+  }
+  Vector3 half_extents() const override { return Vector3::Ones(); }
+
+ private:
+  double limit_;
+  NotANumber nothing_;
+  Ellipsoid ball_{Vector3(1, 1.1, 0.9)};
+};
+
+std::string refusal(const Settings& settings) {
+  try {
+    find_proximity(Sphere(1), {}, Sphere(1), {}, settings);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void check_contains(const std::string& message, const std::string& part) {
+  if (message.find(part) == std::string::npos) FAIL_CHECK("\"", message, "\" does not contain \"", part, "\"");
+}
+
+bool is_smooth(const ReferencePair& pair) { return pair.kind == "sphere" || pair.kind == "ellipsoid" || pair.kind == "moderate"; }
+
+}  // namespace
+
+TEST_CASE("the three solvers agree on ellipsoids, and where they converge on other smooth bodies") {
+  int compared = 0;
+  for (const ReferencePair& pair : reference_pairs()) {
+    if (!is_smooth(pair) || !pair.is_apart_or_touching()) continue;
+    for (const Solver solver : {Solver::Newton, Solver::FixedPoint, Solver::Hybrid}) {
+      const Proximity out = solve(pair, with(solver));
+      // Newton has no safeguard: of the moderate exponents it loses one pair.
+      if (solver == Solver::Newton && pair.kind == "moderate" && out.status != Status::Converged) continue;
+      ++compared;
+      const bool good = out.status == Status::Converged && std::abs(out.gap - pair.gap) <= out.error + 1e-14;
+      if (!good) {
+        FAIL_CHECK(pair.name, " solver ", static_cast<int>(solver), " status ", static_cast<int>(out.status), " gap ", out.gap,
+                   " instead of ", pair.gap, " error ", out.error);
+      }
+    }
+  }
+  CHECK(compared >= 3 * 3 * 125 - 1);
+}
+
+TEST_CASE("bodies without a Hessian are solved to the tolerance") {
+  for (const ReferencePair& pair : reference_pairs()) {
+    if (!pair.is_apart_or_touching()) continue;
+    const CallbackShape shape1 = without_hessian(pair.shape1), shape2 = without_hessian(pair.shape2);
+    for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
+      if (solver == Solver::FixedPoint && !is_smooth(pair)) continue;  // without a safeguard it is not for edges
+      const Proximity out = find_proximity(shape1, pair.pose1, shape2, pair.pose2, with(solver));
+      const double error = std::abs(out.gap - pair.gap);
+      const bool good = out.status == Status::Converged && out.error <= 1e-9 * pair.unit && error <= out.error + 1e-14;
+      if (!good) {
+        FAIL_CHECK(pair.name, " solver ", static_cast<int>(solver), " status ", static_cast<int>(out.status), " error ", error,
+                   " reported ", out.error, " evaluations ", out.evaluations);
+      }
+    }
+  }
+}
+
+TEST_CASE("Newton of a body without a Hessian is the hybrid") {
+  const auto shape = std::make_shared<Ellipsoid>(Vector3(3, 2, 1));
+  const CallbackShape body = without_hessian(shape);
+  const Proximity newton = find_proximity(body, {}, *shape, at({3, 4, 2}), with(Solver::Newton));
+  const Proximity hybrid = find_proximity(body, {}, *shape, at({3, 4, 2}));
+  CHECK(newton.gap == hybrid.gap);
+  CHECK(newton.evaluations == hybrid.evaluations);
+}
+
+TEST_CASE("an early out stops at the first normal that separates") {
+  for (const ReferencePair& pair : reference_pairs()) {
+    for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
+      Settings early = with(solver);
+      early.stop_when_apart = true;
+      const Proximity out = solve(pair, early);
+      if (pair.nominal < 0) {
+        if (out.status == Status::Apart || out.gap > out.error) FAIL_CHECK(pair.name, " called apart by ", out.gap);
+        continue;
+      }
+      if (pair.nominal == 0) continue;  // either way
+      // A lower bound of the distance, and the witness points an upper one.
+      const bool bounds = out.status == Status::Apart && out.gap > 0 && out.gap <= pair.gap * (1 + 1e-12) + 1e-14 &&
+                          (out.point2 - out.point1).norm() >= pair.gap * (1 - 1e-12) - 1e-14 &&
+                          pair.gap - out.gap <= out.error + 1e-14;
+      if (solver == Solver::Hybrid && !bounds) FAIL_CHECK(pair.name, " status ", static_cast<int>(out.status), " gap ", out.gap);
+      if (out.status != Status::Apart || out.evaluations == 1) continue;
+      Settings before = with(solver);
+      before.max_evaluations = out.evaluations - 1;
+      const double gap_before = solve(pair, before).gap;
+      if (gap_before > 0) FAIL_CHECK(pair.name, " was apart by ", gap_before, " an evaluation before");
+    }
+  }
+}
+
+TEST_CASE("an early out from the normal of an earlier pose takes one evaluation") {
+  Settings early;
+  early.stop_when_apart = true;
+  for (const ReferencePair& pair : reference_pairs()) {
+    if (!(pair.nominal > 0)) continue;
+    const Vector3 normal = solve(pair).normal;
+    const Proximity out = solve(pair, early, &normal);
+    const bool good = out.status == Status::Apart && out.evaluations == 1;
+    if (!good) FAIL_CHECK(pair.name, " status ", static_cast<int>(out.status), " evaluations ", out.evaluations);
+  }
+}
+
+TEST_CASE("a limit of evaluations is kept, and the answer so far is a valid one") {
+  int limited = 0;
+  for (const ReferencePair& pair : reference_pairs()) {
+    for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
+      for (const int limit : {1, 2, 3, 5, 9, 17}) {
+        Settings settings = with(solver);
+        settings.max_evaluations = limit;
+        const Proximity out = solve(pair, settings);
+        limited += out.status == Status::EvaluationLimit;
+        const bool kept = out.evaluations <= limit && out.evaluations >= 1;
+        const bool valid = std::isfinite(out.gap) && out.error >= 0 && out.point1.allFinite() && out.point2.allFinite() &&
+                           out.contact.allFinite() && std::abs(out.normal.norm() - 1) <= 4e-16;
+        // s of any normal is a lower bound.
+        const bool bound = out.gap <= pair.gap + 1e-9 * pair.unit;
+        if (!(kept && valid && bound)) {
+          FAIL_CHECK(pair.name, " solver ", static_cast<int>(solver), " limit ", limit, " evaluations ", out.evaluations, " gap ",
+                     out.gap, " valid ", valid);
+        }
+        const bool finished = out.status == Status::Converged || out.status == Status::Stalled || out.status == Status::Diverged;
+        if (!finished && out.evaluations != limit) FAIL_CHECK(pair.name, " stopped at ", out.evaluations, " of ", limit);
+      }
+    }
+  }
+  CHECK(limited > 5000);
+}
+
+TEST_CASE("settings out of range are refused with name, value and range") {
+  for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNan, kInfinity}) {
+    Settings settings;
+    settings.tolerance = tolerance;
+    const std::string message = refusal(settings);
+    check_contains(message, "tolerance");
+    check_contains(message, "1e-15");
+  }
+  for (const int limit : {0, -5, 1000001}) {
+    Settings settings;
+    settings.max_evaluations = limit;
+    const std::string message = refusal(settings);
+    check_contains(message, "max_evaluations");
+    check_contains(message, limit == 1000001 ? "1000001" : std::to_string(limit));
+  }
+  for (const double tolerance : {1e-15, 1.0}) {
+    Settings settings;
+    settings.tolerance = tolerance;
+    CHECK(refusal(settings) == "accepted");
+  }
+  for (const int limit : {1, 1000000}) {
+    Settings settings;
+    settings.max_evaluations = limit;
+    CHECK(refusal(settings) == "accepted");
+  }
+}
+
+TEST_CASE("what is not finite is called invalid input") {
+  const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
+  for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
+    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+      Pose displaced = at({bad, 0, 0}), turned = at({5, 0, 0});
+      turned.rotation(1, 2) = bad;
+      CHECK(find_proximity(shape, displaced, shape, at({5, 0, 0}), with(solver)).status == Status::InvalidInput);
+      CHECK(find_proximity(shape, {}, shape, displaced, with(solver)).status == Status::InvalidInput);
+      CHECK(find_proximity(shape, turned, shape, {}, with(solver)).status == Status::InvalidInput);
+      CHECK(find_proximity(shape, {}, shape, turned, with(solver)).status == Status::InvalidInput);
+    }
+    const Proximity out = find_proximity(shape, {}, NotANumber(), at({5, 0, 0}), with(solver));
+    CHECK(out.status == Status::InvalidInput);
+    CHECK(std::isfinite(out.gap));
+    CHECK(out.normal.norm() == 1);
+  }
+}
+
+TEST_CASE("a body that is known only on one side: an answer or invalid input, and an end of the search") {
+  int known = 0;
+  for (int k = 0; k < 200; ++k) {
+    const KnownBelow body(-0.95 + 0.01 * k);
+    const Pose pose2 = at(Vector3{0.3 * std::cos(k), 0.3 * std::sin(k), -0.2});
+    const Proximity out = find_proximity(body, {}, Superellipsoid(Vector3(1, 0.7, 0.5), 1.3, 1.4), pose2);
+    known += out.status == Status::Converged;
+    CHECK((out.status == Status::InvalidInput || (std::isfinite(out.gap) && out.normal.norm() == relative(1))));
+  }
+  CHECK(known > 0);
+}
+
+TEST_CASE("an unusable first normal is no worse than none") {
+  const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
+  const Proximity cold = find_proximity(shape, {}, shape, at({3, 4, 2}));
+  for (const Vector3& bad :
+       {Vector3(0, 0, 0), Vector3(kNan, 0, 1), Vector3(0, kInfinity, 0), Vector3(0, 0, 2), Vector3(1e-200, 0, 0)}) {
+    const Proximity out = find_proximity(shape, {}, shape, at({3, 4, 2}), {}, &bad);
+    CHECK(out.gap == cold.gap);
+    CHECK(out.evaluations == cold.evaluations);
+  }
+}
+
+TEST_CASE("two spheres: one evaluation, exact") {
+  for (const Vector3& direction : random_normals(20, 31)) {
+    for (const double distance : {1e-3, 0.5, 1.75, 2.0, 40.0}) {
+      const Proximity out = find_proximity(Sphere(1.25), at({1, 2, 3}), Sphere(0.5), at(Vector3(1, 2, 3) + distance * direction));
+      const double rounding = 4e-15 * std::max(1.0, distance);
+      CHECK(out.status == Status::Converged);
+      CHECK(out.evaluations == 1);
+      CHECK(std::abs(out.gap - (distance - 1.75)) <= rounding);
+      CHECK((out.normal - direction).norm() <= rounding / distance);
+      CHECK((out.contact - (Vector3(1, 2, 3) + (0.5 * (1.25 + distance - 0.5)) * direction)).norm() <=
+            4 * rounding / std::min(1.0, distance));
+    }
+  }
+}
+
+TEST_CASE("a point in and outside an ellipsoid: its true distance") {
+  const Ellipsoid body(Vector3(3, 2, 1));
+  // The smallest radius of curvature is 1/3: no deeper than that the nearest point of the boundary is where the normal says.
+  for (const Vector3& n : random_normals(50, 32)) {
+    for (const double distance : {-0.3, -0.1, -1e-6, 0.0, 1e-6, 0.1, 5.0, 1e3}) {
+      Settings settings;
+      settings.tolerance = 1e-13;
+      const Vector3 foot = body.point(n);
+      const Proximity out = find_proximity(body, {}, Sphere(0), at(foot + distance * n), settings);
+      const bool good = out.status == Status::Converged && std::abs(out.gap - distance) <= out.error + 1e-15 * (3 + distance) &&
+                        (out.point1 - foot).norm() <= 1e-5;
+      if (!good) FAIL_CHECK("n ", text(n), " distance ", distance, " gap ", out.gap, " status ", static_cast<int>(out.status));
+    }
+  }
+  // At the centre: out through the thinnest side.
+  const Proximity centre = find_proximity(body, {}, Sphere(0), {});
+  CHECK(centre.status == Status::Converged);
+  CHECK(std::abs(centre.gap + 1) <= 1e-9);
+  CHECK(std::abs(std::abs(centre.normal.z()) - 1) <= 1e-4);
+}
+
+TEST_CASE("two points: the distance") {
+  const Proximity out = find_proximity(Sphere(0), {}, Sphere(0), at({3, 4, 0}));
+  CHECK(out.status == Status::Converged);
+  CHECK(std::abs(out.gap - 5) <= 4e-15);
+}
+
+TEST_CASE("a start on a saddle of s is left, upwards") {
+  const Ellipsoid body(Vector3(3, 2, 1));
+  Pose crosswise;  // x to y, y to z, z to x: half-axes 1, 3, 2 along x, y, z
+  crosswise.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const Vector3 start = sign * Vector3::Unit(axis);
+      const Proximity aligned = find_proximity(body, {}, body, {}, {}, &start);
+      CHECK(aligned.status == Status::Converged);
+      CHECK(std::abs(aligned.gap + 2) <= 1e-9);
+      const Proximity crossed = find_proximity(body, {}, body, crosswise, {}, &start);
+      CHECK(crossed.status == Status::Converged);
+      CHECK(std::abs(crossed.gap + 3) <= 1e-9);  // z: 1 + 2, against 3 + 1 and 2 + 3
+    }
+  }
+}
+
+TEST_CASE("sweeping both bodies by spheres lowers the gap by the radii") {
+  for (const ReferencePair& pair : reference_pairs()) {
+    if (pair.nominal < 0) continue;
+    const Rounded shape1(pair.shape1, 0.25), shape2(pair.shape2, 0.5);
+    const Proximity out = find_proximity(shape1, pair.pose1, shape2, pair.pose2);
+    // One maximum still: the core is apart, and the sweep moves every supporting plane alike.
+    const double error = std::abs(out.gap - (pair.gap - 0.75));
+    const bool good = out.status == Status::Converged && error <= out.error + 1e-14;
+    if (!good) FAIL_CHECK(pair.name, " status ", static_cast<int>(out.status), " error ", error, " reported ", out.error);
+  }
+}

@@ -1,0 +1,217 @@
+// Rays where there is little to hold on to: at any scale and place, tangent, along axes, out of range.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "ray_samples.hpp"
+#include "supernormal/raycast/ray.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/sphere.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+
+/// Bodies of every kind, points, segments and flat hulls among them; `points` holds those of a hull.
+std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, std::vector<Vector3>& points) {
+  const auto length = [&] { return size * random.uniform(0.05, 1); };
+  switch (k % 7) {
+    case 0:
+      return std::make_shared<Box>(Vector3{length(), length(), length()});
+    case 1:
+      return std::make_shared<Capsule>(k % 2 == 0 ? length() : 0, length());
+    case 2:
+      return std::make_shared<Cylinder>(length(), length());
+    case 3:
+      points.clear();
+      for (int i = 0; i < 3 + k % 20; ++i) points.emplace_back(size * random.direction());
+      return std::make_shared<Polytope>(points);
+    case 4:
+      return std::make_shared<Superellipsoid>(Vector3{length(), length(), length()}, std::exp(random.uniform(0.01, 6.9)),
+                                              std::exp(random.uniform(0.01, 6.9)));
+    case 5:
+      return std::make_shared<Ellipsoid>(Vector3{length(), length(), length()});
+    default:
+      return std::make_shared<Sphere>(k % 3 == 0 ? 0 : length());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("scale, place and attitude make no difference") {
+  RandomRays random(160);
+  for (int k = 0; k < 500; ++k) {
+    CAPTURE(k);
+    const Superellipsoid surface = random.shape(kSuperellipsoidClasses[k % 8]);
+    const double unit = surface.half_axes().minCoeff();
+    const Ray ray = random.past(surface, random.uniform(0, 0.95));
+    const RayHit hit = find_ray_hit(surface, {}, ray.origin, ray.direction, kInfinity);
+    REQUIRE(hit.hit);
+    for (const double scale : {1e-3, 1e3}) {
+      const Superellipsoid scaled(scale * surface.half_axes(), surface.delta(), surface.epsilon());
+      const RayHit other = find_ray_hit(scaled, {}, scale * ray.origin, ray.direction, kInfinity);
+      REQUIRE(other.hit);
+      CHECK(std::abs(other.distance / scale - hit.distance) <= other.distance_error / scale + hit.distance_error);
+      CHECK((other.point / scale - hit.point).norm() <= other.distance_error / scale + hit.distance_error + 1e-13);
+    }
+    const Matrix3 R = random.rotation();
+    for (const double far : {1.0, 1e4}) {  // m; the input itself is rounded to 1e-12 m there
+      const Pose pose{far * random.direction(), R};
+      const RayHit other = find_ray_hit(surface, pose, R * ray.origin + pose.position, R * ray.direction, kInfinity);
+      REQUIRE(other.hit);
+      const double input_error = 4e-16 * (far + 20) * 4;
+      const double along = std::abs(hit.normal.dot(ray.direction));
+      const double allowed = other.distance_error + hit.distance_error + input_error / along;
+      CHECK(std::abs(other.distance - hit.distance) <= allowed);
+      CHECK((R.transpose() * (other.point - pose.position) - hit.point).norm() <= allowed + input_error);
+    }
+    // From 1e10 away, as a program asks that wants "any distance"; the direction is rounded to 1e-6 m there.
+    const RayHit far = find_ray_hit(surface, {}, ray.at(-1e10), ray.direction, kInfinity);
+    if (far.hit) CHECK(distance_to_boundary(surface, far) <= 1e-9 * unit + 1e-13);
+  }
+}
+
+TEST_CASE("through the centre along the axes, where everything is degenerate") {
+  for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
+    CAPTURE(text(shape));
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {1.0, -1.0}) {
+        const Vector3 v = sign * Vector3::Unit(axis);
+        const RayHit hit = find_ray_hit(shape, {}, -4 * v, v, kInfinity);
+        REQUIRE(hit.hit);
+        CHECK(hit.status == Status::Converged);
+        CHECK(std::abs(hit.distance - (4 - shape.half_axes()[axis])) <= 1e-9 * shape.half_axes().minCoeff() + 1e-15);
+        const RayHit out = find_ray_hit(shape, {}, Vector3::Zero(), v, kInfinity);
+        REQUIRE(out.hit);
+        CHECK(out.from_inside);
+        CHECK(std::abs(out.distance - shape.half_axes()[axis]) <= 1e-9 * shape.half_axes().minCoeff() + 1e-15);
+      }
+    }
+  }
+}
+
+TEST_CASE("tangent rays, origins on the boundary: an answer on the boundary or none, and no trap") {
+  RandomRays random(180);
+  for (int k = 0; k < 2000; ++k) {
+    CAPTURE(k);
+    const Superellipsoid surface = random.shape(kSuperellipsoidClasses[k % 8]);
+    const double unit = surface.half_axes().minCoeff();
+    const Ray tangent = random.past(surface, 1);
+    const Ray from_boundary{random.point(surface, 1), random.direction()};
+    for (const Ray& ray : {tangent, from_boundary}) {
+      std::feclearexcept(kTrapped);
+      const RayHit hit = find_ray_hit(surface, {}, ray.origin, ray.direction, kInfinity);
+      const int trapped = std::fetestexcept(kTrapped);
+      CHECK(trapped == 0);
+      CHECK(hit.status == Status::Converged);
+      if (!hit.hit) continue;
+      CHECK(hit.distance >= 0);
+      CHECK(distance_to_boundary(surface, hit) <= 1e-9 * unit);
+    }
+  }
+}
+
+TEST_CASE("any shape, any size, from anywhere: a sound answer, and no trap") {
+  RandomRays random(240);
+  std::vector<Vector3> points;
+  int hits = 0;
+  for (int k = 0; k < 20000; ++k) {
+    CAPTURE(k);
+    const double size = std::pow(10, random.uniform(-9, 6));
+    const auto shape = any_shape(random, k, size, points);
+    const Vector3 v = k % 3 == 0 ? Vector3(Vector3::Unit(k % 2)) : random.direction();
+    const double away = size * (k % 5 == 0 ? std::pow(10, random.uniform(-20, 12)) : random.uniform(0, 3));
+    const Vector3 aim = k % 4 == 0   ? Vector3(Vector3::Zero())
+                        : k % 4 == 1 ? Vector3(size * random.uniform(0, 1) * random.direction())
+                                     : shape->point(random.direction());
+    const double lengths[] = {0, 1e-320, 1e308, kInfinity, away, size};
+    const double length = lengths[k % 6];
+    const Pose pose{k % 2 == 0 ? Vector3(Vector3::Zero()) : Vector3(1e3 * size * random.direction()), random.rotation()};
+    const Vector3 origin = pose.rotation * (aim - away * v) + pose.position;
+    std::feclearexcept(kTrapped);
+    const RayHit hit = find_ray_hit(*shape, pose, origin, pose.rotation * v, length);
+    const int trapped = std::fetestexcept(kTrapped);
+    CHECK(trapped == 0);
+    CHECK(hit.status == Status::Converged);
+    if (!hit.hit) continue;
+    ++hits;
+    CHECK(hit.distance >= 0);
+    CHECK(hit.distance <= length + 1e-14 * origin.norm());
+    CHECK(hit.distance_error >= 0);
+    CHECK(hit.boundary_error >= 0);
+    CHECK(hit.point.allFinite());
+    CHECK(std::abs(hit.normal.norm() - 1) < 1e-15);
+  }
+  CHECK(hits > 5000);
+}
+
+TEST_CASE("the proximity of a body and a ray") {
+  RandomRays random(200);
+  for (int k = 0; k < 1000; ++k) {
+    CAPTURE(k);
+    const double radius = random.uniform(0.1, 2);
+    const Vector3 centre = random.uniform(0, 5) * random.direction();
+    const Vector3 o = random.uniform(0, 5) * random.direction(), v = random.direction();
+    for (const double length : {0.0, random.uniform(0, 10), 1e10, kInfinity}) {
+      CAPTURE(length);
+      const double t = std::clamp((centre - o).dot(v), 0.0, length);
+      const double distance = (o + t * v - centre).norm() - radius;
+      const bool is_through = t > radius && t < length - radius;
+      if (distance < 0 && !is_through) continue;  // the shortest way out may lead past the end
+      const Proximity result = find_ray_proximity(Sphere(radius), {centre, Matrix3::Identity()}, o, v, length);
+      CHECK(result.status == Status::Converged);
+      CHECK(std::abs(result.gap - distance) <= 1e-9 * radius);
+      CHECK(std::abs((result.point1 - centre).norm() - radius) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("refusals, limits and numbers that are not finite") {
+  const Superellipsoid shape({1, 0.5, 0.7}, 3, 5);
+  const Vector3 o(-3, 0.1, 0.2), v = Vector3(1, 0.02, 0.03).normalized();
+  CHECK_THROWS_WITH_AS(find_ray_hit(shape, {}, o, v, -1), "length of the ray = -1 m is outside [0, inf] m", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(find_ray_hit(shape, {}, o, 2 * v, 1), doctest::Contains("length of the ray's direction = 2"),
+                       std::invalid_argument);
+  CHECK_THROWS_AS(find_ray_hit(shape, {}, o, v, std::nan("")), std::invalid_argument);
+  Settings settings;
+  settings.tolerance = 2;
+  CHECK_THROWS_AS(find_ray_hit(shape, {}, o, v, 1, settings), std::invalid_argument);
+
+  for (const Vector3& bad : {Vector3(std::nan(""), 0, 0), Vector3(0, kInfinity, 0)}) {
+    CHECK(find_ray_hit(shape, {}, bad, v, 1).status == Status::InvalidInput);
+    CHECK(find_ray_hit(shape, {}, o, bad, 1).status == Status::InvalidInput);
+    CHECK(find_ray_hit(shape, {bad, Matrix3::Identity()}, o, v, 1).status == Status::InvalidInput);
+    CHECK_FALSE(find_ray_hit(shape, {}, bad, v, 1).hit);
+  }
+
+  CHECK(find_ray_hit(shape, {}, -1e200 * v, v, kInfinity).status == Status::InvalidInput);
+
+  settings = {};
+  settings.max_evaluations = 2;
+  const RayHit limited = find_ray_hit(shape, {}, o, v, kInfinity, settings);
+  CHECK(limited.status == Status::EvaluationLimit);
+  CHECK(limited.evaluations == 2);
+  const RayHit hit = find_ray_hit(shape, {}, o, v, kInfinity);
+  CHECK(hit.status == Status::Converged);
+  CHECK(limited.boundary_error > hit.boundary_error);
+
+  settings = {};
+  settings.tolerance = 1e-4;
+  const RayHit coarse = find_ray_hit(shape, {}, o, v, kInfinity, settings);
+  CHECK(coarse.evaluations < hit.evaluations);
+  CHECK((coarse.point - hit.point).norm() <= coarse.distance_error);
+}

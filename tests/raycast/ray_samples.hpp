@@ -1,0 +1,123 @@
+// Rays against superellipsoids, and where they hit by the implicit equation alone.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "proximity/reference_pairs.hpp"
+#include "proximity/superellipsoid_classes.hpp"
+#include "shapes/shape_samples.hpp"
+#include "supernormal/raycast/ray.hpp"
+
+namespace supernormal::test {
+
+struct Ray {
+  Vector3 origin, direction;
+
+  Vector3 at(double t) const { return origin + t * direction; }
+};
+
+class RandomRays {
+ public:
+  explicit RandomRays(unsigned seed) : engine_(seed) {}
+
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+
+  Vector3 direction() {
+    const Vector3 v{gauss_(engine_), gauss_(engine_), gauss_(engine_)};
+    return v.normalized();
+  }
+
+  Matrix3 rotation() {
+    const Eigen::Quaterniond q{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
+    return q.normalized().toRotationMatrix();
+  }
+
+  Superellipsoid shape(const SuperellipsoidClass& kind) {
+    const auto between = [&](double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); };
+    const auto axis = [&] { return between(kind.least_axis, kind.largest_axis); };
+    const Vector3 half_axes{axis(), axis(), axis()};
+    const double delta = between(kind.least_exponent, kind.largest_exponent);
+    return {half_axes, delta, between(kind.least_exponent, kind.largest_exponent)};
+  }
+
+  /// A ray past the body: its line goes through `factor` times a point of the silhouette, so that it hits when factor < 1. It
+  /// begins in front of the body.
+  Ray past(const Superellipsoid& shape, double factor) {
+    const Vector3 v = direction();
+    const Vector3 w = direction().cross(v).normalized();
+    const double start = uniform(2, 5) * shape.half_axes().norm();
+    return {factor * shape.point(w) - start * v, v};
+  }
+
+  /// A point, `factor` times as far out as the boundary.
+  Vector3 point(const Superellipsoid& shape, double factor) {
+    const Vector3 x = direction();
+    return x * (factor / gauge(shape, x));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> gauss_;
+};
+
+/// The same body without its Hessian.
+class WithoutHessian final : public Shape {
+ public:
+  explicit WithoutHessian(const Shape& shape) : shape_(shape) {}
+  void evaluate(const Vector3& n, Order order, Jet& jet) const override { shape_.evaluate(n, std::min(order, Order::Point), jet); }
+  bool has_hessian() const override { return false; }
+  Vector3 half_extents() const override { return shape_.half_extents(); }
+
+ private:
+  const Shape& shape_;
+};
+
+/// The gauge along a line is convex: its least value by trisection, the crossings of 1 by bisection.
+struct Crossings {
+  double least = 0;            // the least value of the gauge
+  double entry = 0, exit = 0;  // distances along the ray
+};
+
+inline Crossings find_crossings(const Superellipsoid& shape, const Ray& ray) {
+  const auto value = [&](double t) { return gauge(shape, ray.at(t)); };
+  const double middle = -ray.origin.dot(ray.direction);
+  const double reach = 2 * shape.half_axes().norm();
+  double low = middle - reach, high = middle + reach;
+  for (int step = 0; step < 120; ++step) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    value(a) < value(b) ? high = b : low = a;
+  }
+  const double inside = 0.5 * (low + high);
+  const auto bisect = [&](double outside) {
+    double in = inside;
+    for (int step = 0; step < 80; ++step) {
+      const double half = 0.5 * (in + outside);
+      (value(half) < 1 ? in : outside) = half;
+    }
+    return 0.5 * (in + outside);
+  };
+  return {value(inside), bisect(middle - reach), bisect(middle + reach)};
+}
+
+/// The unit normal of the level surface of the gauge at a point.
+inline Vector3 level_normal(const Superellipsoid& shape, const Vector3& point) {
+  const Vector3 x = point.cwiseQuotient(shape.half_axes()).cwiseAbs();
+  const double large = std::max(x.x(), x.y());
+  const double delta = shape.delta(), epsilon = shape.epsilon();
+  const double t = large * std::pow(std::pow(x.x() / large, delta) + std::pow(x.y() / large, delta), 1 / delta);
+  const double slope = std::pow(t, epsilon - 1);
+  Vector3 n(slope * std::pow(x.x() / t, delta - 1), slope * std::pow(x.y() / t, delta - 1), std::pow(x.z(), epsilon - 1));
+  for (int i = 0; i < 3; ++i) n[i] = std::copysign(n[i] / shape.half_axes()[i], point[i]);
+  return n.normalized();
+}
+
+/// An upper bound of the distance of a hit from the boundary: radially, by the implicit equation, or to the boundary point with
+/// that normal.
+inline double distance_to_boundary(const Superellipsoid& shape, const RayHit& hit) {
+  const double radial = std::abs(gauge(shape, hit.point) - 1) * hit.point.norm();
+  return std::min(radial, (shape.point(hit.normal) - hit.point).norm());
+}
+
+}  // namespace supernormal::test
