@@ -139,9 +139,9 @@ SUPERNORMAL_API void snSetWarmStart(int on);
 /* --- questions about two bodies ---------------------------------------------------------------------------------------- */
 
 typedef struct snProximity {
-  dReal gap;               /* m; < 0: overlap depth = -gap */
-  dReal error;             /* m; estimate of |gap - local maximum of s|; a bound where it is proved (is_global); 0 for closed forms */
-  dVector3 normal;         /* unit, from g1 to g2, world frame */
+  dReal gap;       /* m; < 0: overlap depth = -gap */
+  dReal error;     /* m; estimate of |gap - local maximum of s|; a bound where it is proved (is_global); 0 for closed forms */
+  dVector3 normal; /* unit, from g1 to g2, world frame */
   dVector3 point1, point2; /* m, world frame, on the two boundaries */
   int evaluations;         /* of the gap function; 0 for closed forms */
   int converged;           /* 1: the error is within the tolerance */
