@@ -6,7 +6,7 @@
 namespace supernormal {
 
 double absolute_tolerance(const GapFunction& gap, const Settings& settings) {
-  return std::max(settings.tolerance * gap.length_unit() - gap.rounding(), gap.rounding());
+  return std::max(settings.tolerance * gap.length_unit() - gap.rounding(), 2 * gap.rounding());
 }
 
 double optimality_gap_bound(const GapJet& jet, double rolling_radius) {

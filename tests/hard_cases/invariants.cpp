@@ -55,7 +55,7 @@ void check_status(const GapFunction& gap, const Settings& settings, const Proxim
   const bool is_known = answer.status == Status::Converged || answer.status == Status::Stalled ||
                         answer.status == Status::EvaluationLimit || is_early;
   if (!is_known) out.push_back("status " + std::to_string(static_cast<int>(answer.status)));
-  const double promised = std::max(settings.tolerance * gap.length_unit(), 2 * gap.rounding());
+  const double promised = std::max(settings.tolerance * gap.length_unit(), 3 * gap.rounding());
   if (answer.status == Status::Converged && !(answer.error <= promised * (1 + 4 * kEpsilon))) {
     out.push_back("converged with an error of " + exact_text(answer.error) + " m; the tolerance is " + exact_text(promised) + " m");
   }

@@ -55,16 +55,18 @@ class Probe {
 
   const Vector3& normal() const { return n_; }
 
-  /// Walks along a great circle for as long as it does not lead down: what is higher beyond a valley is another maximum.
+  /// Walks along a great circle for as long as it does not lead down. The answer is stationary, to its error: what is higher beyond
+  /// a valley is another maximum, and where nothing bends, as between two vertices that overlap, s rises by the turn itself.
   void walk(const Vector3& tangent, Violations& out) {
     double angle = kFirstAngle;
     for (int step = 0; step < kSteps; ++step, angle *= 4) {
       const Vector3 m = (n_ + angle * tangent).normalized();
       const double s = value(m);
       if (s < floor_) return;
-      if (!(s <= local_ceiling_)) {
+      const double of_turn = std::max(-floor_, 0.0) * 0.5 * angle * angle;
+      if (!(s <= local_ceiling_ + of_turn)) {
         if (std::isfinite(s) && crosses_valley(tangent, angle)) return;
-        out.push_back("not a maximum: " + exact_text(s - local_ceiling_) + " m more than it may be at an angle of " +
+        out.push_back("not a maximum: " + exact_text(s - local_ceiling_ - of_turn) + " m more than it may be at an angle of " +
                       exact_text(angle) + ", n " + exact_text(m));
         return;
       }

@@ -68,10 +68,11 @@ void print(const Sample& sample) {
 }
 
 void print(const Proximity& answer) {
-  std::printf("answer: gap %s, error %s, normal %s\n  point1 %s, point2 %s\n  %d evaluations, status %d, %s\n",
+  std::printf("answer: gap %s, error %s, normal %s\n  point1 %s, point2 %s\n  %d evaluations, status %d, %s, global error %s\n",
               exact_text(answer.gap).c_str(), exact_text(answer.error).c_str(), exact_text(answer.normal).c_str(),
               exact_text(answer.point1).c_str(), exact_text(answer.point2).c_str(), answer.evaluations,
-              static_cast<int>(answer.status), answer.is_global ? "global" : "not sure to be global");
+              static_cast<int>(answer.status), answer.is_global ? "global" : "not sure to be global",
+              exact_text(answer.global_error).c_str());
 }
 
 /// One sample in full. With `trap`, for a debugger, an exception ends the program where it is raised.

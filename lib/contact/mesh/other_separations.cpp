@@ -20,7 +20,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 void MeshContacts::find_other_ways_out(SupportProbe& probe) {
   double depth = found_.contacts().empty() ? std::numeric_limits<double>::infinity() : 0;
   for (const SurfaceContact& contact : found_.contacts()) depth = std::max(depth, -contact.gap);
-  if (!may_have_other_maxima(probe.shape().min_curvature_radius_estimate(), 0, depth, length_unit_, true)) return;
+  if (!may_have_other_maxima(probe.shape().min_curvature_radius_estimate(), depth)) return;
   for (int part = 0; part < static_cast<int>(surface_.patches().size()); ++part) {
     const std::optional<double> known = depth_cutoff(part);
     if (!known) continue;

@@ -5,33 +5,24 @@
 #include <limits>
 #include <utility>
 
+#include "proximity/tuning.hpp"
+
 namespace supernormal {
 namespace {
-
-// A known cut is taken for a triangle if it takes this share of its excess away; with fewer than so many of them in turn.
-constexpr double kUsefulShare = 0.1;
-constexpr int kMaxKnownCuts = 8;
-
-// If known cuts leave less than this share of the excess, others may be more in need of an evaluation; if an evaluation leaves more
-// than the other, the triangle is too large for bounds that are linear, and is split.
-constexpr double kKnownCutsShare = 0.7;
-constexpr double kSplitShare = 0.5;
 
 // Of the cuts of a triangle its halves get those that hold its maximum.
 constexpr std::size_t kInherited = 3;
 
-// Normals closer than five degrees lead up the same hill.
-constexpr double kSameHillCosine = 0.9962;
-
 }  // namespace
 
 // A shape may be a callback that asks queries of its own: they find the storage taken and use another.
-BranchAndBound::BranchAndBound(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings)
+BranchAndBound::BranchAndBound(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings, double tolerance)
     : gap_(gap),
       cuts_(cuts),
       ascent_(ascent),
       settings_(settings),
       rho_(gap.rolling_radius()),
+      tolerance_(tolerance),
       storage_(std::exchange(kept_storage(), Storage())) {}
 
 BranchAndBound::~BranchAndBound() { kept_storage() = std::move(storage_); }
@@ -50,10 +41,8 @@ bool BranchAndBound::run(const Goal& goal, GapJet& best, double& error, Status& 
   while (!storage_.cells.empty() && status_ != Status::InvalidInput) {
     const double highest = storage_.cells.front().bound;
     // Without their balls the bodies are apart: a climb has shown it, and found the only maximum.
-    if (best_.s + rho_ > 0 || !(excess_of(highest) > goal_.width)) break;
-    const bool overlap_is_proved = highest < rho_;
-    limit_ = overlap_is_proved ? goal_.max_evaluations : goal_.max_evaluations_for_overlap;
-    if (gap_.evaluations() >= limit_) break;
+    if (best_.s + rho_ > 0 || !(excess_of(highest) > width())) break;
+    if (gap_.evaluations() >= goal_.max_evaluations) break;
     refine(pop());
   }
   climb_from_tops();
@@ -62,7 +51,7 @@ bool BranchAndBound::run(const Goal& goal, GapJet& best, double& error, Status& 
   best = best_;
   error = error_;
   status = status_;
-  return excess_ <= goal_.width;
+  return excess_ <= width();
 }
 
 // An octahedron with a corner at the best normal: where s has a kink there, the triangles around it are done with at once.
@@ -71,8 +60,8 @@ void BranchAndBound::start() {
   storage_.cells.clear();
   top_count_ = 0;
   given_up_ = -std::numeric_limits<double>::infinity();
-  storage_.cuts.add(best_.d + rho_ * best_.n, 0);
-  for (const Vector3& d : cuts_.points()) storage_.cuts.add(d, rho_);
+  storage_.cuts.add(best_.d + rho_ * best_.n);
+  for (const Vector3& d : cuts_.points()) storage_.cuts.add(d);
   const Vector3& x = best_.n;
   const Vector3 y = x.unitOrthogonal(), z = x.cross(y);
   for (const double sign_x : {1.0, -1.0}) {
@@ -94,9 +83,9 @@ BranchAndBound::Cell BranchAndBound::cell_of(const std::array<Vector3, kCorners>
 void BranchAndBound::refine(Cell cell) {
   const double before = excess_of(cell.bound);
   tighten(cell);
-  if (excess_of(cell.bound) <= kKnownCutsShare * before) return keep(cell);
+  if (excess_of(cell.bound) <= tuning.split_share * before) return keep(cell);
   add_cut(cell, evaluate(cell.peak));
-  if (excess_of(cell.bound) > kSplitShare * before) {
+  if (excess_of(cell.bound) > tuning.split_share * before) {
     split(cell);
   } else {
     keep(cell);
@@ -106,10 +95,10 @@ void BranchAndBound::refine(Cell cell) {
 BranchAndBound::Index BranchAndBound::evaluate(const Vector3& direction) {
   gap_.evaluate(direction.normalized(), Order::Point, jet_);
   if (!jet_.is_finite()) status_ = Status::InvalidInput;
-  cuts_.add(jet_.d);
-  storage_.cuts.add(jet_.d + rho_ * jet_.n, 0);
+  cuts_.add(jet_.d + rho_ * jet_.n);
+  storage_.cuts.add(jet_.d + rho_ * jet_.n);
   const Index cut = storage_.cuts.size() - 1;
-  if (jet_.s > best_.s + goal_.cutoff && gap_.evaluations() < limit_) {
+  if (jet_.s > best_.s + goal_.cutoff && gap_.evaluations() < goal_.max_evaluations) {
     climb_from(jet_.n);
   } else {
     remember_top({jet_.n, jet_.s});
@@ -121,7 +110,8 @@ BranchAndBound::Index BranchAndBound::evaluate(const Vector3& direction) {
 void BranchAndBound::remember_top(const LocalCandidate& top) {
   const auto is_lower = [](const LocalCandidate& a, const LocalCandidate& b) { return a.s < b.s; };
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
-  auto place = std::find_if(tops_.begin(), end, [&](const LocalCandidate& other) { return other.n.dot(top.n) > kSameHillCosine; });
+  auto place =
+      std::find_if(tops_.begin(), end, [&](const LocalCandidate& other) { return other.n.dot(top.n) > tuning.same_hill_cosine; });
   if (place == end && top_count_ < kMaxTops) {
     tops_[top_count_++] = top;
     return;
@@ -135,14 +125,14 @@ void BranchAndBound::climb_from_tops() {
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
   for (auto top = tops_.begin(); top != end && gap_.evaluations() < settings_.max_evaluations; ++top) {
-    if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < kSameHillCosine) climb_from(top->n);
+    if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < tuning.same_hill_cosine) climb_from(top->n);
   }
 }
 
 void BranchAndBound::climb_from(const Vector3& normal) {
   const Status status = ascent_.climb(normal, best_.s);
   const GapJet& top = ascent_.best();
-  storage_.cuts.add(top.d + rho_ * top.n, 0);
+  storage_.cuts.add(top.d + rho_ * top.n);
   if (!(top.s > best_.s)) return;
   best_ = top;
   error_ = ascent_.error();
@@ -164,11 +154,11 @@ void BranchAndBound::add_cut(Cell& cell, Index cut) const {
 }
 
 void BranchAndBound::tighten(Cell& cell) const {
-  for (int k = 0; k < kMaxKnownCuts; ++k) {
+  for (std::size_t k = 0; k < BarycentricLp::kMaxCuts; ++k) {
     const double excess = excess_of(cell.bound);
-    if (excess <= goal_.width || cell.seen == storage_.cuts.size()) return;
+    if (excess <= width() || cell.seen == storage_.cuts.size()) return;
     const Index lowest = storage_.cuts.lowest(cell.peak, cell.seen);
-    if (!(excess_of(storage_.cuts.at(lowest, cell.peak)) < (1 - kUsefulShare) * excess)) {
+    if (!(excess_of(storage_.cuts.at(lowest, cell.peak)) < excess)) {
       cell.seen = storage_.cuts.size();
       return;
     }
@@ -206,7 +196,7 @@ void BranchAndBound::split(const Cell& cell) {
 }
 
 void BranchAndBound::keep(const Cell& cell) {
-  if (excess_of(cell.bound) <= goal_.width) {
+  if (excess_of(cell.bound) <= width()) {
     given_up_ = std::max(given_up_, cell.bound);
     return;
   }

@@ -1,6 +1,7 @@
 // How much higher than the best known normal any other can be.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -24,18 +25,17 @@ namespace supernormal {
 class BranchAndBound {
  public:
   /// Keeps references. `ascent` is the one that climbs from higher normals, and `cuts` has the points known so far.
-  BranchAndBound(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings);
+  BranchAndBound(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings, double tolerance);
   ~BranchAndBound();
   BranchAndBound(const BranchAndBound&) = delete;
   BranchAndBound& operator=(const BranchAndBound&) = delete;
 
   /// What a search is to achieve.
   struct Goal {
-    double width;                     ///< m; it ends when s is proved to be at most so much above the best normal known,
-    int max_evaluations;              ///< or when the query has taken so many, the climbs at the end apart,
-    int max_evaluations_for_overlap;  ///< or so many, as long as the bodies may be apart
-    double cutoff;                    ///< m; a normal that is higher than the best by more than this is climbed from
-    double near;                      ///< m; in the end those are, too, that are lower by less and lead up other hills; none if 0
+    double share;         ///< it ends when no depth is proved to be less than the best by more than this share of it,
+    int max_evaluations;  ///< or when the query has taken so many, the climbs at the end apart
+    double cutoff;        ///< m; a normal that is higher than the best by more than this is climbed from
+    double near;          ///< m; in the end those are, too, that are lower by less and lead up other hills; none if 0
   };
 
   /// Searches for higher normals than `best`. Whether the width was reached; `best`, `error` and `status` are those of the last
@@ -85,15 +85,15 @@ class BranchAndBound {
   void keep(const Cell& cell);
   Cell pop();
   double excess_of(double bound) const { return bound - (best_.s + rho_); }
+  double width() const { return std::max(-goal_.share * best_.s, tolerance_); }
 
   GapFunction& gap_;
   CuttingPlanes& cuts_;
   Ascent& ascent_;
   const Settings& settings_;
-  const double rho_;  // m
+  const double rho_, tolerance_;  // m
   Storage storage_;
   Goal goal_{};
-  int limit_ = 0;                              // evaluations: the one of the two that counts now
   double excess_ = 0;                          // m
   double given_up_ = 0;                        // m; the highest bound of the triangles that were
   std::array<LocalCandidate, kMaxTops> tops_;  // the highest that were not climbed from, the lowest first

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace supernormal {
 namespace {
@@ -16,14 +15,6 @@ constexpr double kTie = 1e-13;
 
 // As the square of a length over another.
 constexpr double kShort = 0.01;
-
-constexpr double kFullTurn = 2 * std::numbers::pi;
-
-// Ways that are walked whatever the cuts.
-constexpr int kWays = 8;
-
-// Between ways this near each other (radians) none is looked for: it may be open by rounding only.
-constexpr double kNarrow = 1e-3;
 
 /// One cut over the tangent plane: value + slope.u
 struct Cut {
@@ -72,54 +63,22 @@ double distance_to_circle(const Vector2& u, const Vector2& p, double radius) {
   return -along + std::sqrt(along * along + rest);
 }
 
-/// The distance from u = 0 along `way` (unit) to where a cut, value + slope.u, is below level u^2/2 next; not to where it is for
-/// less than `least`.
-double distance_to_discs(std::span<const Cut> cuts, const Vector2& way, double level, double least) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Cut& cut : cuts) {
-    const double slope = cut.slope.dot(way);
-    const double discriminant = slope * slope + 2 * level * cut.value;
-    if (!(slope < 0 && discriminant > 0)) continue;
-    // Between the roots; the larger is sum / -level.
-    const double sum = std::sqrt(discriminant) - slope;
-    if (sum > -level * least) nearest = std::min(nearest, 2 * cut.value / sum);
-  }
-  return nearest;
-}
+}  // namespace
 
-/// Ways around u = 0, radians.
-class Angles {
- public:
-  void add(double angle) { angles_[count_++] = angle; }
-
-  /// Those between which the cut is below level u^2/2 somewhere beyond `least`: they touch that disc, or meet its rim at `least`.
-  void add_tangents(const Cut& cut, double level, double least) {
-    const double touching = std::sqrt(-2 * level * cut.value), beyond = -level * least;
-    const double least_slope = touching < beyond ? 0.5 * (beyond + touching * (touching / beyond)) : touching;
-    const double steepest = cut.slope.norm();
-    if (!(least_slope < steepest)) return;
-    const double middle = std::atan2(-cut.slope.y(), -cut.slope.x());
-    const double half = std::acos(least_slope / steepest);
-    for (const double angle : {middle - half, middle + half}) add(std::remainder(angle, kFullTurn));
-  }
-
-  /// Halfway between neighbours that are not too near each other.
-  template <typename Function>
-  void for_each_middle(const Function& function) {
-    const std::span<double> sorted(angles_.data(), count_);
-    std::ranges::sort(sorted);
-    for (std::size_t k = 0; k < count_; ++k) {
-      const double next = k + 1 < count_ ? sorted[k + 1] : sorted[0] + kFullTurn;
-      if (next - sorted[k] > kNarrow) function(0.5 * (sorted[k] + next));
+void CuttingPlanes::add(const Vector3& d) {
+  std::size_t place = static_cast<std::size_t>(count_);
+  if (count_ < kCapacity) {
+    ++count_;
+  } else if (kept_at_.isZero(0)) {
+    place = static_cast<std::size_t>(oldest_++ % kCapacity);
+  } else {
+    place = 0;
+    for (std::size_t k = 1; k < kCapacity; ++k) {
+      if (kept_at_.dot(d_[k]) > kept_at_.dot(d_[place])) place = k;
     }
   }
-
- private:
-  std::array<double, kWays + 2 * CuttingPlanes::kCapacity> angles_;
-  std::size_t count_ = 0;
-};
-
-}  // namespace
+  d_[place] = d;
+}
 
 double CuttingPlanes::upper_bound(const Vector3& m) const {
   double least = std::numeric_limits<double>::infinity();
@@ -175,30 +134,6 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
     if (reaches_rim) break;
   }
   return best;
-}
-
-// At u the unit normal is shorter than n + u, and so is its s: s > level there is a cut above level sqrt(1 + u^2), which is at
-// least level (1 + u^2/2). So each cut closes a disc, and what is open between discs is open between two neighbours of their
-// tangents; but what a disc closes nearer than `least` does not count.
-CuttingPlanes::Reach CuttingPlanes::reach(const TangentPlane& plane, const Vector2& u, double level, double least) const {
-  Cuts around;
-  Angles angles;
-  for (int way = 0; way < kWays; ++way) angles.add(std::remainder(kFullTurn * way / kWays, kFullTurn));
-  const std::span<const Cut> cuts(around.data(), static_cast<std::size_t>(size()));
-  for (std::size_t k = 0; k < cuts.size(); ++k) {
-    const double height = plane.n.dot(d_[k]) + plane.project(d_[k]).dot(u) - level * (1 + 0.5 * u.squaredNorm());
-    around[k] = {std::max(height, 0.0), plane.project(d_[k]) - level * u};
-    angles.add_tangents(around[k], level, least);
-  }
-  Reach farthest;
-  const auto walk = [&](double angle) {
-    const Vector2 way(std::cos(angle), std::sin(angle));
-    const double distance = distance_to_discs(cuts, way, level, least);
-    if (distance > farthest.distance) farthest = {way, distance};
-  };
-  for (int way = 0; way < kWays; ++way) walk(kFullTurn * way / kWays);
-  angles.for_each_middle(walk);
-  return farthest;
 }
 
 }  // namespace supernormal

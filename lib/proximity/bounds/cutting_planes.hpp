@@ -9,10 +9,12 @@
 
 namespace supernormal {
 
-/// The differences d_k = point2 - point1 of all evaluations of one query (of the last kCapacity).
+/// The differences d_k = point2 - point1 + rho n of the evaluations of one query (of kCapacity), rho being the radius of a ball
+/// that rolls inside the difference of the bodies, which is taken out of it.
 ///
-/// A support function is the largest projection of its body: h(m) >= m.r(n) for every n. Hence s(m) <= m.d_k for every unit m,
-/// whatever the curvature: each evaluation cuts off the normals that cannot be the answer. GJK and EPA are built on the same cuts.
+/// A support function is the largest projection of its body: h(m) >= m.r(n) for every n. Hence s(m) + rho <= m.d_k for every unit
+/// m, whatever the radii of curvature: each evaluation cuts off the normals that cannot be the answer. GJK and EPA are built on the
+/// same cuts.
 class CuttingPlanes {
  public:
   static constexpr int kCapacity = 32;
@@ -25,8 +27,13 @@ class CuttingPlanes {
     bool is_interior = false;     ///< the maximum of the model over the whole plane, not just within the radius
   };
 
-  void clear() { count_ = 0; }
-  void add(const Vector3& d) { d_[static_cast<std::size_t>(count_++ % kCapacity)] = d; }
+  /// Where there is no room, the new cut takes the place of the highest at the normal that was last told to keep_lowest_at(), or of
+  /// the oldest.
+  void add(const Vector3& d);
+
+  /// The cuts that are lowest at the normal n hold a bound or a step: they stay.
+  void keep_lowest_at(const Vector3& n) { kept_at_ = n; }
+
   std::span<const Vector3> points() const { return {d_.data(), static_cast<std::size_t>(size())}; }
   int size() const { return count_ < kCapacity ? count_ : kCapacity; }
 
@@ -37,18 +44,10 @@ class CuttingPlanes {
   /// model from u = 0: finite, because it moves from ridge to ridge. At least one cut is needed.
   Maximum maximize(const TangentPlane& plane, double radius) const;
 
-  /// How far from u the cuts allow unit normals with s > level, for a level < 0: the way on which it is farthest (unit), of eight
-  /// and of those between the cuts, and the distance; infinite where no cut stops it. A cut that allows them again before the
-  /// distance `least` does not: as one at the level, but for the rounding of its slope.
-  struct Reach {
-    Vector2 way = Vector2::UnitX();
-    double distance = 0;
-  };
-  Reach reach(const TangentPlane& plane, const Vector2& u, double level, double least) const;
-
  private:
   std::array<Vector3, kCapacity> d_;
-  int count_ = 0;
+  int count_ = 0, oldest_ = 0;
+  Vector3 kept_at_ = Vector3::Zero();
 };
 
 }  // namespace supernormal

@@ -8,7 +8,7 @@
 
 namespace supernormal {
 
-/// d_k.n + offset_k, kept component by component so that a few are computed at a time.
+/// d_k.n, kept component by component so that a few are computed at a time.
 class LinearBounds {
  public:
   using Index = std::size_t;
@@ -16,15 +16,12 @@ class LinearBounds {
   void clear() {
     for (std::vector<double>& row : rows_) row.clear();
   }
-  void add(const Vector3& d, double offset) {
+  void add(const Vector3& d) {
     for (std::size_t i = 0; i < 3; ++i) rows_[i].push_back(d[static_cast<int>(i)]);
-    rows_[3].push_back(offset);
   }
-  Index size() const { return rows_[3].size(); }
+  Index size() const { return rows_[0].size(); }
 
-  double at(Index k, const Vector3& n) const {
-    return rows_[0][k] * n.x() + rows_[1][k] * n.y() + rows_[2][k] * n.z() + rows_[3][k];
-  }
+  double at(Index k, const Vector3& n) const { return rows_[0][k] * n.x() + rows_[1][k] * n.y() + rows_[2][k] * n.z(); }
 
   /// The lowest of those from `first` on, of which there must be one.
   Index lowest(const Vector3& n, Index first = 0) const {
@@ -33,7 +30,7 @@ class LinearBounds {
     };
     values_.resize(size() - first);
     Eigen::Map<Eigen::ArrayXd> values(values_.data(), static_cast<Eigen::Index>(values_.size()));
-    values = row(0) * n.x() + row(1) * n.y() + row(2) * n.z() + row(3);
+    values = row(0) * n.x() + row(1) * n.y() + row(2) * n.z();
     const double least = values.minCoeff();
     Index k = 0;
     while (k + 1 < values_.size() && values_[k] != least) ++k;
@@ -41,7 +38,7 @@ class LinearBounds {
   }
 
  private:
-  std::array<std::vector<double>, 4> rows_;
+  std::array<std::vector<double>, 3> rows_;
   mutable std::vector<double> values_;
 };
 

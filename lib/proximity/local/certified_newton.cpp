@@ -4,30 +4,14 @@
 #include <cmath>
 
 #include "proximity/answer.hpp"
+#include "proximity/tuning.hpp"
 
 namespace supernormal {
 namespace {
 
-// Evaluations. Nine of ten pairs that the bound proves need eight or fewer; exponents from 6 to 20 profit up to twelve.
-constexpr int kHandful = 12;
-
-// Steps that are tried from one normal. A fourth one is hardly ever the first that gets higher.
-constexpr int kMaxTries = 3;
-
-// A step that did not get higher is shortened to where the cuts of its ends meet, but to no share of it beyond these: the cuts know
-// of s to first order only.
-constexpr double kLeastShare = 0.05;
-constexpr double kMostShare = 0.9;
-
-// Gnomonic: the model of one normal is rarely right farther than 45 degrees away.
-constexpr double kLongestStep = 1;
-
 // A radius of curvature beyond this, in units of the pair's length, is that of a flat face: the step through the normal is
 // rounding.
 constexpr double kFlattest = 1e8;
-
-// Of each component of the normal: a step that turns it by less is the same through the normal as through the boundary point.
-constexpr double kSlightTurn = 0.1;
 
 // A normal that is this near to being across another has no useful gnomonic coordinates (cosine).
 constexpr double kGrazing = 1e-6;
@@ -58,7 +42,7 @@ bool CertifiedNewton::is_proved() const { return is_within_reach() && optimality
 
 bool CertifiedNewton::evaluate(const Vector3& n) {
   gap_.evaluate(n, Order::Hessian, next());
-  cuts_.add(next().d);
+  cuts_.add(next().d + rolling_radius_ * next().n);
   return next().is_finite();
 }
 
@@ -72,7 +56,7 @@ bool CertifiedNewton::propose(Vector3& step) const {
   // Deeper than the ball there is nothing to prove: it is left to others when no more is to be gained.
   if (!is_within_reach() && !(jet.d.dot(step) > tolerance_)) return false;
   const double squared = step.squaredNorm();
-  if (squared > kLongestStep * kLongestStep) step *= kLongestStep / std::sqrt(squared);
+  if (squared > tuning.longest_step * tuning.longest_step) step *= tuning.longest_step / std::sqrt(squared);
   return true;
 }
 
@@ -80,7 +64,7 @@ bool CertifiedNewton::propose(Vector3& step) const {
 // hardly change, both steps are the same.
 bool CertifiedNewton::parametrizations_agree(const Vector3& step) const {
   const auto is_less = [](const Vector3& turn, const Vector3& normal) {
-    return (turn.array().abs() <= kSlightTurn * normal.array().abs()).all();
+    return (turn.array().abs() <= tuning.same_turn * normal.array().abs()).all();
   };
   return is_less(step, best().n) && is_less(gap_.rotation().transpose() * step, best().m);
 }
@@ -111,17 +95,14 @@ bool CertifiedNewton::through_boundary_points(const RegularHessian& hessian, con
 }
 
 bool CertifiedNewton::climb(Vector3 step) {
-  const int most = std::min(settings_.max_evaluations, kHandful);
-  for (int tries = 0; tries < kMaxTries && gap_.evaluations() < most; ++tries) {
+  const int most = std::min(settings_.max_evaluations, tuning.newton_evaluations);
+  while (gap_.evaluations() < most) {
     if (!evaluate((best().n + step).normalized())) return false;
     if (next().s > best().s) {
       best_ = 1 - best_;
       return true;
     }
-    // s(n + t step) is below t d.step + s and below t d'.step + d'.n.
-    const double above = std::max(next().d.dot(best().n) - best().s, 0.0);
-    const double closing = (best().d - next().d).dot(step);
-    step *= above < kMostShare * closing ? std::max(above / closing, kLeastShare) : kMostShare;
+    step *= tuning.backtrack;
   }
   return false;
 }

@@ -37,11 +37,10 @@ Symmetric2 StrictComplementarity::reduced_hessian(const Symmetric2& A, std::span
 }
 
 // Where the point of body 1 is beside a corner, or on an edge of the face, the others do not hold the normal.
-// Nor where they hold it for less than the distance that matters: the turn itself gains more beyond.
 PiecewiseModel::Peak StrictComplementarity::holding(std::span<const Piece> tied) const {
   auto rest = PiecewiseModel{tied, {1, 0, 1}}.maximize();
   for (std::size_t i = rest.count; i-- > 0;) {
-    if (rest.weight[i] > kNoWeight && rest.weight[i] * tied[rest.active[i]].slope.norm() >= least_slope_) continue;
+    if (rest.weight[i] > kNoWeight) continue;
     rest.active[i] = rest.active[--rest.count];
   }
   return rest;

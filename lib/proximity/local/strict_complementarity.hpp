@@ -11,9 +11,8 @@ namespace supernormal {
 /// only where the point of body 1 is between them.
 class StrictComplementarity {
  public:
-  /// Slopes (m) below the least do not hold. `rounding`, `length_unit`: m
-  StrictComplementarity(double least_slope, double rounding, double length_unit)
-      : least_slope_(least_slope), rounding_(rounding), length_unit_(length_unit) {}
+  /// `rounding`, `length_unit`: m
+  StrictComplementarity(double rounding, double length_unit) : rounding_(rounding), length_unit_(length_unit) {}
 
   /// Whether all the pieces that meet at a peak hold it, for a model of this curvature.
   bool is_held(const PiecewiseModel::Peak& peak, std::span<const Piece> pieces, const Symmetric2& A) const;
@@ -25,7 +24,7 @@ class StrictComplementarity {
   /// Of pieces that meet, those that hold the normal.
   PiecewiseModel::Peak holding(std::span<const Piece> tied) const;
 
-  double least_slope_, rounding_, length_unit_;
+  double rounding_, length_unit_;
 };
 
 }  // namespace supernormal

@@ -1,0 +1,107 @@
+#include "proximity/bounds/minimum_norm_point.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace supernormal {
+namespace {
+
+// A point lies no nearer to the origin than the best when its height along it exceeds this share of the lengths involved.
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+
+/// The vertices of the simplex that holds the nearest point so far, in its interior: a point, a segment or a triangle.
+class Simplex {
+ public:
+  explicit Simplex(const Vector3& vertex) : vertices_{vertex, vertex, vertex}, count_(1), nearest_(vertex) {}
+
+  const Vector3& nearest() const { return nearest_; }
+
+  /// Moves to the nearest point of the hull of the simplex and `vertex`: in one of the faces of that hull which have the new
+  /// vertex, or at the origin if that is inside. Returns whether this is nearer than before.
+  bool add(const Vector3& vertex) {
+    const std::array<Vector3, 3> old = vertices_;
+    const std::size_t old_count = count_;
+    const double before = nearest_.squaredNorm();
+    if (old_count == 3 && is_origin_inside(vertex)) {
+      nearest_.setZero();
+      return true;
+    }
+    best_ = before;
+    offer(vertex);
+    for (std::size_t i = 0; i < old_count; ++i) offer(vertex, old[i]);
+    for (std::size_t i = 0; i < old_count; ++i) {
+      for (std::size_t j = 0; j < i; ++j) offer(vertex, old[i], old[j]);
+    }
+    return best_ < before;
+  }
+
+ private:
+  bool is_better(const Vector3& point) {
+    const double squared = point.squaredNorm();
+    if (!(squared < best_)) return false;
+    best_ = squared;
+    nearest_ = point;
+    return true;
+  }
+
+  void offer(const Vector3& a) {
+    if (!is_better(a)) return;
+    vertices_[0] = a;
+    count_ = 1;
+  }
+
+  void offer(const Vector3& a, const Vector3& b) {
+    const Vector3 edge = b - a;
+    const double share = -a.dot(edge), squared = edge.squaredNorm();
+    if (!(share > 0 && share < squared) || !is_better(a + share / squared * edge)) return;
+    vertices_ = {a, b, b};
+    count_ = 2;
+  }
+
+  void offer(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 normal = (b - a).cross(c - a);
+    const double squared = normal.squaredNorm();
+    const double of_b = -a.cross(c - a).dot(normal), of_c = -(b - a).cross(a).dot(normal);
+    if (!(of_b > 0 && of_c > 0 && of_b + of_c < squared)) return;
+    if (!is_better(a + of_b / squared * (b - a) + of_c / squared * (c - a))) return;
+    vertices_ = {a, b, c};
+    count_ = 3;
+  }
+
+  /// Whether the tetrahedron of the triangle and `vertex` holds the origin.
+  bool is_origin_inside(const Vector3& vertex) const {
+    const auto& [a, b, c] = vertices_;
+    const double volume = (a - vertex).dot((b - vertex).cross(c - vertex));
+    const auto is_same_side = [&](const Vector3& p, const Vector3& q, const Vector3& r) {
+      return volume > 0 ? p.dot(q.cross(r)) > 0 : p.dot(q.cross(r)) < 0;
+    };
+    return volume != 0 && is_same_side(a, b, c) && is_same_side(vertex, c, b) && is_same_side(a, c, vertex) &&
+           is_same_side(a, vertex, b);
+  }
+
+  std::array<Vector3, 3> vertices_;
+  std::size_t count_;
+  Vector3 nearest_;
+  double best_ = 0;
+};
+
+}  // namespace
+
+Vector3 minimum_norm_point(std::span<const Vector3> points) {
+  const auto is_shorter = [](const Vector3& a, const Vector3& b) { return a.squaredNorm() < b.squaredNorm(); };
+  const double largest = std::max_element(points.begin(), points.end(), is_shorter)->norm();
+  Simplex simplex(*std::min_element(points.begin(), points.end(), is_shorter));
+  for (std::size_t step = 0; step < 2 * points.size(); ++step) {
+    const Vector3 nearest = simplex.nearest();
+    const double length = nearest.norm();
+    const auto is_lower = [&](const Vector3& a, const Vector3& b) { return a.dot(nearest) < b.dot(nearest); };
+    const Vector3& lowest = *std::min_element(points.begin(), points.end(), is_lower);
+    if (!(lowest.dot(nearest) < length * (length - kRounding * largest)) || !simplex.add(lowest)) break;
+  }
+  return simplex.nearest();
+}
+
+}  // namespace supernormal

@@ -1,0 +1,160 @@
+#include "proximity/local/model_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "proximity/local/strict_complementarity.hpp"
+#include "proximity/tuning.hpp"
+#include "shapes/finite.hpp"
+
+namespace supernormal {
+namespace {
+
+// A radius of curvature beyond this, in units of the bodies' size, is that of a flat face: turns of the normal on it are rounding.
+constexpr double kFlatRadius = 1e8;
+
+// Directions closer than this (radians) to the plane of another have no gnomonic coordinates beyond rounding.
+constexpr double kGrazing = 1e-15;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The bodies propose u1 and u2; each counts by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2). This is computed as what
+/// the rounder body changes of the flatter one's, which counts alone where the sum is that of an edge, singular.
+Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
+  const bool is_first_flatter = A1.trace() > A2.trace();
+  const Vector2& flat = is_first_flatter ? u1 : u2;
+  const Vector2 pull = is_first_flatter ? A2 * (u2 - u1) : A1 * (u1 - u2);
+  const Vector2 change = (A1 + A2).solve(pull);
+  return all_finite(change) ? Vector2(flat + change) : flat;
+}
+
+/// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal, or grazes the plane.
+bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
+  const double height = direction.dot(plane.n);
+  if (!(height > kGrazing * direction.norm())) return false;
+  u = plane.project(direction) / height;
+  return true;
+}
+
+/// Whether there may be flat faces that are not across the axes of the body's frame.
+bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && shape.as_superellipsoid() == nullptr; }
+
+}  // namespace
+
+ModelStep::ModelStep(const GapFunction& gap, VertexCache& vertices, CuttingPlanes& cuts)
+    : gap_(gap),
+      vertices_(vertices),
+      cuts_(cuts),
+      has_flat_faces_(gap.has_hessian() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())),
+      may_be_tilted_(may_be_tilted(gap.shape1()) || may_be_tilted(gap.shape2())) {}
+
+LocalModel ModelStep::local_model(const GapJet& jet, const BfgsHessian& bfgs) const {
+  return gap_.has_hessian() ? LocalModel::of(gap_, jet) : LocalModel::of(gap_, jet, bfgs.matrix());
+}
+
+Step ModelStep::propose(const GapJet& jet, const ActiveVertices& active, const BfgsHessian& bfgs, double radius) {
+  leaves_face_ = false;
+  const LocalModel local = local_model(jet, bfgs);
+  return gap_.shape2().has_kinks() ? kinked_step(jet, local, active, radius) : smooth_step(jet, local, radius);
+}
+
+Step ModelStep::smooth_step(const GapJet& jet, const LocalModel& local, double radius) {
+  const auto [newton, whole_gain] = local.model.peak(radius, gap_.rounding());
+  Step step{jet.n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0),
+            tuning.gain_safety * whole_gain};
+  if (has_flat_faces_ && !parametrizations_agree(jet, local, newton)) {
+    leaves_face_ = flat_step(jet, local, {0, local.model.g, newton, nullptr}, radius, step) == FlatStep::LeavesFace;
+  }
+  return step;
+}
+
+Step ModelStep::kinked_step(const GapJet& jet, const LocalModel& local, const ActiveVertices& active, double radius) {
+  const std::span<const Piece> pieces = vertices_.pieces(jet, active, local.plane1);
+  const StrictComplementarity complementarity(gap_.rounding(), gap_.length_unit());
+  PiecewiseModel model{pieces, complementarity.reduced_hessian(local.model.A, pieces)};
+  bool is_concave = Eigen2(model.A).low > 0;
+  PiecewiseModel::Peak peak;
+  if (is_concave) {
+    peak = model.maximize();
+    if (model.A != local.model.A && !complementarity.is_held(peak, pieces, local.model.A)) {
+      model.A = local.model.A;
+      is_concave = false;
+    }
+  }
+  // The model is 0 here; where its matrix is as good as singular, rounding may leave it without a maximum that is not lower.
+  const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
+  const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : kInfinity;
+  if (!is_concave || peak.u.norm() > radius) peak = model.maximize(radius);
+
+  Target target = target_of(jet, local, peak, pieces);
+  const Vector3 normal = vertices_.shared_normal(peak, jet.n + local.plane1.lift(peak.u));
+  Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0), tuning.gain_safety * whole_gain};
+  // Vertices around the peak hold the normal whatever the radii of curvature, which on a flat face say nothing a little farther on.
+  const bool is_at_face = peak.count == 3 && complementarity.is_held(peak, pieces, {});
+  if (has_flat_faces_ && !is_at_face && flat_step(jet, local, target, radius, step) != FlatStep::Taken) {
+    target.newton = peak.u;
+    leaves_face_ = flat_step(jet, local, target, radius, step) != FlatStep::Taken;
+  }
+  Vector3 face;
+  if (gap_.shape2().crosses_curved_face(jet.m, -(gap_.rotation().transpose() * step.normal), face)) {
+    step.normal = -(gap_.rotation() * face);
+  }
+  return step;
+}
+
+ModelStep::Target ModelStep::target_of(const GapJet& jet, const LocalModel& local, const PiecewiseModel::Peak& peak,
+                                       std::span<const Piece> pieces) {
+  Target target{0, Vector2::Zero(), peak.u, &peak};
+  for (std::size_t i = 0; i < peak.count; ++i) {
+    target.value += peak.weight[i] * pieces[peak.active[i]].value;
+    target.slope += peak.weight[i] * pieces[peak.active[i]].slope;
+    if (peak.count > 1) cuts_.add(vertices_.difference(jet, peak.active[i]) + gap_.rolling_radius() * jet.n);
+  }
+  if (local.A1.trace() > kFlatRadius * gap_.length_unit()) {
+    // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
+    const Vector2 way = target.slope - local.A2 * peak.u - jet.s * peak.u;
+    const Vector2 turn = local.A1.solve(way);
+    if (all_finite(turn)) target.newton = turn;
+  }
+  return target;
+}
+
+// The boundary point of a body with flat faces across its axes is a function of the ratios of the normal's components: where these
+// hardly change, both steps are the same.
+bool ModelStep::parametrizations_agree(const GapJet& jet, const LocalModel& local, const Vector2& newton) const {
+  if (may_be_tilted_) return false;
+  const auto is_less = [](const Vector3& turn, const Vector3& normal) {
+    return (turn.array().abs() <= tuning.same_turn * normal.array().abs()).all();
+  };
+  return is_less(local.plane1.lift(newton), jet.n) && is_less(local.plane2.lift(newton), jet.m);
+}
+
+ModelStep::FlatStep ModelStep::flat_step(const GapJet& jet, const LocalModel& local, const Target& target, double radius,
+                                         Step& step) const {
+  const Vector2& newton = target.newton;
+  Vector2 u1, u2;
+  const Vector3 normal1 = gap_.shape1().advance_normal(jet.n, jet.jet1, local.plane1.lift(newton));
+  const Vector3 normal2 = -gap_.shape2().advance_normal(jet.m, jet.jet2, -local.plane2.lift(newton));
+  if (!to_plane(local.plane1, normal1, u1) || !to_plane(local.plane2, normal2, u2)) return FlatStep::LeavesFace;
+  Vector2 u = blend(local.A1, local.A2, u1, u2);
+  if (!all_finite(u)) return FlatStep::None;
+  if (target.peak != nullptr && !to_plane(local.plane1, vertices_.shared_normal(*target.peak, jet.n + local.plane1.lift(u)), u)) {
+    return FlatStep::LeavesFace;
+  }
+  const double rise = target.value + target.slope.dot(u);
+  if (!(rise > 0)) return FlatStep::None;
+  // The cut of this normal lets s gain at most the slope times the step, however flat the face.
+  step.remaining_gain = std::max(step.remaining_gain, rise);
+  const double length = std::hypot(u.x(), u.y());  // may be too small to square
+  if (length < tuning.creep * newton.norm() && rise < tuning.poor_share * step.gain) return FlatStep::Taken;
+  const double shrink = length > radius ? radius / length : 1;
+  u *= shrink;
+  step.normal = jet.n + local.plane1.lift(u);
+  if (target.peak != nullptr) step.normal = vertices_.shared_normal(*target.peak, step.normal);
+  step.length = u.norm();
+  step.gain = std::min(step.gain, shrink * rise);
+  return FlatStep::Taken;
+}
+
+}  // namespace supernormal

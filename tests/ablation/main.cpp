@@ -1,0 +1,116 @@
+// Changes one constant of the solver at a time (lib/proximity/tuning.hpp) and prints what that costs, over fixed sets of pairs.
+//
+//     ablation [--pairs 3000] [--samples 20000] [--only name] [--list]
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "measurement.hpp"
+#include "proximity/tuning.hpp"
+
+namespace supernormal::ablation {
+namespace {
+
+/// One constant and what it is changed to: the value that switches its mechanism off, where there is one, and others.
+struct Trial {
+  const char* name;
+  std::variant<double Tuning::*, int Tuning::*> constant;
+  std::vector<double> values;
+};
+
+std::vector<Trial> trials() {
+  return {{"newton_evaluations", &Tuning::newton_evaluations, {0, 4, 16}},
+          {"backtrack", &Tuning::backtrack, {0.25, 0.75}},
+          {"same_turn", &Tuning::same_turn, {0, 0.01, 0.5}},
+          {"longest_step", &Tuning::longest_step, {0.5, 3}},
+          {"good_share", &Tuning::good_share, {0.3, 0.8}},
+          {"poor_share", &Tuning::poor_share, {0.01, 0.3}},
+          {"short_share", &Tuning::short_share, {1.3, 1e9}},
+          {"creep", &Tuning::creep, {0, 0.1}},
+          {"gain_safety", &Tuning::gain_safety, {1, 10}},
+          {"followed_depth", &Tuning::followed_depth, {0, 0.1}},
+          {"depth_per_radius", &Tuning::depth_per_radius, {0, 2, 4}},
+          {"search_width", &Tuning::search_width, {0.01, 0.1}},
+          {"search_evaluations", &Tuning::search_evaluations, {20, 100}},
+          {"near_best", &Tuning::near_best, {0, 0.03, 0.1}},
+          {"branch_width", &Tuning::branch_width, {0.1, 1}},
+          {"branch_gain", &Tuning::branch_gain, {0, 0.33}},
+          {"split_share", &Tuning::split_share, {0.3, 0.7}},
+          {"same_hill_cosine", &Tuning::same_hill_cosine, {0.98, 0.9999}}};
+}
+
+void print(const std::string& name, const Figures& figures) {
+  std::printf("%-28s", name.c_str());
+  for (const Counts* counts : {&figures.reference, &figures.catalogue, &figures.smooth, &figures.kinked, &figures.no_hessian,
+                               &figures.soak, &figures.sharp}) {
+    std::printf(" | %6.2f %4ld %3ld %3ld", counts->evaluations_per_query(), counts->unconverged, counts->missed,
+                counts->violations);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+void print_header() {
+  std::printf("%-28s", "");
+  for (const char* set : {"reference", "hard cases", "smooth", "kinked", "no Hessian", "soak", "soak --sharp"})
+    std::printf(" | %-19s", set);
+  std::printf("\n%-28s", "");
+  for (int set = 0; set < 7; ++set) std::printf(" | %6s %4s %3s %3s", "evals", "not", "mis", "vio");
+  std::printf("\n");
+}
+
+/// Puts the value in place of a constant as long as it lives.
+class Changed {
+ public:
+  Changed(const Trial& trial, double value) : before_(tuning) {
+    std::visit([&](auto member) { tuning.*member = static_cast<std::remove_reference_t<decltype(tuning.*member)>>(value); },
+               trial.constant);
+  }
+  ~Changed() { tuning = before_; }
+  Changed(const Changed&) = delete;
+  Changed& operator=(const Changed&) = delete;
+
+ private:
+  Tuning before_;
+};
+
+int run(int argc, char** argv) {
+  int pairs = 3000, samples = 20000;
+  std::string only;
+  CLI::App app("What each constant of the solver is for");
+  app.add_option("--pairs", pairs, "of each random set");
+  app.add_option("--samples", samples, "of each of the soak's mixes");
+  app.add_option("--only", only, "constants whose names contain this");
+  CLI11_PARSE(app, argc, argv);
+  const Measurement measurement(pairs, samples);
+  std::printf(
+      "Evaluations a query; answers that have not converged (default tolerance or looser); converged, but more than 1e-6 of the\n"
+      "smallest half-extent below the proved maximum; violations of the contract.\n\n");
+  print_header();
+  print("as it is", measurement.measure());
+  for (const Trial& trial : trials()) {
+    if (std::string(trial.name).find(only) == std::string::npos) continue;
+    for (const double value : trial.values) {
+      const Changed changed(trial, value);
+      char text[64];
+      std::snprintf(text, sizeof text, "%s = %g", trial.name, value);
+      print(text, measurement.measure());
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace supernormal::ablation
+
+int main(int argc, char** argv) {
+  try {
+    return supernormal::ablation::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ablation: %s\n", error.what());
+    return 2;
+  }
+}
