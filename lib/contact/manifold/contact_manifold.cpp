@@ -52,8 +52,8 @@ struct CornerList {
     const Vector3& deepest = manifold.deepest.contact;
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double lean = drops[k] - least;
-      const double excess = std::max(1.0, lean / largest_lean);
-      manifold.corners[k] = {deepest + (points[k] - deepest) / (excess * excess), std::max(0.0, -manifold.deepest.gap - lean)};
+      const double share = lean > largest_lean ? largest_lean / lean : 1;
+      manifold.corners[k] = {deepest + share * share * (points[k] - deepest), std::max(0.0, -manifold.deepest.gap - lean)};
     }
     manifold.corner_count = ContactManifold::kMaxCorners;
   }
@@ -85,22 +85,24 @@ class Side {
   /// neighbouring vertices, which lie in the body.
   double drop_at(const Vector2& point) const {
     const Vector2 way = point - apex_;
-    double least_outside = HUGE_VAL;
-    double drop = 0;
-    double across = cross(spokes_[0], way);
+    std::array<double, 4> across;
+    for (std::size_t k = 0; k < 4; ++k) across[k] = cross(spokes_[k], way);
+    std::array<Vector2, 4> shares;  // of the two spokes of each triangle
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t next = (k + 1) % 4;
-      const double across_next = cross(spokes_[next], way);
-      Vector2 share(-across_next * inverse_areas_[k], across * inverse_areas_[k]);
-      if (inverse_areas_[k] == 0) share = share_along_longer(spokes_[k], spokes_[next], way);
-      across = across_next;
-      const double outside = std::max({-share.x(), -share.y(), share.sum() - 1});
-      if (!(outside < least_outside)) continue;
-      least_outside = outside;
-      const double first = std::clamp(share.x(), 0.0, 1.0);
-      drop = first * drops_[k] + std::clamp(share.y(), 0.0, 1 - first) * drops_[next];
+      shares[k] = {-across[next] * inverse_areas_[k], across[k] * inverse_areas_[k]};
+      if (inverse_areas_[k] == 0) shares[k] = share_along_longer(spokes_[k], spokes_[next], way);
     }
-    return drop;
+    // The triangle that it is in, or least outside of.
+    std::size_t nearest = 0;
+    double least_outside = HUGE_VAL;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double outside = std::max({-shares[k].x(), -shares[k].y(), shares[k].sum() - 1});
+      nearest = outside < least_outside ? k : nearest;
+      least_outside = outside < least_outside ? outside : least_outside;
+    }
+    const double first = std::clamp(shares[nearest].x(), 0.0, 1.0);
+    return first * drops_[nearest] + std::clamp(shares[nearest].y(), 0.0, 1 - first) * drops_[(nearest + 1) % 4];
   }
 
   /// The direction of its axes, the same for all four of them, as a complex number that is the larger the smaller the body is.
@@ -181,8 +183,9 @@ void unite(ManifoldCorner& corner, ManifoldCorner& other, double least_depth) {
 /// distance on, to one place within it.
 void draw_together(ManifoldCorner& corner, ManifoldCorner& other, double distance) {
   const Vector3 way = other.point - corner.point;
-  const double share = std::min(1.0, 2 - way.norm() / distance);
-  if (!(share > 0)) return;
+  const double squared_length = way.squaredNorm();
+  if (!(squared_length < 4 * distance * distance)) return;
+  const double share = std::min(1.0, 2 - std::sqrt(squared_length) / distance);
   corner.point += 0.5 * share * way;
   other.point -= 0.5 * share * way;
   const double depth = std::max(corner.depth, other.depth);
