@@ -3,11 +3,21 @@
 #include <algorithm>
 #include <array>
 
-#include "ode/colliders/solve_pair.hpp"
+#include "ode/api/last_error.hpp"
+#include "ode/colliders/contact.hpp"
 #include "ode/geom/geom_class.hpp"
 
 namespace supernormal::ode {
 namespace {
+
+/// The dColliderFn that makes contacts of what the query finds.
+template <PairQuery kQuery>
+int collide_by(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
+  return guarded("dCollide", 0, [&] {
+    const ContactArray out{ours, collider, flags, contacts, skip};
+    return write_contacts(kQuery(ours, collider, out.room() > 1 ? Goal::Contacts : Goal::OneContact), out);
+  });
+}
 
 struct Collider {
   int geom_class;

@@ -28,7 +28,7 @@ PairQuery query_trimesh;
 PairQuery query_heightfield;
 
 /// dColliderFn for a geom of ours and a collider, in this order: ODE turns the contacts around when it was asked the other way.
-/// Those that write the contacts of their query are made by collide_by (solve_pair.hpp).
+/// Those that write the contacts of their query have no collider of their own.
 dColliderFn collide_with_ray;
 dColliderFn collide_with_trimesh;
 dColliderFn collide_with_heightfield;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "ode/colliders/body_pair.hpp"
+#include "ode/colliders/solve_pair.hpp"
 #include "ode/runtime/worker_pool.hpp"
 #include "supernormal/supernormal.h"
 
