@@ -23,7 +23,7 @@ ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   for (int edge = 0; edge < other.size() && count > 0; ++edge) {
     const Corners& rest = buffers[current];
     Corners& kept = buffers[1 - current];
-    const Vector2 from = other[edge];
+    const Vector2& from = other[edge];
     const Vector2 along = other[edge + 1 < other.size() ? edge + 1 : 0] - from;
     std::size_t kept_count = 0;
     double side_here = cross(along, rest[0] - from);
