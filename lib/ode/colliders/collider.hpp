@@ -5,9 +5,7 @@
 
 #include <ode/ode.h>
 
-#include <string>
-
-#include "ode/runtime/solver_settings.hpp"
+#include "ode/colliders/goal.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 
 namespace supernormal::ode {
@@ -41,8 +39,5 @@ PairQuery* find_query(int collider_class);
 
 /// Enters our colliders for all of ODE's own classes, and for ourselves, into ODE's table.
 void set_colliders(int our_class);
-
-/// "a dBox", "a body of this library", …: for messages.
-std::string geom_class_name(dGeomID geom);
 
 }  // namespace supernormal::ode

@@ -4,6 +4,7 @@
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/solver_settings.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "supernormal/proximity/solve.hpp"
 
