@@ -5,9 +5,7 @@
 
 #include <ode/ode.h>
 
-#include <string>
-
-#include "ode/runtime/solver_settings.hpp"
+#include "ode/colliders/goal.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 
 namespace supernormal::ode {
@@ -28,7 +26,7 @@ PairQuery query_trimesh;
 PairQuery query_heightfield;
 
 /// dColliderFn for a geom of ours and a collider, in this order: ODE turns the contacts around when it was asked the other way.
-/// Those that write the contacts of their query are made by collide_by (solve_pair.hpp).
+/// Those that write the contacts of their query have no collider of their own.
 dColliderFn collide_with_ray;
 dColliderFn collide_with_trimesh;
 dColliderFn collide_with_heightfield;
@@ -41,8 +39,5 @@ PairQuery* find_query(int collider_class);
 
 /// Enters our colliders for all of ODE's own classes, and for ourselves, into ODE's table.
 void set_colliders(int our_class);
-
-/// "a dBox", "a body of this library", …: for messages.
-std::string geom_class_name(dGeomID geom);
 
 }  // namespace supernormal::ode

@@ -14,6 +14,8 @@ void count_closed_form() noexcept;
 
 void count_contact() noexcept;
 
+snStatistics thread_statistics() noexcept;
+
 /// Replaces this thread's counts and returns what they were: what is counted for another thread is taken out here and added there.
 snStatistics exchange_statistics(const snStatistics& statistics) noexcept;
 void add_statistics(const snStatistics& more) noexcept;
