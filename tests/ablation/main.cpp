@@ -24,12 +24,11 @@ struct Trial {
 std::vector<Trial> trials() {
   return {{"newton_evaluations", &Tuning::newton_evaluations, {0, 4, 16}},
           {"backtrack", &Tuning::backtrack, {0.25, 0.75}},
-          {"same_turn", &Tuning::same_turn, {0, 0.01, 0.5}},
+          {"same_turn", &Tuning::same_turn, {0, 0.1}},
           {"longest_step", &Tuning::longest_step, {0.5, 3}},
           {"good_share", &Tuning::good_share, {0.3, 0.8}},
           {"poor_share", &Tuning::poor_share, {0.01, 0.3}},
           {"short_share", &Tuning::short_share, {1.3, 1e9}},
-          {"creep", &Tuning::creep, {0, 0.1}},
           {"gain_safety", &Tuning::gain_safety, {1, 10}},
           {"followed_depth", &Tuning::followed_depth, {0, 0.1}},
           {"depth_per_radius", &Tuning::depth_per_radius, {0, 2, 4}},

@@ -15,40 +15,44 @@ constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 /// The vertices of the simplex that holds the nearest point so far, in its interior: a point, a segment or a triangle.
 class Simplex {
  public:
-  explicit Simplex(const Vector3& vertex) : vertices_{vertex, vertex, vertex}, count_(1), nearest_(vertex) {}
+  explicit Simplex(const Vector3& vertex) : vertices_{vertex, vertex, vertex}, count_(1), best_{vertex.norm(), unit(vertex)} {}
 
-  const Vector3& nearest() const { return nearest_; }
+  const MinimumNormPoint& best() const { return best_; }
 
-  /// Moves to the nearest point of the hull of the simplex and `vertex`: in one of the faces of that hull which have the new
-  /// vertex, or at the origin if that is inside. Returns whether this is nearer than before.
+  /// Moves to the nearest point of the hull of the simplex and `vertex`: in one of the faces of that hull which have the new vertex,
+  /// or at the origin if that is inside. Returns whether this is nearer than before.
   bool add(const Vector3& vertex) {
     const std::array<Vector3, 3> old = vertices_;
     const std::size_t old_count = count_;
-    const double before = nearest_.squaredNorm();
     if (old_count == 3 && is_origin_inside(vertex)) {
-      nearest_.setZero();
+      best_ = {0, Vector3::Zero()};
       return true;
     }
-    best_ = before;
+    const double before = best_.norm;
     offer(vertex);
     for (std::size_t i = 0; i < old_count; ++i) offer(vertex, old[i]);
     for (std::size_t i = 0; i < old_count; ++i) {
       for (std::size_t j = 0; j < i; ++j) offer(vertex, old[i], old[j]);
     }
-    return best_ < before;
+    return best_.norm < before;
   }
 
  private:
-  bool is_better(const Vector3& point) {
-    const double squared = point.squaredNorm();
-    if (!(squared < best_)) return false;
-    best_ = squared;
-    nearest_ = point;
+  static Vector3 unit(const Vector3& v) {
+    const double length = v.norm();
+    return length > 0 ? Vector3(v / length) : Vector3(Vector3::Zero());
+  }
+
+  /// `point` is a convex combination of the vertices, `direction` that of its foot, of any length.
+  bool is_better(const Vector3& point, const Vector3& direction) {
+    const double norm = point.norm();
+    if (!(norm < best_.norm)) return false;
+    best_ = {norm, unit(direction)};
     return true;
   }
 
   void offer(const Vector3& a) {
-    if (!is_better(a)) return;
+    if (!is_better(a, a)) return;
     vertices_[0] = a;
     count_ = 1;
   }
@@ -56,7 +60,9 @@ class Simplex {
   void offer(const Vector3& a, const Vector3& b) {
     const Vector3 edge = b - a;
     const double share = -a.dot(edge), squared = edge.squaredNorm();
-    if (!(share > 0 && share < squared) || !is_better(a + share / squared * edge)) return;
+    if (!(share > 0 && share < squared)) return;
+    const Vector3 point = a + share / squared * edge;
+    if (!is_better(point, point)) return;
     vertices_ = {a, b, b};
     count_ = 2;
   }
@@ -66,7 +72,7 @@ class Simplex {
     const double squared = normal.squaredNorm();
     const double of_b = -a.cross(c - a).dot(normal), of_c = -(b - a).cross(a).dot(normal);
     if (!(of_b > 0 && of_c > 0 && of_b + of_c < squared)) return;
-    if (!is_better(a + of_b / squared * (b - a) + of_c / squared * (c - a))) return;
+    if (!is_better(a + of_b / squared * (b - a) + of_c / squared * (c - a), std::copysign(1, a.dot(normal)) * normal)) return;
     vertices_ = {a, b, c};
     count_ = 3;
   }
@@ -78,30 +84,27 @@ class Simplex {
     const auto is_same_side = [&](const Vector3& p, const Vector3& q, const Vector3& r) {
       return volume > 0 ? p.dot(q.cross(r)) > 0 : p.dot(q.cross(r)) < 0;
     };
-    return volume != 0 && is_same_side(a, b, c) && is_same_side(vertex, c, b) && is_same_side(a, c, vertex) &&
-           is_same_side(a, vertex, b);
+    return volume != 0 && is_same_side(a, b, c) && is_same_side(vertex, c, b) && is_same_side(a, c, vertex) && is_same_side(a, vertex, b);
   }
 
   std::array<Vector3, 3> vertices_;
   std::size_t count_;
-  Vector3 nearest_;
-  double best_ = 0;
+  MinimumNormPoint best_;
 };
 
 }  // namespace
 
-Vector3 minimum_norm_point(std::span<const Vector3> points) {
+MinimumNormPoint minimum_norm_point(std::span<const Vector3> points) {
   const auto is_shorter = [](const Vector3& a, const Vector3& b) { return a.squaredNorm() < b.squaredNorm(); };
   const double largest = std::max_element(points.begin(), points.end(), is_shorter)->norm();
   Simplex simplex(*std::min_element(points.begin(), points.end(), is_shorter));
   for (std::size_t step = 0; step < 2 * points.size(); ++step) {
-    const Vector3 nearest = simplex.nearest();
-    const double length = nearest.norm();
-    const auto is_lower = [&](const Vector3& a, const Vector3& b) { return a.dot(nearest) < b.dot(nearest); };
+    const MinimumNormPoint best = simplex.best();
+    const auto is_lower = [&](const Vector3& a, const Vector3& b) { return a.dot(best.normal) < b.dot(best.normal); };
     const Vector3& lowest = *std::min_element(points.begin(), points.end(), is_lower);
-    if (!(lowest.dot(nearest) < length * (length - kRounding * largest)) || !simplex.add(lowest)) break;
+    if (!(lowest.dot(best.normal) < best.norm - kRounding * largest) || !simplex.add(lowest)) break;
   }
-  return simplex.nearest();
+  return simplex.best();
 }
 
 }  // namespace supernormal

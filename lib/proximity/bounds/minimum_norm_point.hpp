@@ -7,9 +7,16 @@
 
 namespace supernormal {
 
-/// The point of the convex hull of `points` (at least one) nearest to the origin, by Wolfe's active-set method (Finding the nearest
-/// point in a polytope, Math. Programming 11, 1976). It is a convex combination of the points to rounding whatever happens; where
-/// four of them surround the origin it is zero.
-Vector3 minimum_norm_point(std::span<const Vector3> points);
+/// A point of a hull, and the direction to it.
+struct MinimumNormPoint {
+  double norm;     ///< m; of a convex combination of the points, to rounding
+  Vector3 normal;  ///< unit, from the origin to it; zero where the origin is inside, or a point is the origin
+};
+
+/// The point of the convex hull of `points` (at least one) nearest to the origin, by an active-set method (Wolfe, Finding the nearest
+/// point in a polytope, Math. Programming 11, 1976): the point that lies lowest along the best so far joins the simplex that holds it.
+///
+/// However near the origin is to a facet, `normal` is the facet's: taken from its edges, not from the point, whose digits cancel.
+MinimumNormPoint minimum_norm_point(std::span<const Vector3> points);
 
 }  // namespace supernormal

@@ -46,6 +46,7 @@ void Ascent::restart() {
   is_hulls_turn_ = false;
   is_model_short_ = false;
   is_stuck_ = false;
+  is_from_bounds_ = false;
 }
 
 Status Ascent::climb_on(double cutoff) {
@@ -54,13 +55,30 @@ Status Ascent::climb_on(double cutoff) {
     if (!current().is_finite()) return Status::InvalidInput;
     if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
     const Step step = choose_step();
-    if (is_finished(cutoff, status)) return status;
+    if (is_finished(cutoff, status)) {
+      if (has_kinks_ && is_from_bounds_ && status == Status::Converged) go_to_stratum();
+      return status;
+    }
     evaluate(step.normal.normalized(), trial(), active_[1 - now_]);
     if (!gap_.has_hessian()) learn_hessian();
     const double actual_gain = trial().s - current().s;
-    adapt_radius(step, actual_gain);
-    if (actual_gain > 0 || is_level_but_flatter(actual_gain)) now_ = 1 - now_;
+    if (!is_from_hull_) adapt_radius(step, actual_gain);
+    // Below the concave part a normal of the hull may lie on another hill: it is taken only where it leads out of the overlap.
+    const bool stays_on_hill = true;
+    if (stays_on_hill && (actual_gain > 0 || is_level_but_flatter(actual_gain))) {
+      now_ = 1 - now_;
+      is_from_bounds_ = step.remaining_gain == kInfinity;
+    }
   }
+}
+
+// A normal that bounds have proposed is that of a face or an edge of body 2 but for rounding, and the boundary point is one of its
+// vertices. The model's step goes to the exact normal, where any point between the vertices is a boundary point.
+void Ascent::go_to_stratum() {
+  const Step step = model_.propose(current(), active_[now_], bfgs_, tuning.longest_step);
+  if (model_.leaves_face() || gap_.evaluations() >= settings_.max_evaluations) return;
+  evaluate(step.normal.normalized(), trial(), active_[1 - now_]);
+  if (trial().s >= current().s - gap_.rounding()) now_ = 1 - now_;
 }
 
 bool Ascent::is_finished(double cutoff, Status& status) const {
@@ -69,7 +87,7 @@ bool Ascent::is_finished(double cutoff, Status& status) const {
     status = Status::Converged;
   } else if (gap_.evaluations() >= settings_.max_evaluations) {
     status = Status::EvaluationLimit;
-  } else if (is_stuck_ || (radius_ < kNoRadius && is_deep()) || current().s + error_ < cutoff) {
+  } else if (is_stuck_ || current().s + error_ < cutoff) {
     status = Status::Stalled;
   } else {
     return false;
@@ -81,32 +99,36 @@ Step Ascent::choose_step() {
   Step step = model_.propose(current(), active_[now_], bfgs_, radius_);
   const double estimate = model_.leaves_face() ? kInfinity : step.remaining_gain;
   const bool is_done = estimate <= tolerance_;
-  const bool must_replace = model_.leaves_face() || is_model_short_ || radius_ < kNoRadius || is_ruled_out(step);
-  error_ = kInfinity;
-  if (!is_deep() && (is_done || must_replace)) ask_hull(must_replace, step);
-  if (is_deep()) {
-    error_ = estimate;
-    if (!is_done && must_replace) take_top_of_cuts(step);
+  const bool must_replace = model_.leaves_face() || (is_model_short_ && is_concave()) || radius_ < kNoRadius || is_ruled_out(step);
+  is_from_hull_ = false;
+  if (is_concave()) {
+    error_ = kInfinity;
+    if (is_done || must_replace) ask_hull(must_replace, step);
+    return step;
   }
+  error_ = estimate;
+  if (!is_done && must_replace) take_top_of_cuts(step);
+  is_stuck_ = error_ > tolerance_ && radius_ < kNoRadius;
+  if (error_ <= tolerance_ && !is_overlap_proved_) ask_hull(false, step);
   return step;
 }
 
 // Every p in the hull of the cuts has s + rho <= m.p <= |p| for every unit m.
 void Ascent::ask_hull(bool must_replace, Step& step) {
   keep_own_cut();
-  const Vector3 nearest = minimum_norm_point(cuts_.points());
-  const double upper = nearest.norm();
+  const auto [upper, normal] = minimum_norm_point(cuts_.points());
   is_overlap_proved_ = !is_concave() && upper <= gap_.rounding();
   if (is_overlap_proved_) return;
-  if (is_concave()) error_ = std::max(upper - height(), 0.0);
-  // Where s is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their end.
+  error_ = is_concave() ? std::max(upper - height(), 0.0) : kInfinity;
+  // Where s + rho is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their end.
   is_hulls_turn_ = must_replace || !is_concave() || !is_hulls_turn_;
-  is_stuck_ = upper <= gap_.rounding() || (is_hulls_turn_ && radius_ < kNoRadius && !(upper < upper_));
+  is_stuck_ = upper <= gap_.rounding() || (is_hulls_turn_ && (radius_ < kNoRadius || !is_concave()) && !(upper < upper_));
   if (is_stuck_ || !is_hulls_turn_) return;
   upper_ = upper;
-  const Vector3 n = nearest / upper;
-  cuts_.keep_lowest_at(n);
-  step = {n, (n - current().n).norm(), std::max(upper - height(), 0.0), kInfinity};
+  if (must_replace) radius_ = std::max(0.5 * std::min(radius_, step.length), 0.5 * kNoRadius);
+  is_from_hull_ = true;
+  cuts_.keep_lowest_at(normal);
+  step = {normal, (normal - current().n).norm(), std::max(upper - height(), 0.0), kInfinity};
 }
 
 void Ascent::take_top_of_cuts(Step& step) {

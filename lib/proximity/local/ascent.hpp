@@ -52,11 +52,11 @@ class Ascent {
 
   /// Whether s + rho is concave on the cone of the normals that matter, touching included.
   bool is_concave() const { return height() >= -0.5 * tolerance_; }
-  bool is_deep() const { return is_overlap_proved_ && !is_concave(); }
   /// m; s + rho
   double height() const { return current().s + rolling_radius_; }
 
   Step choose_step();
+  void go_to_stratum();
   void ask_hull(bool must_replace, Step& step);
   void take_top_of_cuts(Step& step);
   void keep_own_cut();
@@ -83,6 +83,8 @@ class Ascent {
   double radius_ = 0;  // of the trust region, gnomonic
   double upper_ = 0;   // m; what the hull allowed s + rho when it last proposed a normal
   bool is_hulls_turn_ = false;
+  bool is_from_hull_ = false;    // the step
+  bool is_from_bounds_ = false;  // the current normal
   bool is_model_short_ = false;  // the last step brought more than the model promised
   bool is_stuck_ = false;        // neither model nor bounds propose a normal that is new
   double error_ = 0;             // m
