@@ -10,7 +10,7 @@ struct Tuning {
   // Newton's method with the one-line bound (local/certified_newton.hpp).
   int newton_evaluations = 8;  ///< it gives up after so many: nine of ten pairs that the bound proves need fewer
   double backtrack = 0.5;      ///< factor of a step that did not lead up
-  double same_turn = 0.01;      ///< share of each component of the normal: a smaller turn is the same in the normal and in the point
+  double same_turn = 0.01;     ///< share of each component of the normal: a smaller turn is the same in the normal and in the point
 
   // The ascent (local/ascent.hpp).
   double longest_step = 1;  ///< gnomonic, 45 degrees: the first and the largest trust radius; no model is right farther away
@@ -18,6 +18,7 @@ struct Tuning {
   double poor_share = 0.1;  ///< of the promised gain: a step that brings less halves it, and one that cuts hold below is not made
   double short_share =
       1.7;                 ///< of the promised gain: the model that is exceeded by more sees too little; the bounds propose instead
+  double creep = 0.01;     ///< a step through the boundary point that is shorter than Newton's by this factor creeps along an edge
   double gain_safety = 3;  ///< the model's gain times this estimates what is left: where s rises like a power of the distance,
                            ///< the model sees at least half of it
 
@@ -26,7 +27,7 @@ struct Tuning {
   double depth_per_radius = 1;   ///< no other maximum is looked for while the depth is less than so many of the least radii of
                                  ///< curvature: with 1 it is Blaschke's theorem, but for the estimate of the radii
   double search_width = 0.01;    ///< of the depth: the search ends when no depth can be less by more
-  int search_evaluations = 200;   ///< or after so many
+  int search_evaluations = 200;  ///< or after so many
   double near_best = 0.06;       ///< of the depth: other hills whose normals come as near to the best are climbed in the end
   double branch_width = 0.33;    ///< of the depth: a warm query does not look closer
   double branch_gain = 0.17;     ///< of the depth: it leaves its branch for one that is shallower by more, so that it does not flip

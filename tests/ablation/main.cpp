@@ -29,6 +29,7 @@ std::vector<Trial> trials() {
           {"good_share", &Tuning::good_share, {0.3, 0.8}},
           {"poor_share", &Tuning::poor_share, {0.01, 0.3}},
           {"short_share", &Tuning::short_share, {1.3, 1e9}},
+          {"creep", &Tuning::creep, {0, 0.1}},
           {"gain_safety", &Tuning::gain_safety, {1, 10}},
           {"followed_depth", &Tuning::followed_depth, {0, 0.1}},
           {"depth_per_radius", &Tuning::depth_per_radius, {0, 2, 4}},

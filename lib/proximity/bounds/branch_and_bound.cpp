@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -59,6 +60,7 @@ void BranchAndBound::start() {
   storage_.cuts.clear();
   storage_.cells.clear();
   top_count_ = 0;
+  remember_top(ascent_.candidate());
   given_up_ = -std::numeric_limits<double>::infinity();
   storage_.cuts.add(best_.d + rho_ * best_.n);
   for (const Vector3& d : cuts_.points()) storage_.cuts.add(d);
@@ -122,6 +124,8 @@ void BranchAndBound::remember_top(const LocalCandidate& top) {
 
 void BranchAndBound::climb_from_tops() {
   if (goal_.near == 0) return;
+  // Bodies with centres of symmetry have s(-n) = s(n) - 2 n.c: about concentric, they may leave one another on either side.
+  if (std::abs(2 * best_.n.dot(gap_.offset())) < goal_.near) climb_from(-best_.n);
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
   for (auto top = tops_.begin(); top != end && gap_.evaluations() < settings_.max_evaluations; ++top) {

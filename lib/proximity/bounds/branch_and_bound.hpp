@@ -58,11 +58,6 @@ class BranchAndBound {
     Vector3 peak;    // where the program has its maximum, not normalised
     Index seen = 0;  // of so many cuts it is known that they do not lower the bound there
   };
-  /// An evaluated normal.
-  struct LocalCandidate {
-    Vector3 n;
-    double s;  // m
-  };
   static constexpr Index kMaxTops = 6;
   /// Kept from query to query: nothing is allocated any more when it has grown large enough.
   struct Storage {

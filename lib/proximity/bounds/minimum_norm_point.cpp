@@ -19,8 +19,8 @@ class Simplex {
 
   const MinimumNormPoint& best() const { return best_; }
 
-  /// Moves to the nearest point of the hull of the simplex and `vertex`: in one of the faces of that hull which have the new vertex,
-  /// or at the origin if that is inside. Returns whether this is nearer than before.
+  /// Moves to the nearest point of the hull of the simplex and `vertex`: in one of the faces of that hull which have the new
+  /// vertex, or at the origin if that is inside. Returns whether this is nearer than before.
   bool add(const Vector3& vertex) {
     const std::array<Vector3, 3> old = vertices_;
     const std::size_t old_count = count_;
@@ -61,7 +61,10 @@ class Simplex {
     const Vector3 edge = b - a;
     const double share = -a.dot(edge), squared = edge.squaredNorm();
     if (!(share > 0 && share < squared)) return;
-    const Vector3 point = a + share / squared * edge;
+    Vector3 point = a + share / squared * edge;
+    // The shares of a long edge have rounding that a second pass takes off.
+    const double more = -point.dot(edge), refined = share + more;
+    if (refined > 0 && refined < squared) point += more / squared * edge;
     if (!is_better(point, point)) return;
     vertices_ = {a, b, b};
     count_ = 2;
@@ -72,7 +75,15 @@ class Simplex {
     const double squared = normal.squaredNorm();
     const double of_b = -a.cross(c - a).dot(normal), of_c = -(b - a).cross(a).dot(normal);
     if (!(of_b > 0 && of_c > 0 && of_b + of_c < squared)) return;
-    if (!is_better(a + of_b / squared * (b - a) + of_c / squared * (c - a), std::copysign(1, a.dot(normal)) * normal)) return;
+    Vector3 point = a + of_b / squared * (b - a) + of_c / squared * (c - a);
+    // So have those of a sliver.
+    const double more_of_b = -point.cross(c - a).dot(normal), more_of_c = -(b - a).cross(point).dot(normal);
+    const double refined_b = of_b + more_of_b, refined_c = of_c + more_of_c;
+    if (refined_b > 0 && refined_c > 0 && refined_b + refined_c < squared) {
+      const Vector3 refined = point + more_of_b / squared * (b - a) + more_of_c / squared * (c - a);
+      if (refined.squaredNorm() < point.squaredNorm()) point = refined;
+    }
+    if (!is_better(point, std::copysign(1, a.dot(normal)) * normal)) return;
     vertices_ = {a, b, c};
     count_ = 3;
   }
@@ -84,7 +95,8 @@ class Simplex {
     const auto is_same_side = [&](const Vector3& p, const Vector3& q, const Vector3& r) {
       return volume > 0 ? p.dot(q.cross(r)) > 0 : p.dot(q.cross(r)) < 0;
     };
-    return volume != 0 && is_same_side(a, b, c) && is_same_side(vertex, c, b) && is_same_side(a, c, vertex) && is_same_side(a, vertex, b);
+    return volume != 0 && is_same_side(a, b, c) && is_same_side(vertex, c, b) && is_same_side(a, c, vertex) &&
+           is_same_side(a, vertex, b);
   }
 
   std::array<Vector3, 3> vertices_;

@@ -13,8 +13,9 @@ struct MinimumNormPoint {
   Vector3 normal;  ///< unit, from the origin to it; zero where the origin is inside, or a point is the origin
 };
 
-/// The point of the convex hull of `points` (at least one) nearest to the origin, by an active-set method (Wolfe, Finding the nearest
-/// point in a polytope, Math. Programming 11, 1976): the point that lies lowest along the best so far joins the simplex that holds it.
+/// The point of the convex hull of `points` (at least one) nearest to the origin, by an active-set method (Wolfe, Finding the
+/// nearest point in a polytope, Math. Programming 11, 1976): the point that lies lowest along the best so far joins the simplex
+/// that holds it.
 ///
 /// However near the origin is to a facet, `normal` is the facet's: taken from its edges, not from the point, whose digits cancel.
 MinimumNormPoint minimum_norm_point(std::span<const Vector3> points);

@@ -63,11 +63,13 @@ Status Ascent::climb_on(double cutoff) {
     if (!gap_.has_hessian()) learn_hessian();
     const double actual_gain = trial().s - current().s;
     if (!is_from_hull_) adapt_radius(step, actual_gain);
-    // Below the concave part a normal of the hull may lie on another hill: it is taken only where it leads out of the overlap.
-    const bool stays_on_hill = true;
-    if (stays_on_hill && (actual_gain > 0 || is_level_but_flatter(actual_gain))) {
+    // Below the concave part a normal of the hull may lie on another hill.
+    if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
+      if (is_from_hull_ && !is_concave()) radius_ = tuning.longest_step;
       now_ = 1 - now_;
       is_from_bounds_ = step.remaining_gain == kInfinity;
+    } else if (is_from_hull_ && trial().s > candidate_.s) {
+      candidate_ = {trial().n, trial().s};
     }
   }
 }
@@ -109,7 +111,7 @@ Step Ascent::choose_step() {
   error_ = estimate;
   if (!is_done && must_replace) take_top_of_cuts(step);
   is_stuck_ = error_ > tolerance_ && radius_ < kNoRadius;
-  if (error_ <= tolerance_ && !is_overlap_proved_) ask_hull(false, step);
+  if ((error_ <= tolerance_ || is_stuck_) && !is_overlap_proved_) ask_hull(false, step);
   return step;
 }
 
@@ -120,7 +122,8 @@ void Ascent::ask_hull(bool must_replace, Step& step) {
   is_overlap_proved_ = !is_concave() && upper <= gap_.rounding();
   if (is_overlap_proved_) return;
   error_ = is_concave() ? std::max(upper - height(), 0.0) : kInfinity;
-  // Where s + rho is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their end.
+  // Where s + rho is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their
+  // end.
   is_hulls_turn_ = must_replace || !is_concave() || !is_hulls_turn_;
   is_stuck_ = upper <= gap_.rounding() || (is_hulls_turn_ && (radius_ < kNoRadius || !is_concave()) && !(upper < upper_));
   if (is_stuck_ || !is_hulls_turn_) return;

@@ -13,6 +13,12 @@
 
 namespace supernormal {
 
+/// An evaluated normal that may lead up another hill.
+struct LocalCandidate {
+  Vector3 n = Vector3::UnitX();
+  double s = -std::numeric_limits<double>::infinity();  ///< m
+};
+
 /// Ascends s on the unit sphere from a given normal: propose, evaluate, add the cut, and stop when bounds or, deep in an overlap,
 /// the model say so (lib/proximity/README.md has the lemmas).
 ///
@@ -40,6 +46,9 @@ class Ascent {
 
   /// m; what is left to the maximum: proved where s + rho is concave, an estimate for the local maximum elsewhere.
   double error() const { return error_; }
+
+  /// The highest normal of the hull that was not taken.
+  const LocalCandidate& candidate() const { return candidate_; }
 
  private:
   const GapJet& current() const { return jets_[now_]; }
@@ -79,6 +88,7 @@ class Ascent {
   std::array<ActiveVertices, 2> active_;  // theirs
   std::size_t now_ = 0;
   bool is_overlap_proved_ = false;
+  LocalCandidate candidate_;
   // Of one climb:
   double radius_ = 0;  // of the trust region, gnomonic
   double upper_ = 0;   // m; what the hull allowed s + rho when it last proposed a normal

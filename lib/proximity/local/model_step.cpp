@@ -147,6 +147,7 @@ ModelStep::FlatStep ModelStep::flat_step(const GapJet& jet, const LocalModel& lo
   // The cut of this normal lets s gain at most the slope times the step, however flat the face.
   step.remaining_gain = std::max(step.remaining_gain, rise);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
+  if (length < tuning.creep * newton.norm() && rise < tuning.poor_share * step.gain) return FlatStep::Taken;
   const double shrink = length > radius ? radius / length : 1;
   u *= shrink;
   step.normal = jet.n + local.plane1.lift(u);
