@@ -102,9 +102,10 @@ TEST_CASE("hard cases: the reference lies in the interval of every answer, and i
     report(one, {}, violations);
     const double rounding = rounding_of(one);
     const double distance = referenced.reference.distance(answer.gap);
-    const bool is_in_interval = answer.gap <= referenced.reference.upper + rounding &&
-                                referenced.reference.lower <= ceiling_of(one, {}, answer) + rounding;
-    const bool is_right = !answer.is_global || (answer.status == Status::Converged && distance <= error_of(one, {}, answer) + rounding);
+    const bool is_in_interval =
+        answer.gap <= referenced.reference.upper + rounding && referenced.reference.lower <= ceiling_of(one, {}, answer) + rounding;
+    const bool is_right =
+        !answer.is_global || (answer.status == Status::Converged && distance <= error_of(one, {}, answer) + rounding);
     if (!(is_in_interval && is_right)) {
       FAIL_CHECK(describe(one), "gap ", answer.gap, " is off by ", distance, "; at most ", ceiling_of(one, {}, answer), " status ",
                  static_cast<int>(answer.status));

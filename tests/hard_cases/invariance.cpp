@@ -37,8 +37,8 @@ class SecondOpinions {
     report("asked again", found);
   }
 
-  /// Lengths of `other` are in units of `unit` m. Its answer must be right on its own. The largest value of the gap function lies in
-  /// the intervals of both; if both claim to be global, they must agree.
+  /// Lengths of `other` are in units of `unit` m. Its answer must be right on its own. The largest value of the gap function lies
+  /// in the intervals of both; if both claim to be global, they must agree.
   void compare(const std::string& how, const HardCase& other, double unit = 1) {
     Violations found;
     const Proximity second = solve(other, settings_, found);

@@ -2,6 +2,7 @@
 // the ball that rolls inside them; deeper the interval, and seldom a missed maximum.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -36,6 +37,7 @@ GapFunction gap_of(const RandomPair& pair) { return {*pair.shape1, {}, *pair.sha
 Proximity certified(const RandomPair& pair) {
   Settings settings;
   settings.certify_depth = true;
+  settings.tolerance = 0.1 * kMissed;
   settings.max_evaluations = 5000;
   return solve(pair, settings);
 }

@@ -70,10 +70,9 @@ class RandomBodies {
     RandomPair pair{body(), nullptr, {}, 0, 0};
     pair.shape2 = partner();
     pair.unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-    pair.pose2.rotation =
-        Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
-            .normalized()
-            .toRotationMatrix();
+    pair.pose2.rotation = Eigen::Quaterniond(Eigen::Vector4d{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)})
+                              .normalized()
+                              .toRotationMatrix();
     return pair;
   }
 

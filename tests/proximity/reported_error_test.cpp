@@ -1,5 +1,5 @@
-// The reported error, which is a bound of bodies that are apart, touch, or overlap by less than the ball that rolls inside them, and
-// the proved interval of deeper ones: pairs on which a local model of the gap function says too little.
+// The reported error, which is a bound of bodies that are apart, touch, or overlap by less than the ball that rolls inside them,
+// and the proved interval of deeper ones: pairs on which a local model of the gap function says too little.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -317,7 +317,9 @@ TEST_CASE("a tip in another's, one without a Hessian, touching at a loose tolera
 }
 
 // On the cap's normal s rises along one azimuth only, that of the tip to 1e-7: steps a thousandth beside it lead down.
-TEST_CASE("an octahedron's tip on the rim of a cylinder, at the finest tolerance: the error covers a normal between the cap's and the mantle's") {
+TEST_CASE(
+    "an octahedron's tip on the rim of a cylinder, at the finest tolerance: the error covers a normal between the cap's and the "
+    "mantle's") {
   const Cylinder cylinder(1.2152125017461786, 1.2492630838922749);
   const Superellipsoid tip(Vector3(1.0703647978263131, 0.6217203905892974, 1.0821407905791396), 1.0551426130855197,
                            1.0376467731595393);

@@ -134,7 +134,8 @@ class Examiner {
     if (!(std::abs(second.normal.norm() - 1) <= 1e-15)) return violate(how, "normal of length " + exact_text(second.normal.norm()));
     if (!(second.gap <= ceiling_)) violate_ceiling(how, second.gap);
     const double other_ceiling = samples::ceiling_of(sample_.pair, sample_.settings, second) + rounding_;
-    if (!(first_.gap <= other_ceiling)) violate(how, "at most " + exact_text(other_ceiling) + ", but " + exact_text(first_.gap) + " is known");
+    if (!(first_.gap <= other_ceiling))
+      violate(how, "at most " + exact_text(other_ceiling) + ", but " + exact_text(first_.gap) + " is known");
     if (!first_.is_global || !second.is_global) return;
     const double allowed = bound_ + samples::error_of(sample_.pair, sample_.settings, second) + rounding_;
     if (is_within(std::abs(second.gap - first_.gap), allowed)) return;

@@ -23,7 +23,8 @@ namespace {
 
 constexpr int kPairs = 40, kCuts = 12, kDirections = 60;
 
-/// The differences d(n) + rho n of some normals, which are points of the difference of the bodies without the ball that rolls inside.
+/// The differences d(n) + rho n of some normals, which are points of the difference of the bodies without the ball that rolls
+/// inside.
 std::vector<Vector3> cuts_of(GapFunction& gap, const std::vector<Vector3>& normals) {
   std::vector<Vector3> cuts;
   GapJet jet;
