@@ -37,8 +37,8 @@ class SecondOpinions {
     report("asked again", found);
   }
 
-  /// Lengths of `other` are in units of `unit` m. Its answer must be right on its own; if both claim to be the global maximum, they
-  /// must agree.
+  /// Lengths of `other` are in units of `unit` m. Its answer must be right on its own. The largest value of the gap function lies
+  /// in the intervals of both; if both claim to be global, they must agree.
   void compare(const std::string& how, const HardCase& other, double unit = 1) {
     Violations found;
     const Proximity second = solve(other, settings_, found);
@@ -90,6 +90,14 @@ class SecondOpinions {
     const double difference = second.gap / unit - first_.gap;
     if (first_.is_global && second.is_global && !(std::abs(difference) <= allowed)) {
       found.push_back("the gap differs by " + exact_text(difference) + " m, allowed is " + exact_text(allowed) + " m");
+    }
+    const double rounding = rounding_of(one_) + rounding_of(other) / unit;
+    const bool is_common = second.gap / unit <= ceiling_of(one_, settings_, first_) + rounding &&
+                           first_.gap <= ceiling_of(other, settings_, second) / unit + rounding;
+    if (!is_common) {
+      found.push_back("the intervals have nothing in common: gap " + exact_text(first_.gap) + " to " +
+                      exact_text(ceiling_of(one_, settings_, first_)) + ", and " + exact_text(second.gap / unit) + " to " +
+                      exact_text(ceiling_of(other, settings_, second) / unit));
     }
   }
 

@@ -1,8 +1,6 @@
 // Is there a normal with a larger gap?
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -12,16 +10,11 @@
 namespace supernormal::samples {
 namespace {
 
-constexpr int kWalks = 8;
-constexpr double kFirstAngle = 1e-15;
-constexpr int kSteps = 25;  // to an angle of about 1
-constexpr int kRandomDirections = 50;
+// The neighbourhood: rings around the normal, from rounding to an angle of about 1.
+constexpr int kDirections = 8, kRings = 25;
+constexpr double kFirstAngle = 1e-15, kNextRing = 4;
 
-// A valley is looked for at so many normals, and is one if it is so many times as deep as s is seen to jitter between normals that
-// differ by rounding, at each end. A jitter of 0 is chance, and counts as one unit in the last place. Or if the slopes say so.
-constexpr int kFineSteps = 64;
-constexpr double kJitters = 4;
-constexpr double kRoundingAngle = 1e-15;
+constexpr int kRandomDirections = 50;
 
 /// The box with the half-extents and the octahedron inscribed in it.
 struct Features {
@@ -42,48 +35,28 @@ struct Features {
   }
 };
 
-/// Looks for normals that are higher than the answer's.
+/// Looks for normals that are higher than the answer says is possible.
 class Probe {
  public:
   Probe(const HardCase& one, const Settings& settings, const Proximity& answer)
       : gap_(*one.shape1, one.pose1, *one.shape2, one.pose2),
         n_((one.pose1.rotation.transpose() * answer.normal).normalized()),
-        rounding_(2 * gap_.rounding()),
-        floor_(answer.gap - rounding_),
-        local_ceiling_(answer.gap + answer.error + rounding_),
-        global_ceiling_(answer.gap + error_of(one, settings, answer) + rounding_) {}
+        ceiling_(ceiling_of(one, settings, answer) + 2 * gap_.rounding()) {}
 
-  const Vector3& normal() const { return n_; }
-
-  /// Walks along a great circle for as long as it does not lead down. The answer is stationary, to its error: what is higher beyond
-  /// a valley is another maximum, and where nothing bends, as between two vertices that overlap, s rises by the turn itself.
-  void walk(const Vector3& tangent, Violations& out) {
-    double angle = kFirstAngle;
-    for (int step = 0; step < kSteps; ++step, angle *= 4) {
-      const Vector3 m = (n_ + angle * tangent).normalized();
-      const double s = value(m);
-      if (s < floor_) return;
-      const double of_turn = std::max(-floor_, 0.0) * 0.5 * angle * angle;
-      if (!(s <= local_ceiling_ + of_turn)) {
-        if (std::isfinite(s) && crosses_valley(tangent, angle)) return;
-        out.push_back("not a maximum: " + exact_text(s - local_ceiling_ - of_turn) + " m more than it may be at an angle of " +
-                      exact_text(angle) + ", n " + exact_text(m));
-        return;
-      }
+  void look_at_neighbourhood(Violations& out) {
+    const Vector3 tangent1 = n_.unitOrthogonal(), tangent2 = n_.cross(tangent1);
+    for (int k = 0; k < kDirections; ++k) {
+      const double turn = 2 * 3.14159265358979 * (k + 0.25) / kDirections;
+      const Vector3 tangent = std::cos(turn) * tangent1 + std::sin(turn) * tangent2;
+      double angle = kFirstAngle;
+      for (int ring = 0; ring < kRings; ++ring, angle *= kNextRing) look_at_unit((n_ + angle * tangent).normalized(), out);
     }
   }
 
   void look_at(const Vector3& direction, Violations& out) {
     const double length = direction.norm();
     if (!(length > 0)) return;
-    for (const double sign : {-1., 1.}) {
-      const Vector3 m = direction * (sign / length);
-      const double s = value(m);
-      if (!(s <= global_ceiling_)) {
-        out.push_back("not the global maximum, as claimed: " + exact_text(s - global_ceiling_) + " m more than it may be at n " +
-                      exact_text(m));
-      }
-    }
+    for (const double sign : {-1., 1.}) look_at_unit(direction * (sign / length), out);
   }
 
   /// Faces, edges and pairs of edges of the boxes and octahedra that the bodies may resemble.
@@ -99,62 +72,16 @@ class Probe {
   }
 
  private:
-  double value(const Vector3& n) {
+  void look_at_unit(const Vector3& n, Violations& out) {
     GapJet jet;
     gap_.evaluate(n, Order::Value, jet);
-    return jet.s;
-  }
-
-  bool crosses_valley(const Vector3& tangent, double angle) { return values_fall(tangent, angle) || slopes_fall(tangent, angle); }
-
-  /// Whether s falls on the way, if only by less than its rounding may be at worst: by more than its rounding is.
-  bool values_fall(const Vector3& tangent, double angle) {
-    Vector3 bottom = n_;
-    double lowest = value(n_);
-    const double here = lowest - kJitters * jitter(n_);
-    for (int k = 1; k < kFineSteps; ++k) {
-      const Vector3 m = (n_ + (angle * k / kFineSteps) * tangent).normalized();
-      const double s = value(m);
-      if (s >= lowest) continue;
-      lowest = s;
-      bottom = m;
-    }
-    return lowest < here - kJitters * jitter(bottom);
-  }
-
-  /// The same by the sum of the slopes, whose rounding counts by the angle only: on short ways it tells valleys that are far
-  /// shallower than the rounding of s.
-  bool slopes_fall(const Vector3& tangent, double angle) {
-    const double step = angle / kFineSteps;
-    double rise = 0;
-    for (int k = 0; k < kFineSteps; ++k) {
-      const double turn = (k + 0.5) * step;
-      rise += step * slope((n_ + turn * tangent).normalized(), tangent - turn * n_);
-      if (rise < -gap_.rounding() * angle) return true;
-    }
-    return false;
-  }
-
-  /// Of s at the unit normal n, along a way from there.
-  double slope(const Vector3& n, const Vector3& way) {
-    GapJet jet;
-    gap_.evaluate(n, Order::Point, jet);
-    return jet.d.dot(way.normalized());
-  }
-
-  double jitter(const Vector3& n) {
-    const Vector3 tangent1 = n.unitOrthogonal(), tangent2 = n.cross(tangent1);
-    const double s = value(n);
-    double most = std::numeric_limits<double>::epsilon() * gap_.length_unit();
-    for (const Vector3& tangent : {tangent1, tangent2}) {
-      for (const double sign : {-1., 1.}) most = std::max(most, std::abs(value(n + sign * kRoundingAngle * tangent) - s));
-    }
-    return most;
+    if (jet.s <= ceiling_) return;
+    out.push_back("not the global maximum: " + exact_text(jet.s - ceiling_) + " m more than it may be at n " + exact_text(n));
   }
 
   GapFunction gap_;
   Vector3 n_;
-  double rounding_, floor_, local_ceiling_, global_ceiling_;
+  double ceiling_;  // m; of every value
 };
 
 }  // namespace
@@ -163,12 +90,7 @@ Violations check_maximum(const HardCase& one, const Settings& settings, const Pr
   Violations out;
   if (answer.status == Status::Apart) return out;  // stopped early: a bound, not a maximum
   Probe probe(one, settings, answer);
-  const Vector3 tangent1 = probe.normal().unitOrthogonal(), tangent2 = probe.normal().cross(tangent1);
-  for (int k = 0; k < kWalks && out.empty(); ++k) {
-    const double turn = 2 * 3.14159265358979 * (k + 0.25) / kWalks;
-    probe.walk(std::cos(turn) * tangent1 + std::sin(turn) * tangent2, out);
-  }
-  if (!answer.is_global) return out;
+  probe.look_at_neighbourhood(out);
   probe.look_at_features(one, out);
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> gauss;

@@ -38,7 +38,7 @@ class Examiner {
     GapFunction gap(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
     size_ = std::min(pair.shape1->half_extents().maxCoeff(), pair.shape2->half_extents().maxCoeff());
     normal_ = (pair.pose1.rotation.transpose() * first_.normal).normalized();
-    ceiling_ = first_.gap + (first_.is_global ? bound_ : first_.global_error + rounding_);
+    ceiling_ = samples::ceiling_of(pair, sample_.settings, first_) + rounding_;
     compare_with_placed_gap();
     look_around(gap);
     ask_swapped();
@@ -127,11 +127,15 @@ class Examiner {
                         " at " + where);
   }
 
-  /// Another answer to the same question; where both are global they must agree.
+  /// Another answer to the same question: the largest value of the gap function lies in the intervals of both, and where both are
+  /// global they must agree.
   void compare(const char* how, const Proximity& second) {
     if (!std::isfinite(second.gap) || !(second.error >= 0)) return violate(how, "no answer");
     if (!(std::abs(second.normal.norm() - 1) <= 1e-15)) return violate(how, "normal of length " + exact_text(second.normal.norm()));
     if (!(second.gap <= ceiling_)) violate_ceiling(how, second.gap);
+    const double other_ceiling = samples::ceiling_of(sample_.pair, sample_.settings, second) + rounding_;
+    if (!(first_.gap <= other_ceiling))
+      violate(how, "at most " + exact_text(other_ceiling) + ", but " + exact_text(first_.gap) + " is known");
     if (!first_.is_global || !second.is_global) return;
     const double allowed = bound_ + samples::error_of(sample_.pair, sample_.settings, second) + rounding_;
     if (is_within(std::abs(second.gap - first_.gap), allowed)) return;

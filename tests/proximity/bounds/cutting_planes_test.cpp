@@ -3,9 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "proximity/reference_pairs.hpp"
 #include "relative.hpp"
@@ -71,8 +73,47 @@ TEST_CASE("the oldest cut gives way to the newest") {
   cuts.add(Vector3::Constant(7));
   CHECK(cuts.size() == CuttingPlanes::kCapacity);
   CHECK(cuts.upper_bound(Vector3::UnitX()) == 1);
-  cuts.clear();
-  CHECK(cuts.size() == 0);
+  CHECK(CuttingPlanes().size() == 0);
+}
+
+TEST_CASE("the cuts that are lowest at the kept normal stay, however many are added") {
+  std::mt19937_64 engine(53);
+  std::normal_distribution<double> gauss;
+  CuttingPlanes cuts;
+  std::vector<Vector3> all;
+  const auto add = [&] {
+    all.emplace_back(Vector3{gauss(engine), gauss(engine), gauss(engine)});
+    cuts.add(all.back());
+  };
+  for (int k = 0; k < CuttingPlanes::kCapacity; ++k) add();
+  const Vector3 kept = Vector3(2, -1, 0.5).normalized();
+  cuts.keep_lowest_at(kept);
+  for (int k = 0; k < 3 * CuttingPlanes::kCapacity; ++k) {
+    add();
+    REQUIRE(cuts.size() == CuttingPlanes::kCapacity);
+    REQUIRE(cuts.points().size() == CuttingPlanes::kCapacity);
+    // All but one of the places belong to the lowest of all; the newest cut is there whatever its height.
+    std::vector<Vector3> lowest = all;
+    std::ranges::sort(lowest, {}, [&](const Vector3& d) { return kept.dot(d); });
+    const auto holds = [&](const Vector3& d) { return std::ranges::find(cuts.points(), d) != cuts.points().end(); };
+    CHECK(holds(all.back()));
+    CHECK(std::all_of(lowest.begin(), lowest.begin() + CuttingPlanes::kCapacity - 1, holds));
+    CHECK(cuts.upper_bound(kept) == kept.dot(lowest.front()));
+  }
+}
+
+TEST_CASE("another kept normal changes which cuts stay") {
+  CuttingPlanes cuts;
+  for (int k = 0; k < CuttingPlanes::kCapacity; ++k) cuts.add({static_cast<double>(k), static_cast<double>(-k), 0});
+  cuts.keep_lowest_at(Vector3::UnitX());
+  cuts.add(Vector3(0.5, 0.5, 0));  // in place of the highest along x, which is the lowest along y
+  CHECK(cuts.upper_bound(Vector3::UnitX()) == 0);
+  CHECK(cuts.upper_bound(Vector3::UnitY()) == 2 - CuttingPlanes::kCapacity);
+  cuts.keep_lowest_at(Vector3::UnitY());
+  cuts.add(Vector3(0.25, 0.25, 0));  // in place of the highest along y: the one before
+  CHECK(cuts.upper_bound(Vector3::UnitX()) == 0);
+  CHECK(cuts.upper_bound(Vector3::UnitY()) == 2 - CuttingPlanes::kCapacity);
+  CHECK(std::ranges::find(cuts.points(), Vector3(0.5, 0.5, 0)) == cuts.points().end());
 }
 
 TEST_CASE("maximize goes on between cuts that are all but parallel") {
@@ -157,46 +198,4 @@ TEST_CASE("one level cut has its maximum where it stands") {
   CHECK(top.is_interior);
   CHECK(top.value == 3);
   CHECK(top.u == Vector2::Zero());
-}
-
-TEST_CASE("a way that is open between two cuts is found, however they are turned") {
-  constexpr double kLevel = -0.7, kLeast = 1e-3;
-  const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
-  const auto side = [&](double angle, double slope) -> Vector3 {
-    return kLevel * plane.n + slope * plane.lift({-std::sin(angle), std::cos(angle)});
-  };
-  for (int k = 0; k < 126; ++k) {
-    const double turn = 0.05 * k;
-    for (const double sector : {0.5, 0.1, 0.01}) {
-      CuttingPlanes cuts;
-      cuts.add(kLevel * plane.n);
-      cuts.add(side(turn, 1.3));
-      cuts.add(side(turn + sector, -0.4));
-      const CuttingPlanes::Reach open = cuts.reach(plane, Vector2::Zero(), kLevel, kLeast);
-      CHECK(open.distance == std::numeric_limits<double>::infinity());
-      const double way = std::remainder(std::atan2(open.way.y(), open.way.x()) - turn, 2 * std::numbers::pi);
-      CHECK(way >= 0);
-      CHECK(way <= sector);
-      // One that closes a disc across the sector.
-      cuts.add((kLevel + 0.1) * plane.n - 0.5 * plane.lift({std::cos(turn), std::sin(turn)}));
-      const double stop = cuts.reach(plane, Vector2::Zero(), kLevel, kLeast).distance;
-      CHECK(stop > 0.2);
-      CHECK(stop < 0.3);
-    }
-  }
-}
-
-TEST_CASE("a way beside the edge of a closed disc is open, where the disc is narrower than what counts") {
-  constexpr double kLevel = -2e-10, kLeast = 0.01;
-  const TangentPlane plane(Vector3::UnitZ(), Vector3::UnitX());
-  CuttingPlanes cuts;
-  cuts.add(kLevel * plane.n);
-  cuts.add(kLevel * plane.n + plane.lift({0, 1}));       // closes u.y < 0
-  cuts.add(kLevel * plane.n + plane.lift({4, -0.04}));   // closes u.x < 0.01 u.y
-  cuts.add(kLevel * plane.n + plane.lift({-1e-11, 0}));  // closes a disc that touches the line u.x = 0, as far as 0.1
-  const CuttingPlanes::Reach open = cuts.reach(plane, Vector2::Zero(), kLevel, kLeast);
-  CHECK(open.distance == std::numeric_limits<double>::infinity());
-  CHECK(open.way.y() > 0);
-  CHECK(open.way.x() > 0.01);
-  CHECK(open.way.x() < kLeast / 0.1);
 }

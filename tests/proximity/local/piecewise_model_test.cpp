@@ -149,7 +149,7 @@ TEST_CASE("where there is no piece, nothing bounds the gain and nothing is activ
 
 TEST_CASE("corners hold the normal together when they are as low as each other, whatever the support function is rounded to") {
   constexpr double kRounding = 1e-16;
-  const StrictComplementarity hold(0, kRounding, 1);
+  const StrictComplementarity hold(kRounding, 1);
   const Symmetric2 saddle{-1, 0, 1};
   for (const double level : {0.0, 0.5 * kRounding, 3 * kRounding, 1.0}) {
     const std::vector<Piece> edge = {{level, {1, 0}}, {level, {-1, 0}}, {level + 2, {0, 1}}};
