@@ -4,9 +4,16 @@
 #include <limits>
 
 namespace supernormal {
+namespace {
+
+// A bound is the length of a vector whose three components have the rounding of s each, less s: it cannot fall below about three of
+// them.
+constexpr double kFloor = 4;
+
+}  // namespace
 
 double absolute_tolerance(const GapFunction& gap, const Settings& settings) {
-  return std::max(settings.tolerance * gap.length_unit() - gap.rounding(), 2 * gap.rounding());
+  return std::max(settings.tolerance * gap.length_unit() - gap.rounding(), kFloor * gap.rounding());
 }
 
 double optimality_gap_bound(const GapJet& jet, double rolling_radius) {

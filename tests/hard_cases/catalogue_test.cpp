@@ -55,6 +55,17 @@ Settings certified() {
 
 }  // namespace
 
+TEST_CASE("hard cases: apart, touching, or overlapping by less than the ball that rolls inside, every one converges") {
+  for (const HardCase& one : catalogue()) {
+    Violations exceptions;
+    const Proximity answer = solve(one, {}, exceptions);
+    const GapFunction gap(*one.shape1, one.pose1, *one.shape2, one.pose2);
+    if (answer.gap + gap.rolling_radius() >= 0 && answer.status != Status::Converged) {
+      FAIL_CHECK(describe(one), "status ", static_cast<int>(answer.status), ", gap ", answer.gap, ", error ", answer.error);
+    }
+  }
+}
+
 TEST_CASE("hard cases: every one has a name of its own and a reason") {
   std::set<std::string> names;
   for (const HardCase& one : catalogue()) {

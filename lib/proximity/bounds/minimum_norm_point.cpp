@@ -15,7 +15,7 @@ constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 /// The vertices of the simplex that holds the nearest point so far, in its interior: a point, a segment or a triangle.
 class Simplex {
  public:
-  explicit Simplex(const Vector3& vertex) : vertices_{vertex, vertex, vertex}, count_(1), best_{vertex.norm(), unit(vertex)} {}
+  explicit Simplex(const Vector3& vertex) : vertices_{vertex, vertex, vertex}, count_(1), best_{vertex, vertex.norm(), unit(vertex)} {}
 
   const MinimumNormPoint& best() const { return best_; }
 
@@ -25,7 +25,7 @@ class Simplex {
     const std::array<Vector3, 3> old = vertices_;
     const std::size_t old_count = count_;
     if (old_count == 3 && is_origin_inside(vertex)) {
-      best_ = {0, Vector3::Zero()};
+      best_ = {Vector3::Zero(), 0, Vector3::Zero()};
       return true;
     }
     const double before = best_.norm;
@@ -47,7 +47,7 @@ class Simplex {
   bool is_better(const Vector3& point, const Vector3& direction) {
     const double norm = point.norm();
     if (!(norm < best_.norm)) return false;
-    best_ = {norm, unit(direction)};
+    best_ = {point, norm, unit(direction)};
     return true;
   }
 

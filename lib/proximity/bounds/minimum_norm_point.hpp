@@ -9,7 +9,8 @@ namespace supernormal {
 
 /// A point of a hull, and the direction to it.
 struct MinimumNormPoint {
-  double norm;     ///< m; of a convex combination of the points, to rounding
+  Vector3 point;   ///< m; a convex combination of the points, to rounding
+  double norm;     ///< m; of the point
   Vector3 normal;  ///< unit, from the origin to it; zero where the origin is inside, or a point is the origin
 };
 

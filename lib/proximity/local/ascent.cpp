@@ -118,16 +118,18 @@ Step Ascent::choose_step() {
 // Every p in the hull of the cuts has s + rho <= m.p <= |p| for every unit m.
 void Ascent::ask_hull(bool must_replace, Step& step) {
   keep_own_cut();
-  const auto [upper, normal] = minimum_norm_point(cuts_.points());
+  const auto [point, upper, normal] = minimum_norm_point(cuts_.points());
   is_overlap_proved_ = !is_concave() && upper <= gap_.rounding();
   if (is_overlap_proved_) return;
   error_ = is_concave() ? std::max(upper - height(), 0.0) : kInfinity;
   // Where s + rho is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their
   // end.
   is_hulls_turn_ = must_replace || !is_concave() || !is_hulls_turn_;
-  is_stuck_ = upper <= gap_.rounding() || (is_hulls_turn_ && (radius_ < kNoRadius || !is_concave()) && !(upper < upper_));
+  is_stuck_ = upper <= gap_.rounding() || (is_hulls_turn_ && (radius_ < kNoRadius || !is_concave()) && !(upper < upper_) &&
+               (normal - hulls_normal_).norm() < kNoRadius);
   if (is_stuck_ || !is_hulls_turn_) return;
   upper_ = upper;
+  hulls_normal_ = normal;
   if (must_replace) radius_ = std::max(0.5 * std::min(radius_, step.length), 0.5 * kNoRadius);
   is_from_hull_ = true;
   cuts_.keep_lowest_at(normal);

@@ -55,7 +55,7 @@ void check_lemmas(const std::string& name, const RandomPair& pair, std::mt19937_
   const double rho = gap.rolling_radius(), rounding = 4 * gap.rounding();
   const auto seed = static_cast<unsigned>(engine());
   const std::vector<Vector3> cuts = cuts_of(gap, random_normals(kCuts, seed));
-  std::vector<Vector3> of_hull = {minimum_norm_point(cuts), mean_of(cuts, engine), mean_of(cuts, engine)};
+  std::vector<Vector3> of_hull = {minimum_norm_point(cuts).point, mean_of(cuts, engine), mean_of(cuts, engine)};
   for (const Vector3& m : random_normals(kDirections, seed + 1)) {
     GapJet jet;
     gap.evaluate(m, Order::Value, jet);

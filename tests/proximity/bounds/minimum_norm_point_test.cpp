@@ -96,7 +96,7 @@ double distance_from_hull(Points points, const Vector3& point) {
 
 Vector3 nearest_of(const Points& points) {
   const Traps traps("nearest point of a hull");
-  return minimum_norm_point(points);
+  return minimum_norm_point(points).point;
 }
 
 /// As near as the reference and in the hull, to `rounding` of the largest of the points.
