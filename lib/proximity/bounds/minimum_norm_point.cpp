@@ -15,7 +15,8 @@ constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 /// The vertices of the simplex that holds the nearest point so far, in its interior: a point, a segment or a triangle.
 class Simplex {
  public:
-  explicit Simplex(const Vector3& vertex) : vertices_{vertex, vertex, vertex}, count_(1), best_{vertex, vertex.norm(), unit(vertex)} {}
+  explicit Simplex(const Vector3& vertex)
+      : vertices_{vertex, vertex, vertex}, count_(1), best_{vertex, vertex.norm(), unit(vertex)} {}
 
   const MinimumNormPoint& best() const { return best_; }
 

@@ -56,7 +56,7 @@ Status Ascent::climb_on(double cutoff) {
     if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
     const Step step = choose_step();
     if (is_finished(cutoff, status)) {
-      if (has_kinks_ && is_from_bounds_ && status == Status::Converged) go_to_stratum();
+      if (has_kinks_ && is_from_bounds_) go_to_stratum();
       return status;
     }
     evaluate(step.normal.normalized(), trial(), active_[1 - now_]);
@@ -101,7 +101,7 @@ Step Ascent::choose_step() {
   Step step = model_.propose(current(), active_[now_], bfgs_, radius_);
   const double estimate = model_.leaves_face() ? kInfinity : step.remaining_gain;
   const bool is_done = estimate <= tolerance_;
-  const bool must_replace = model_.leaves_face() || (is_model_short_ && is_concave()) || radius_ < kNoRadius || is_ruled_out(step);
+  const bool must_replace = model_.leaves_face() || is_model_short_ || radius_ < kNoRadius || is_ruled_out(step);
   is_from_hull_ = false;
   if (is_concave()) {
     error_ = kInfinity;
@@ -125,12 +125,15 @@ void Ascent::ask_hull(bool must_replace, Step& step) {
   // Where s + rho is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their
   // end.
   is_hulls_turn_ = must_replace || !is_concave() || !is_hulls_turn_;
-  is_stuck_ = upper <= gap_.rounding() || (is_hulls_turn_ && (radius_ < kNoRadius || !is_concave()) && !(upper < upper_) &&
-               (normal - hulls_normal_).norm() < kNoRadius);
-  if (is_stuck_ || !is_hulls_turn_) return;
+  if (!is_hulls_turn_) return;
+  const bool is_repeated = !(upper < upper_) && (normal - hulls_normal_).norm() < kNoRadius;
+  is_stuck_ = upper <= gap_.rounding() || (is_repeated && (radius_ < kNoRadius || !is_concave()));
+  if (is_stuck_) return;
   upper_ = upper;
   hulls_normal_ = normal;
   if (must_replace) radius_ = std::max(0.5 * std::min(radius_, step.length), 0.5 * kNoRadius);
+  // The hull of points that all but coincide loses digits; over the tangent plane their cuts do not.
+  if (is_repeated) return take_top_of_cuts(step);
   is_from_hull_ = true;
   cuts_.keep_lowest_at(normal);
   step = {normal, (normal - current().n).norm(), std::max(upper - height(), 0.0), kInfinity};
@@ -139,11 +142,15 @@ void Ascent::ask_hull(bool must_replace, Step& step) {
 void Ascent::take_top_of_cuts(Step& step) {
   keep_own_cut();
   const TangentPlane plane = model_.local_model(current(), bfgs_).plane1;
-  const CuttingPlanes::Maximum top = cuts_.maximize(plane, radius_ < kNoRadius ? tuning.longest_step : radius_);
+  const double radius = is_concave() || radius_ < kNoRadius ? tuning.longest_step : radius_;
+  const CuttingPlanes::Maximum top = cuts_.maximize(plane, radius);
   step = {current().n + plane.lift(top.u), top.u.norm(), std::max(top.value - height(), 0.0), kInfinity};
   cuts_.keep_lowest_at(step.normal);
-  // Cuts whose maximum is not on the rim bound s to first order in every direction: s gains no more, but for the turn itself.
-  if (top.is_interior) error_ = std::min(error_, tuning.gain_safety * step.gain + top.uncertainty);
+  if (!top.is_interior) return;
+  // Cuts whose maximum is not on the rim bound s + rho where it is not negative, and elsewhere to first order in every direction:
+  // there s gains no more, but for the turn itself.
+  const double safety = is_concave() ? 1 : tuning.gain_safety;
+  error_ = std::min(error_, std::max(safety * step.gain + top.uncertainty, is_concave() ? -2 * height() : 0.0));
 }
 
 // Newer cuts may have taken the place of that of the current normal.

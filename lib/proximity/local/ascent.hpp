@@ -90,8 +90,8 @@ class Ascent {
   bool is_overlap_proved_ = false;
   LocalCandidate candidate_;
   // Of one climb:
-  double radius_ = 0;  // of the trust region, gnomonic
-  double upper_ = 0;   // m; what the hull allowed s + rho when it last proposed a normal
+  double radius_ = 0;                       // of the trust region, gnomonic
+  double upper_ = 0;                        // m; what the hull allowed s + rho when it last proposed a normal
   Vector3 hulls_normal_ = Vector3::Zero();  // of that proposal
   bool is_hulls_turn_ = false;
   bool is_from_hull_ = false;    // the step
