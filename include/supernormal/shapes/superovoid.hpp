@@ -34,7 +34,8 @@ class SUPERNORMAL_API Superovoid final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
 
-  /// As that of the Superellipsoid: where it is flat, the gradient of the implicit function at the moved boundary point.
+  /// The normal at the moved boundary point where the body is flat (the gradient of the implicit function), as for the
+  /// Superellipsoid.
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
 
@@ -45,7 +46,7 @@ class SUPERNORMAL_API Superovoid final : public Shape {
   /// In closed form. With a taper the centroid is not the origin but on the z-axis.
   MassProperties mass_properties() const override;
 
-  /// a, b, c: those of the superellipsoid that is tapered.
+  /// The half-axes a, b, c of the superellipsoid that is tapered.
   const Vector3& half_axes() const { return half_axes_; }
   double delta() const { return delta_; }
   double epsilon() const { return epsilon_; }
