@@ -10,7 +10,7 @@ namespace {
 constexpr double kLayer = 1e-4;  // depth at which rigid contacts stick, relative to the mean half-extent
 
 // ODE pushes overlaps out to nothing, and rounding would then part the bodies. So a rigid contact that sticks is pushed only to a
-// layer, and may sink into it; corners, whose depth is 0, sink with the deepest.
+// layer of this depth, and may sink into it; corners, whose depth is 0, sink with the deepest.
 void keep_in_touch(Patch& patch) {
   const dContactGeom& geom = patch.deepest().geom;
   const double layer = kLayer * std::min(mean_half_extent(geom.g1), mean_half_extent(geom.g2));
@@ -24,7 +24,7 @@ void keep_in_touch(Patch& patch) {
 
 }  // namespace
 
-// A contact joint cannot pull, so the attraction is a force from outside that the joint has to hold.
+// A contact joint cannot pull, so the attraction is an external force that the joint has to hold.
 void add_adhesion(const PairMaterial& law, Patch& patch) {
   const dBodyID body1 = patch.body1();
   const dBodyID body2 = patch.body2();

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Drag of `coefficient` (N s/m) against the velocity that the step would end with, so that it brings to rest at most.
+/// Applies a drag of `coefficient` (N s/m) against the velocity that the step would end with, so that it brings the body to rest
+/// at most.
 void add_drag(dBodyID body, double coefficient, double step) {
   dMass mass;
   dBodyGetMass(body, &mass);
@@ -23,7 +24,7 @@ void add_drag(dBodyID body, double coefficient, double step) {
   dBodyAddForce(body, ode::to_real(force.x()), ode::to_real(force.y()), ode::to_real(force.z()));
 }
 
-/// The direction of motion in the frame of a geom; x where the body does not move.
+/// The direction of motion in the frame of a geom; the x-axis if the body does not move.
 Vector3 heading(dBodyID body, dGeomID geom) {
   const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body));
   const double speed = velocity.norm();
@@ -45,7 +46,7 @@ BodyForces::BodyForces(const std::vector<Effect>& list, double step) : step_(ste
       passes_.push_back({effect.index(), &BodyForces::apply_buoyancy});
     }
   }
-  // Behind buoyancy: drag acts on the velocity that the other forces lead to.
+  // Drag passes come after buoyancy, because drag acts on the velocity that the other forces lead to.
   if (quadratic_drag_) passes_.push_back({drag, &BodyForces::apply_quadratic_drag});
   if (stokes_drag_) passes_.push_back({stokes, &BodyForces::apply_stokes_drag});
 }

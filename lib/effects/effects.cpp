@@ -64,7 +64,7 @@ struct Effects::State {
   State(const std::vector<Effect>& effects, double duration)
       : list(validated(effects)), step(ode::require_positive("step", duration, "s")), laws(list), forces(list, step) {}
 
-  /// Adds the time of a piece of work to an effect's, if asked to.
+  /// Does a piece of work and adds its time to that of an effect, if times are measured.
   template <typename Work>
   void timed(EffectIndex effect, const Work& work) {
     if (!is_measuring) return work();
@@ -84,7 +84,7 @@ struct Effects::State {
   std::array<unsigned long long, std::variant_size_v<Effect>> visits{};
 };
 
-// One pass after the other over the contacts with the same normal, which follow one another; those to be attached move to the
+// Runs the passes on each group of contacts with the same normal, which are consecutive; contacts to be attached move to the
 // front.
 int Effects::State::run_passes(PairMaterial& law, std::span<dContact> contacts) {
   std::size_t kept = 0;

@@ -1,4 +1,4 @@
-// Coulomb friction within ODE's contact joint, whose two friction forces are limited one by one: a rectangle in the tangent plane.
+// Coulomb friction within ODE's contact joint, whose two friction forces have separate limits: a rectangle in the tangent plane.
 #include <cmath>
 
 #include "effects/slip.hpp"
@@ -8,19 +8,19 @@ namespace {
 
 constexpr double kNoSlip = 1e-150;  // m/s; below, there is no direction
 
-// 45 degrees from the slip, so that the corner of ODE's square of forces lies against it.
+// Turns the first direction 45 degrees from the slip, so that the corner of ODE's square of forces lies against it.
 void align_corner(const Slip& slip, dContact& contact) {
   const Vector3 n = ode::to_vector(contact.geom.normal);
   const Vector3 u = slip.at(contact);
   const double speed = u.norm();
   const Vector3 along = speed > kNoSlip ? Vector3(u / speed) : n.unitOrthogonal();
-  // Rounding has left a share along n, which ODE would take for a slanting direction.
+  // Rounding has left a component along n, which ODE would take for a slanting direction.
   Vector3 first = along + n.cross(along);
   first -= n.dot(first) * n;
   ode::from_vector(first.normalized(), contact.fdir1);
 }
 
-/// The direction in the world, of the body or, without one, of the geom.
+/// The direction in the world frame; it is fixed to the body or, without one, to the geom.
 Vector3 world_direction(const FrictionAxes& grain, const dContactGeom& geom) {
   const dGeomID carrier = grain.is_on_second ? geom.g2 : geom.g1;
   const Vector3& d = grain.direction;
@@ -37,7 +37,7 @@ void set_ellipse(const FrictionAxes& grain, const Slip& slip, dContact& contact)
   const Vector3 n = ode::to_vector(contact.geom.normal);
   Vector3 first = world_direction(grain, contact.geom);
   first -= n.dot(first) * n;
-  // Looked at end on, the grain has no direction.
+  // Seen along its own axis, the direction has no projection onto the surface, and any tangent will do.
   if (first.norm() < 1e-6 * grain.direction.norm()) first = n.unitOrthogonal();
   first.normalize();
   const Vector3 u = slip.at(contact);
@@ -60,8 +60,8 @@ void align_anisotropic_friction(const PairMaterial& law, Patch& patch) {
   for (dContact& contact : patch.contacts) set_ellipse(law.grain, slip, contact);
 }
 
-// The axes are those of friction (fdir1). Torques are limited one by one too. At rest it is the torque of what pulls the bodies
-// along that would set them rolling, about the axis n x slip.
+// The axes are those of friction (fdir1), and torques have separate limits too. At rest, the bodies would be set rolling by the
+// torque of the force that pulls them along, about the axis n x slip.
 void align_rolling(const PairMaterial& law, Patch& patch) {
   const Slip slip(patch);
   const Vector3 spin = spin_of(patch.body1()) - spin_of(patch.body2());

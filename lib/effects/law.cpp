@@ -14,7 +14,7 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr Material kOther = -2;  // one that is not listed
+constexpr Material kOther = -2;  // stands for all materials that are not listed
 
 template <typename E>
 constexpr EffectIndex index_of() {
@@ -32,13 +32,13 @@ class Entries {
  public:
   explicit Entries(const std::vector<Effect>& list) : list_(list) {}
 
-  /// Listed for the pair itself.
+  /// The entry that is listed for the pair itself.
   const E* between(Material a, Material b) const {
     return find([&](const MaterialSelector& on) {
       return on.is_pair() && ((on.first() == a && on.second() == b) || (on.first() == b && on.second() == a));
     });
   }
-  /// Listed for the material, or for all.
+  /// The entry that is listed for the material, or else for all.
   const E* of(Material m) const {
     const E* const own = own_of(m);
     return own != nullptr ? own : find([](const MaterialSelector& on) { return on.is_all(); });
@@ -71,7 +71,7 @@ Restitution combined(const Restitution& a, const Restitution& b) {
 }
 Adhesion combined(const Adhesion& a, const Adhesion& b) { return {geometric(a.pull_off, b.pull_off), {}}; }
 
-/// The entries that count for the two materials of a pair; null where there is none. One for the pair counts for both.
+/// The entries that apply to the two materials of a pair; null where there is none. An entry for the pair applies to both.
 template <typename E>
 struct Sides {
   const E* first;
@@ -85,7 +85,7 @@ Sides<E> find_sides(const std::vector<Effect>& list, Material a, Material b) {
   return {entries.of(a), entries.of(b)};
 }
 
-/// What a pair of materials has of an effect that both must have.
+/// The combined values of an effect that both materials of a pair must have.
 template <typename E>
 std::optional<E> find_common(const std::vector<Effect>& list, Material a, Material b) {
   const auto [first, second] = find_sides<E>(list, a, b);
@@ -93,13 +93,14 @@ std::optional<E> find_common(const std::vector<Effect>& list, Material a, Materi
   return first->on.is_pair() ? *first : combined(*first, *second);
 }
 
-/// Writes the law of one ordered pair.
+/// Writes the parameters of one ordered pair.
 class PairMaterialWriter {
  public:
   PairMaterialWriter(const std::vector<Effect>& list, Material a, Material b, PairMaterial& law)
       : list_(list), a_(a), b_(b), law_(law) {}
 
-  // Adhesion adds to the forces that friction foresees; springs come last, they sort the contacts.
+  // Adhesion comes first, because it adds to the forces that friction anticipates; springs come last, because they reorder the
+  // contacts.
   void write() {
     write_adhesion();
     if (!write_anisotropic_friction()) write_friction();
@@ -129,7 +130,7 @@ class PairMaterialWriter {
   void write_friction() {
     const auto found = find_common<Friction>(list_, a_, b_);
     if (!found) return;
-    // Approx1: a coefficient; without it ODE takes mu for a force in newtons. A square that fits into the circle.
+    // Approx1 makes mu a coefficient; without it ODE takes mu for a force in newtons. The square of forces fits into the circle.
     law_.surface.mode |= dContactApprox1 | dContactFDir1;
     law_.surface.mu = law_.surface.mu2 = ode::to_real(found->coefficient * std::sqrt(0.5));
     add<Friction>(2, align_friction);
@@ -152,7 +153,7 @@ class PairMaterialWriter {
     if (!found || (found->rolling == 0 && found->spinning == 0)) return;
     law_.rolling = found->rolling;
     law_.spinning = found->spinning;
-    // ODE makes a dead row for a coefficient of 0 and none for a negative one.
+    // ODE makes a row without effect for a coefficient of 0, and none for a negative one.
     law_.surface.mode |= dContactApprox1 | dContactRolling | dContactMu2;
     law_.surface.rho = law_.surface.rho2 = ode::to_real(found->rolling > 0 ? found->rolling : -1);
     law_.surface.rhoN = ode::to_real(found->spinning > 0 ? found->spinning : -1);
@@ -198,7 +199,7 @@ class PairMaterialWriter {
     add<Hertz>(0, set_hertz);
   }
 
-  // The target velocity is given as it is (motionN); ODE adds none for the depth.
+  // The target velocity is given as it is (motionN); with a soft ERP of 0 ODE adds nothing for the depth.
   void make_soft(EffectIndex spring) {
     law_.spring = spring;
     law_.surface.mode |= dContactSoftERP | dContactSoftCFM | dContactMotionN;

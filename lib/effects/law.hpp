@@ -1,4 +1,4 @@
-// What a pair of materials makes of its contacts.
+// The parameters of contacts between two materials, compiled from a list of effects.
 #pragma once
 
 #include <ode/ode.h>
@@ -21,12 +21,12 @@ struct PairMaterial;
 struct Patch {
   std::span<dContact> contacts;
   double step;     ///< s
-  int kept;        ///< contacts to be attached; a pass may move others behind them
-  int coarse = 0;  ///< of them, compliant ones with too few steps
+  int kept;        ///< contacts that may be attached; a pass may move others behind them
+  int coarse = 0;  ///< compliant contacts among them that last too few steps
 
   dContact& deepest() const { return contacts.front(); }
-  /// Our corners have depth 0, and the deepest point lies anywhere between them: what the contacts share equally is shared by the
-  /// corners alone, so that it acts in the middle. Of ODE's own pairs all bear.
+  /// Our corners have depth 0, and the deepest point lies anywhere between them: forces that the contacts share equally are
+  /// shared by the corners alone, so that the resultant acts in the middle. For ODE's own pairs all contacts bear.
   bool has_corners() const { return contacts.size() > 1 && contacts.back().geom.depth == 0; }
   bool bears(const dContact& contact) const { return !has_corners() || &contact != &contacts.front(); }
   double bearers() const { return static_cast<double>(contacts.size() - (has_corners() ? 1 : 0)); }
@@ -39,16 +39,16 @@ struct Pass {
   void (*run)(const PairMaterial& law, Patch& patch);
 };
 
-/// What depends on the direction of slip on one of the bodies.
+/// Coefficients of friction that depend on the direction of slip on one of the bodies.
 struct FrictionAxes {
   double along = 0;
   double across = 0;
   Vector3 direction = Vector3::UnitX();
-  bool is_on_second = false;  ///< fixed to the body of geom.g2
+  bool is_on_second = false;  ///< whether the direction is fixed to the body of geom.g2
 };
 
 struct PairMaterial {
-  dSurfaceParameters surface{};  ///< that all contacts start from
+  dSurfaceParameters surface{};  ///< parameters that all contacts start from
   FrictionAxes grain;
   double rolling = 0;                      ///< m
   double spinning = 0;                     ///< m
@@ -56,21 +56,21 @@ struct PairMaterial {
   double stiffness = 0;                    ///< N/m
   double damping = 0;                      ///< N s/m
   double elastic_modulus = 0;              ///< E*, Pa
-  double damping_ratio = 0;                ///< b of Hertz
+  double damping_ratio = 0;                ///< b of Hertz's damper
   double pull_off = 0;                     ///< N
 
-  std::vector<Pass> passes;                             ///< that contacts need besides
-  std::vector<EffectIndex> listed;                      ///< that have a share in this law
-  std::array<int, std::variant_size_v<Effect>> rows{};  ///< that each adds to a contact
-  unsigned long long contacts = 0;                      ///< set up so far
+  std::vector<Pass> passes;                             ///< passes that contacts need besides
+  std::vector<EffectIndex> listed;                      ///< effects that take part in these contacts
+  std::array<int, std::variant_size_v<Effect>> rows{};  ///< rows that each effect adds to a contact
+  unsigned long long contacts = 0;                      ///< contacts set up so far
   unsigned long long coarse = 0;
 };
 
-/// Laws for all ordered pairs of materials: one row and one column for each material up to the largest that is listed, and one
-/// more for all others.
+/// The parameters of all ordered pairs of materials: one row and one column for each material up to the largest that is listed,
+/// and one more for all others.
 class Laws {
  public:
-  /// std::invalid_argument when two effects of a pair exclude each other.
+  /// Throws std::invalid_argument when two effects of a pair exclude each other.
   explicit Laws(const std::vector<Effect>& list);
 
   PairMaterial& of(Material material1, Material material2) { return laws_[slot(material1) * size_ + slot(material2)]; }
@@ -85,7 +85,7 @@ class Laws {
   std::vector<PairMaterial> laws_;
 };
 
-// The passes: friction.cpp, compliance.cpp, adhesion.cpp.
+// The passes are in friction.cpp, compliance.cpp and adhesion.cpp.
 void align_friction(const PairMaterial& law, Patch& patch);
 void align_anisotropic_friction(const PairMaterial& law, Patch& patch);
 void align_rolling(const PairMaterial& law, Patch& patch);

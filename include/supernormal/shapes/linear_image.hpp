@@ -29,7 +29,7 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   /// The image of a ball is an ellipsoid, and a ball rolls inside that.
   double rolling_radius() const override { return shape_->rolling_radius() * smallest_ * (smallest_ / largest_); }
 
-  /// As exact as the mass properties of the shape.
+  /// These are as exact as the mass properties of the shape.
   MassProperties mass_properties() const override;
 
   const Shape& shape() const { return *shape_; }

@@ -11,7 +11,7 @@ double ConvexPolygon::area() const {
   return 0.5 * twice;
 }
 
-// Sutherland and Hodgman (1974): the other polygon's edges cut this one, one after the other.
+// Clips by Sutherland and Hodgman's algorithm (1974): the other polygon's edges cut this one, one after the other.
 ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   ConvexPolygon rest = *this;
   for (int edge = 0; edge < other.size() && rest.size() > 0; ++edge) {
@@ -41,7 +41,7 @@ bool ConvexPolygon::contains(const Vector2& point) const {
   return size_ > 0;
 }
 
-// The corners between the edges that are seen from the point give way to it.
+// The point replaces the corners between the edges that are visible from it.
 ConvexPolygon ConvexPolygon::with(const Vector2& point) const {
   const auto is_seen = [&](int edge) {
     const Vector2& here = (*this)[edge];

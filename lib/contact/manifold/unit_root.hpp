@@ -5,7 +5,7 @@
 
 namespace supernormal {
 
-/// As of complex numbers.
+/// The product of two complex numbers.
 inline Vector2 product(const Vector2& a, const Vector2& b) {
   return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()};
 }

@@ -15,13 +15,13 @@
 namespace supernormal {
 namespace {
 
-// The normal at an edge is wanted better than the gap, and another step of a superlinear iteration is cheap.
+// The normal at an edge must be more precise than the gap, and another step of a superlinear iteration is cheap.
 constexpr double kArcTolerance = 1e-2;  // of the tolerance of the gap
 
-// Normals that differ by less than this (radians) may be one, as far as the tolerance of the gap goes.
+// Normals that differ by less than this (radians) are indistinguishable at the tolerance of the gap.
 constexpr double kNearEdgeNormal = 1e-5;
 
-// What touches the body must not be lost by rounding.
+// The searched box is larger than the body's, so that rounding loses no triangle that touches it.
 constexpr double kBoxMargin = 1e-9;  // of the length unit
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -109,7 +109,7 @@ void MeshContacts::find_on_patch(SupportProbe& probe, std::size_t patch) {
   }
 }
 
-// Each convex edge once, from the face with the lower number.
+// Each convex edge is handled once, by the face with the lower number.
 bool MeshContacts::is_edge_owned_by_neighbour(int face, int side) const {
   const int neighbour = surface_.faces()[at(face)].neighbour[at(side)];
   if (neighbour < 0 || neighbour > face) return false;
@@ -134,7 +134,7 @@ bool MeshContacts::open_arc(SupportProbe& probe, int f, int side, Arc& arc, ArcS
   const std::size_t other = at(surface_.faces()[at(face.neighbour[at(side)])].patch);
   const Vector3& other_normal = surface_.patches()[other].normal;
   const double angle = std::atan2(other_normal.dot(across), other_normal.dot(arc.from));
-  arc.end = angle > 0 ? angle : std::numbers::pi;  // back to back
+  arc.end = angle > 0 ? angle : std::numbers::pi;  // the faces are back to back
   high = arc.sample(arc.end, sights_[other].deepest);
   return sights_[other].gap <= 0;
 }
@@ -175,8 +175,8 @@ void MeshContacts::find_on_arc(SupportProbe& probe, int f, int side, const Arc& 
   if (touches_surface(probe, contact)) found_.add(contact);
 }
 
-// Solved for the hull of the triangles there, not for the point alone, whose gap may be larger still along normals that are none of
-// the surface.
+// Solves for the hull of the triangles at the vertex, not for the point alone, whose gap may be larger still along normals that
+// the surface does not have.
 void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vector3& start) {
   const int corner = surface_.faces()[at(f)].corner[at(k)];
   if (settled_[at(corner)] != 0) return;
@@ -188,10 +188,10 @@ void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vecto
   const Proximity found = solve_for_hull(probe, surface_.faces()[at(f)].vertices[at(k)], &start);
   if (found.status == Status::InvalidInput) return;
   const bool is_apart = found.status == Status::Apart || found.gap > 0;
-  // Another edge's contact is found over that edge; but the edge that led here may be in touch with a flat side of the body, any
-  // point of which was as good as the one found there.
+  // The contact of another edge is found over that edge; but the edge that led here may touch a flat side of the body, any point
+  // of which was as good as the one found there.
   const bool is_other_edge = (found.normal + start).norm() > kNearEdgeNormal && is_normal_of_edge_at(corner, -found.normal);
-  // Where it is no normal of the vertex, another edge may lead to another maximum.
+  // If the normal is not one of the vertex, another edge may lead to another maximum.
   settled_[at(corner)] = is_apart || (!is_other_edge && add_at_vertex(probe, f, k, found)) ? 1 : 0;
 }
 
@@ -217,7 +217,7 @@ Proximity MeshContacts::solve_for_hull(SupportProbe& probe, const Vector3& origi
   return found;
 }
 
-// False when the normal is none of the surface there, or when that cannot be told.
+// Returns false when the normal is not one of the surface there, or when that cannot be decided.
 bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
   const Face& face = surface_.faces()[at(f)];
   const Vector3& vertex = face.vertices[at(k)];
@@ -234,22 +234,22 @@ bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proxim
   return true;
 }
 
-// The deepest point may lie under no face although the solid goes on there.
+// The deepest point may lie under no face although the solid goes on there. There are two such cases.
 //
-// A sharp tip that is pressed into the corner of floor and wall: where the floor's plane is above the tip, there is the wall
-// already. The solid goes on below the wall, and so does the contact with the floor.
+// A sharp tip is pressed into the corner of floor and wall: where the floor's plane is above the tip, there is the wall already.
+// The solid goes on below the wall, and so does the contact with the floor.
 //
-// A thin rod that stands deep in the floor: above its tip the floor is out of the body's box, and its triangles are not known.
+// A thin rod stands deep in the floor: above its tip the floor is out of the body's box, and its triangles are not known.
 //
-// But only as far as there is solid: beyond a low wall the floor's plane is in the air. Where the body sticks out of that plane it
-// must be in the solid, so that a face that is known lies between there and its other end.
+// The contact goes on only as far as the solid does: beyond a low wall the floor's plane is in the air. Where the body sticks out
+// of that plane it must be in the solid, so that a known face lies between that place and the body's other end.
 void MeshContacts::find_beyond_rim(SupportProbe& probe, std::size_t p) {
   const CoplanarPatch& patch = surface_.patches()[p];
   const PatchSupport& sight = sights_[p];
   if (!(sight.gap <= 0) || sight.is_over) return;
   const Vector3 to_top = probe.deepest(-patch.normal).point - sight.deepest;
   const double rise = patch.normal.dot(to_top);
-  if (!(rise > -sight.gap)) return;  // all of it is behind
+  if (!(rise > -sight.gap)) return;  // the whole body is behind the plane
   if (!surface_.exits_solid(sight.deepest - sight.gap / rise * to_top, sight.deepest + to_top)) return;
   SurfaceContact contact = contact_at(patch.first_face, patch.normal, sight.gap, sight.deepest);
   int side = 0;
@@ -261,7 +261,7 @@ void MeshContacts::find_beyond_rim(SupportProbe& probe, std::size_t p) {
   if (goes_on_unseen || goes_on_behind_wall) beyond_rim_.add(contact);
 }
 
-// Of nearly parallel ones the deepest, whatever the order of the triangles.
+// Among nearly parallel contacts the deepest is added, whatever the order of the triangles.
 void MeshContacts::add_beyond_rim() {
   beyond_rim_.sort();
   for (const SurfaceContact& contact : beyond_rim_.contacts()) {
@@ -281,16 +281,16 @@ bool MeshContacts::is_outside_at(int corner, const Vector3& normal) const {
   return normal.dot(mean) >= -1e-12;
 }
 
-// Whether all triangles at a point are there: the caller found those in the body's box.
+// Whether all triangles at a point are known: the caller found those in the body's box.
 bool MeshContacts::has_complete_neighbourhood(const SupportProbe& probe, const Vector3& point) const {
   return box_.contains(probe.rotation().transpose() * point, surface_.rounding());
 }
 
-// The body's point may lie under a face, and the body beside the solid: a rod that leans against a sheet's border from below.
-// The line from the point to the opposite end of the body lies in the body; where it comes out of the solid it meets the surface.
+// The body's point may lie under a face while the body is beside the solid: a rod that leans against a sheet's border from below.
+// The line from the point to the opposite end of the body lies in the body; where it leaves the solid it meets the surface.
 bool MeshContacts::touches_surface(SupportProbe& probe, const SurfaceContact& contact) const {
   const Vector3 top = probe.deepest(-contact.normal).point;
-  if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // behind all of it
+  if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // the whole body is behind the plane
   return surface_.is_crossed(contact.body_point, top, contact.face) || overlaps_face(probe, surface_.faces()[at(contact.face)]);
 }
 
@@ -305,9 +305,10 @@ Proximity MeshContacts::meet_face(SupportProbe& probe, const Face& face) const {
   return found;
 }
 
-// Where no normal is that of a maximum, the shortest way out of one of the faces that the body crosses. So it is with a body that
-// has sunk and comes out of the solid at the foot of a wall only, or one that comes down across an inner corner: the surface goes
-// in there under its deepest point. Not where the body is behind the face, as it may be at the border of a sheet.
+// If no normal is that of a maximum, takes the shortest translation out of one of the faces that the body crosses. This happens
+// to a body that has sunk and comes out of the solid at the foot of a wall only, or one that comes down across an inner corner:
+// the surface recedes there under its deepest point. It does not count where the body is behind the face, as it may be at the
+// border of a sheet.
 void MeshContacts::find_way_up(SupportProbe& probe) {
   const Vector3 centre = probe.rotation() * box_.centre;
   std::optional<SurfaceContact> shortest;
@@ -318,7 +319,7 @@ void MeshContacts::find_way_up(SupportProbe& probe) {
     const Proximity found = meet_face(probe, face);
     if (found.status == Status::Apart || found.gap > 0) continue;
     const bool is_in_front = face.normal.dot(centre - face.vertices[0]) > surface_.rounding();
-    // Of a flat side of the body point1 may be any point.
+    // If the body has a flat side, point1 may be any point of it.
     const Vector3 opposite = found.point2 - found.gap * found.normal;
     if (!is_in_front && !surface_.exits_solid(centre, found.point1) && !surface_.exits_solid(centre, opposite)) continue;
     shortest = contact_at(static_cast<int>(f), face.normal, sight.gap, sight.deepest);

@@ -9,13 +9,13 @@
 namespace supernormal {
 namespace {
 
-// A triangle whose height is less than this share of its longest side has no normal to speak of.
+// A triangle whose height is less than this share of its longest side has no reliable normal.
 constexpr double kNoHeight = 1e-12;
 
-// Normals that differ by less than this (radians) are one by rounding.
+// Normals that differ by less than this (radians) are equal but for rounding.
 constexpr double kFlat = 1e-12;
 
-// -0 and 0 are equal.
+// Hashes a point; -0 and 0 have the same hash, as they are equal.
 std::uint64_t hash(const Vector3& v) {
   std::uint64_t h = 0;
   for (int i = 0; i < 3; ++i) {
@@ -25,7 +25,7 @@ std::uint64_t hash(const Vector3& v) {
   return h;
 }
 
-// Whether the face stands out of the tangent plane by more than what touching allows for, and not by a rounding of the normal.
+// Whether the face stands out of the tangent plane by more than the contact tolerance and a rounding of the normal.
 bool rises(const Face& face, const Vector3& normal, const Vector3& from, double contact_tolerance) {
   return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& vertex) {
     const Vector3 reach = vertex - from;
@@ -121,15 +121,15 @@ void Surface::match_edges() {
   }
 }
 
-// The neighbour of a face is the one that goes along the edge the other way. Where several do, the flattest of them: what stands
-// out beside it is found when a contact is checked.
+// The neighbour of a face is the one that goes along the edge the other way. Where several do, it is the flattest of them: a face
+// that stands out beside it is found when a contact is checked.
 void Surface::match_uses(std::span<EdgeUse> uses) {
   for (const EdgeUse& use : uses) {
     Face& face = faces_[at(use.face)];
     double best = -std::numeric_limits<double>::infinity();
     for (const EdgeUse& other : uses) {
       const Face& candidate = faces_[at(other.face)];
-      if (candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;  // the same way: itself, or wound differently
+      if (candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;  // the face itself, or one wound differently
       const double flatness = face.normal.dot(candidate.normal);
       if (flatness <= best) continue;
       best = flatness;
@@ -142,7 +142,7 @@ void Surface::match_uses(std::span<EdgeUse> uses) {
 EdgeConvexity Surface::fold_between(const Face& face, int side, const Face& neighbour) const {
   const double sine = neighbour.normal.dot(face.outward[at(side)]);
   const double cosine = neighbour.normal.dot(face.normal);
-  // Back to back: the two sides of a sheet.
+  // The faces are back to back: the two sides of a sheet.
   if (std::abs(sine) <= kFlat) return cosine > 0 ? EdgeConvexity::Flat : EdgeConvexity::Convex;
   return sine > 0 ? EdgeConvexity::Convex : EdgeConvexity::Concave;
 }
@@ -168,7 +168,7 @@ void Surface::grow_patch(int seed) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (face.fold[k] != EdgeConvexity::Flat) continue;
       Face& neighbour = faces_[at(face.neighbour[k])];
-      // Many nearly flat folds make a bend: all have the first one's normal.
+      // Many nearly flat edges make a bend, so the normal is compared with the first one.
       if (neighbour.patch >= 0 || (neighbour.normal - normal).norm() > 2 * kFlat) continue;
       neighbour.patch = number;
       faces_[at(last)].next_in_patch = face.neighbour[k];
@@ -250,7 +250,7 @@ bool Surface::violates_normal_cone(const Vector3& normal, const Vector3& at, con
   });
 }
 
-// Where on the segment the face is met, 0...1; infinite if it is not.
+// The share of the segment, 0...1, at which the face is met; infinite if it is not.
 double Surface::share_to(const Face& face, const Vector3& start, const Vector3& end) const {
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const double height1 = face.normal.dot(start - face.vertices[0]);

@@ -1,4 +1,4 @@
-// Two bodies of ours as a query.
+// A query of two bodies of ours.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,9 +13,9 @@ namespace supernormal::ode {
 
 class Body;
 
-/// What the table of warm starts is to learn from a query.
+/// The result that the table of warm starts stores from a query.
 struct LastNormal {
-  bool is_known = false;  ///< false: the query had no answer
+  bool is_known = false;  ///< false: the query had no result
   RelativePose pose;
   Vector3 normal = Vector3::UnitX();
 
@@ -28,14 +28,14 @@ struct LastNormal {
 /// and both give the same digits this way.
 class BodyPair {
  public:
-  /// std::invalid_argument when one of them is empty (dCreateGeom).
+  /// Throws std::invalid_argument when one of them is empty (dCreateGeom).
   BodyPair(dGeomID g1, dGeomID g2);
 
   PairKey key() const;
   std::pair<dGeomID, dGeomID> geoms() const { return is_swapped_ ? std::pair(geom2_, geom1_) : std::pair(geom1_, geom2_); }
 
-  /// The answer as seen from g1. Looks at nothing but the two geoms and touches nothing but this thread's statistics: pairs may be
-  /// solved on several threads while no geom moves.
+  /// The result as seen from g1. It reads nothing but the two geoms and changes nothing but this thread's statistics: pairs may
+  /// be solved on several threads while no geom moves.
   ContactManifold solve(const Remembered& remembered, Goal goal, LastNormal& last) const;
 
  private:

@@ -16,7 +16,7 @@ struct Collider {
   PairQuery* query;
 };
 
-// ODE's own classes but for spaces and dGeomTransform, which ODE takes apart itself.
+// ODE's own classes without spaces and dGeomTransform, which ODE resolves itself.
 constexpr std::array<Collider, 9> kColliders = {{
     {dSphereClass, "dSphere", collide_by<query_sphere>, query_sphere},
     {dBoxClass, "dBox", collide_by<query_box>, query_box},

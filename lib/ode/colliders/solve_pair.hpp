@@ -1,4 +1,4 @@
-// What the colliders have in common that are solved as a pair of shapes.
+// The query and collider that all classes share that are solved as a pair of shapes.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,20 +13,20 @@
 
 namespace supernormal::ode {
 
-/// One of ODE's own geoms as the core sees it.
+/// One of ODE's own geoms as a shape of the core.
 struct ColliderShape {
   const Shape& shape;
   Pose pose;
   std::uint32_t kind;  ///< collider_kind()
 };
 
-/// The query of the pair, from its last normal if there is one; counts itself.
+/// Solves the pair, from its last normal if there is one, and counts the query.
 ///
-/// Of such a collider's normals we remember those in its own frame, under where our body is seen from there: on a floor made of a
-/// dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
+/// The remembered normals are in the collider's own frame, and the key is the direction in which our body is seen from there: on
+/// a floor made of a dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
 ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goal);
 
-/// The dColliderFn that makes contacts of what the query finds.
+/// The dColliderFn that writes the contacts of a query.
 template <PairQuery kQuery>
 int collide_by(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
   return guarded("dCollide", 0, [&] {

@@ -9,14 +9,14 @@ namespace supernormal::ode {
 
 class Body;
 
-/// Our class number; registers the class first if that has not happened yet. Any thread may call it. std::runtime_error when ODE
-/// has another precision than this library, cannot be initialised or has no free user class.
+/// Our class number; registers the class first if that has not happened yet. Any thread may call it. Throws std::runtime_error
+/// when ODE has another precision than this library, cannot be initialised or has no free user class.
 int require_geom_class();
 
 /// Our class number; -1 while the class is not registered.
 int geom_class() noexcept;
 
-/// A geom of our class in `space` (or in none, when 0) that owns `body`.
+/// Creates a geom of our class in `space` (or in none, when 0) that owns `body`.
 dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body);
 
 }  // namespace supernormal::ode

@@ -1,4 +1,4 @@
-// The rotations of geoms: orthonormal to rounding, as the core takes them.
+// Rotations of geoms, made orthonormal to rounding as the core requires.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,13 +10,13 @@
 
 namespace supernormal::ode {
 
-/// Rotations that ODE computes in double precision of quaternions, Euler angles or an axis and an angle are as good as this; they
-/// are taken as they are. Flat faces tell the difference: beyond 4e-15 the normal of a cylinder's cap no longer comes back as one,
-/// and queries of bodies as flat as with an exponent of 60 suffer from 1e-11.
+/// Rotations that ODE computes in double precision from quaternions, Euler angles or an axis and an angle are within this error,
+/// and are used unchanged. Flat faces are sensitive to more: beyond 4e-15 the normal of a cylinder's cap no longer comes back as
+/// one, and queries of bodies as flat as with an exponent of 60 suffer from 1e-11.
 inline constexpr double kRoundedRotation = 1e-14;
 
-/// The errors of the equations that make a matrix a rotation: the first two columns are unit vectors at right angles, and
-/// the third is their cross product; their sum. Of entries that are no numbers it is none.
+/// The sum of the errors of the equations that make a matrix a rotation: the first two columns are unit vectors at right angles,
+/// and the third is their cross product. NaN if an entry is not a number.
 inline double rotation_error(const Matrix3& R) {
   const Vector3 x = R.col(0), y = R.col(1), z = R.col(2);
   const Vector3 skew = x.cross(y) - z;
@@ -24,12 +24,12 @@ inline double rotation_error(const Matrix3& R) {
   return of_plane + std::abs(skew.x()) + std::abs(skew.y()) + std::abs(skew.z());
 }
 
-/// The rotation nearest to that of a geom, where it is not one to rounding: the core would otherwise compare what is known to 1e-7
-/// with a tolerance of 1e-9, and with single precision every rotation is as rough as that. std::invalid_argument where it is far
-/// from any. What is not finite is left to the core to refuse.
+/// The rotation nearest to that of a geom that is not one to rounding: the core would otherwise compare numbers known to 1e-7
+/// with a tolerance of 1e-9, and with single precision every rotation is as rough as that. Throws std::invalid_argument if the
+/// matrix is far from any rotation. A matrix that is not finite is left for the core to refuse.
 Matrix3 nearest_rotation(const Matrix3& R, dGeomID geom);
 
-/// The rotation as the core takes it.
+/// The rotation as the core requires it.
 inline Matrix3 orthonormal(const Matrix3& R, dGeomID geom) {
   return std::islessequal(rotation_error(R), kRoundedRotation) ? R : nearest_rotation(R, geom);
 }

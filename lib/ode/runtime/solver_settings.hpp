@@ -1,19 +1,19 @@
-// Solver settings of geoms, of pairs and the default.
+// Solver settings of geoms and of pairs, and their defaults.
 #pragma once
 
 #include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal::ode {
 
-/// What a query is for. Colliders want overlaps only: they stop at the first normal that proves separation.
+/// The purpose of a query. Colliders need overlaps only: they stop at the first normal that proves separation.
 enum class Goal {
   OneContact,  ///< the deepest point
-  Contacts,    ///< and the corners of a wide overlap
+  Contacts,    ///< the deepest point and the corners of a wide overlap
   Distance,
-  CertifiedDistance,  ///< with a proof that of overlapping bodies the depth is the smallest
+  CertifiedDistance,  ///< with a proof that the depth of overlapping bodies is the smallest
 };
 
-/// Of the geoms created from now on; any thread may ask.
+/// The settings of geoms that are created from now on; any thread may call it.
 Settings default_settings();
 
 /// The tighter tolerance and the larger limit of both; their solver if they agree on one, the hybrid if not.

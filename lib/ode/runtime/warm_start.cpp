@@ -11,21 +11,21 @@
 namespace supernormal::ode {
 namespace {
 
-// 64 bytes: a line of the processor's cache.
+// An entry has 64 bytes: a line of the processor's cache.
 struct Entry {
   PairKey key;
   Remembered remembered;
 };
 static_assert(sizeof(Entry) == 64);
 
-constexpr double kSimilarOffset = 0.5;           // of the size
-const double kSimilarAttitude = std::cos(0.25);  // of half the angle
-constexpr unsigned kCellBits = 13;               // of PairKey::collider, for the direction
+constexpr double kSimilarOffset = 0.5;           // relative to the size of the bodies
+const double kSimilarAttitude = std::cos(0.25);  // the cosine of half the angle
+constexpr unsigned kCellBits = 13;               // bits of PairKey::collider that hold the direction
 
-// A set-associative cache: a pair has one set, in it the four last used pairs, latest first. Two pairs that share a slot of a
-// direct-mapped table push each other out at every step. Counted on lattices of neighbours: all of the 7560 near pairs of 1000
-// bodies and of the 85 000 of 10 000 are kept, 98 % of the 168 000 of 20 000; of 98 000 pairs of 20 000 bodies at random, 93 %. Up
-// to 16 MB for each thread that collides.
+// The table is a set-associative cache: a pair has one set, which holds the four last used pairs, latest first. Two pairs that
+// share a slot of a direct-mapped table would push each other out at every step. Counts on lattices of neighbours: all of the
+// 7560 near pairs of 1000 bodies and of the 85 000 of 10 000 are kept, 98 % of the 168 000 of 20 000; of 98 000 pairs of 20 000
+// bodies at random, 93 %. It takes up to 16 MB for each thread that collides.
 constexpr std::size_t kWays = 4;
 constexpr std::size_t kSets = std::size_t{1} << 16;
 using Set = std::array<Entry, kWays>;
@@ -35,13 +35,13 @@ struct Free {
 };
 
 std::atomic<bool> enabled{true};
-thread_local std::unique_ptr<Set[], Free> table;  // of zeros at first, which no key matches
+thread_local std::unique_ptr<Set[], Free> table;  // all zeros at first, which no key matches
 
 // The sets of a body lie together, and beside those of the bodies that were made before and after it: a scene touches the part of
 // the table that its bodies use, and few pages at a time. Adding a constant to all serial numbers renumbers the sets and changes
 // nothing else, so that a scene built for the second time in a process runs as the first.
 constexpr std::size_t kSetsPerBody = 20;
-constexpr unsigned kSpreadBits = 6;  // over the sets of the next three bodies, too: old bodies are the first of more pairs
+constexpr unsigned kSpreadBits = 6;  // over the sets of the next three bodies, too: old bodies have more pairs
 std::size_t set_index(const PairKey& key) {
   const std::uint32_t hash = key.collider * 0x9e3779b1U;  // odd; 2^32 / golden ratio
   return (key.body * kSetsPerBody + (hash >> (32U - kSpreadBits))) % kSets;
@@ -52,7 +52,7 @@ bool same(const PairKey& a, const PairKey& b) { return a.body == b.body && a.col
 }  // namespace
 
 PairKey PairKey::of_direction(std::uint32_t serial, const Vector3& direction, std::uint32_t kind) {
-  constexpr double kCellsPerUnit = 8;  // cells of 7 degrees
+  constexpr double kCellsPerUnit = 8;  // cells are 7 degrees wide
   const double length = direction.norm();
   std::uint32_t cell = 0;
   if (std::isfinite(length) && length > 0) {
