@@ -1,4 +1,4 @@
-// The same question asked in other words.
+// The same query in other frames, orders and units.
 #include <Eigen/Geometry>
 #include <cfenv>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 const Pose kMotion{{600, -700, 387.2983346207417}, Eigen::Quaterniond(0.8, 0.1, -0.3, 0.5).normalized().toRotationMatrix()};
 
-/// None if it would leave the range of a shape.
+/// The case in another unit; empty if it would leave the range of a shape.
 std::optional<HardCase> rescaled(const HardCase& one, double unit) {
   try {
     return scaled(one, unit);
@@ -27,7 +27,7 @@ class SecondOpinions {
   SecondOpinions(const HardCase& one, const Settings& settings, const Proximity& first, Violations& violations)
       : one_(one), settings_(settings), first_(first), violations_(violations) {}
 
-  /// No digit may differ.
+  /// Repeats the query; no digit may differ.
   void ask_again() {
     Violations found;
     std::feclearexcept(FE_UNDERFLOW);
@@ -37,8 +37,8 @@ class SecondOpinions {
     report("asked again", found);
   }
 
-  /// Lengths of `other` are in units of `unit` m. Its answer must be right on its own; if both claim to be the global maximum, they
-  /// must agree.
+  /// Compares with the answer for `other`, whose lengths are in units of `unit` m. It must be right on its own; if both claim to
+  /// be the global maximum, they must agree.
   void compare(const std::string& how, const HardCase& other, double unit = 1) {
     Violations found;
     const Proximity second = solve(other, settings_, found);
@@ -46,8 +46,8 @@ class SecondOpinions {
     report(how, found);
   }
 
-  /// In units of a power of two no digit may differ. Where a number of one of the two is so small that it loses some, they may take
-  /// another way, but not to another gap.
+  /// Compares with the answer in units of a power of two, in which no digit may differ. If a number of one of the two is so small
+  /// that it loses digits, the searches may differ, but not the gap.
   void compare_in_units(double unit) {
     Violations found;
     std::feclearexcept(FE_UNDERFLOW);
@@ -64,7 +64,7 @@ class SecondOpinions {
     report("in units of " + text(unit) + " m", found);
   }
 
-  /// Stopping at the first proof of separation: only of separated bodies, and with a bound.
+  /// Compares with a query that stops at the first proof of separation: only for separated bodies, and with a bound.
   void compare_early_stop() {
     Settings early = settings_;
     early.stop_when_apart = true;
@@ -113,7 +113,7 @@ class SecondOpinions {
   const Settings& settings_;
   const Proximity& first_;
   Violations& violations_;
-  bool has_underflow_ = false;  // of the first answer
+  bool has_underflow_ = false;  // whether the first answer underflowed
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What every answer has to satisfy, known without another answer to compare it with.
+// Conditions that every answer has to satisfy, known without another answer to compare it with.
 #pragma once
 
 #include <cstdint>
@@ -10,32 +10,32 @@
 
 namespace supernormal::samples {
 
-/// What is wrong, one sentence each with the numbers; empty when all is well.
+/// Violated conditions, one sentence each with the numbers; empty when all is well.
 using Violations = std::vector<std::string>;
 
 /// The answer to a case. Floating-point exceptions that the query raised (invalid, division by zero, overflow) are violations.
 Proximity solve(const HardCase& one, const Settings& settings, Violations& violations);
 
-/// By how much rounding of the input and of the answer's coordinates may change lengths along the normal, m.
+/// How much rounding of the input and of the answer's coordinates may change lengths along the normal, m.
 double rounding_of(const HardCase& one);
 
-/// What the gap of an answer that claims to be global may be off by, m: Proximity::is_global.
+/// The allowed error of the gap of an answer that claims to be global, m: Proximity::is_global.
 double error_of(const HardCase& one, const Settings& settings, const Proximity& answer);
 
-/// The answer alone: every number finite, unit normal, a status that the hybrid may end with and that fits the error, the gap that
-/// of the normal, both witness points on their surfaces and `gap` apart along the normal, the contact point between them. Costs
-/// about ten evaluations.
+/// Checks the answer alone: every number is finite, the normal is of unit length, the status is one that the hybrid may end with
+/// and fits the error, the gap is that of the normal, both witness points are on their surfaces and `gap` apart along the normal,
+/// and the contact point is between them. Costs about ten evaluations.
 Violations check_answer(const HardCase& one, const Settings& settings, const Proximity& answer);
 
-/// That no normal is higher: none in the neighbourhood, walking uphill only; none of the bodies' axes, sharp features and of some
-/// random directions drawn with `seed`, if the answer claims to be global. Costs some hundred evaluations.
+/// Checks that no normal is higher: none in the neighbourhood, walking uphill only; and none of the bodies' axes, sharp features
+/// and of some random directions drawn with `seed`, if the answer claims to be global. Costs some hundred evaluations.
 Violations check_maximum(const HardCase& one, const Settings& settings, const Proximity& answer, std::uint64_t seed = 1);
 
-/// That asking again, swapping the bodies, moving the frame, changing the unit of length (by powers of two: every digit), starting
-/// elsewhere and stopping early change nothing but rounding. Costs some ten queries.
+/// Checks that repeating the query, swapping the bodies, moving the frame, changing the unit of length (by powers of two: every
+/// digit), starting elsewhere and stopping early change nothing but rounding. Costs some ten queries.
 Violations check_invariance(const HardCase& one, const Settings& settings, const Proximity& answer);
 
-/// All of them.
+/// Does all of these checks.
 Violations check(const HardCase& one, const Settings& settings = {});
 
 }  // namespace supernormal::samples

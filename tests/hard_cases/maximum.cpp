@@ -1,4 +1,4 @@
-// Is there a normal with a larger gap?
+// A search for a normal with a larger gap.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,11 +14,12 @@ namespace {
 
 constexpr int kWalks = 8;
 constexpr double kFirstAngle = 1e-15;
-constexpr int kSteps = 25;  // to an angle of about 1
+constexpr int kSteps = 25;  // up to an angle of about 1
 constexpr int kRandomDirections = 50;
 
-// A valley is looked for at so many normals, and is one if it is so many times as deep as s is seen to jitter between normals that
-// differ by rounding, at each end. A jitter of 0 is chance, and counts as one unit in the last place. Or if the slopes say so.
+// A valley is searched at so many normals, and counts if it is so many times as deep as s is seen to jitter between normals that
+// differ by rounding, at each end. A jitter of 0 is chance, and counts as one unit in the last place. It also counts if the
+// slopes show it.
 constexpr int kFineSteps = 64;
 constexpr double kJitters = 4;
 constexpr double kRoundingAngle = 1e-15;
@@ -42,7 +43,7 @@ struct Features {
   }
 };
 
-/// Looks for normals that are higher than the answer's.
+/// Searches for normals that are higher than the answer's.
 class Probe {
  public:
   Probe(const HardCase& one, const Settings& settings, const Proximity& answer)
@@ -84,7 +85,7 @@ class Probe {
     }
   }
 
-  /// Faces, edges and pairs of edges of the boxes and octahedra that the bodies may resemble.
+  /// Tries faces, edges and pairs of edges of the boxes and octahedra that the bodies may resemble.
   void look_at_features(const HardCase& one, Violations& out) {
     const Features features1(one.shape1->half_extents()), features2(one.shape2->half_extents());
     for (const Vector3& normal : features1.face_normals) look_at(normal, out);
@@ -105,7 +106,7 @@ class Probe {
 
   bool crosses_valley(const Vector3& tangent, double angle) { return values_fall(tangent, angle) || slopes_fall(tangent, angle); }
 
-  /// Whether s falls on the way, if only by less than its rounding may be at worst: by more than its rounding is.
+  /// Whether s falls on the path by more than its rounding is, which may be less than its rounding may be at worst.
   bool values_fall(const Vector3& tangent, double angle) {
     Vector3 bottom = n_;
     double lowest = value(n_);
@@ -120,7 +121,7 @@ class Probe {
     return lowest < here - kJitters * jitter(bottom);
   }
 
-  /// The same by the sum of the slopes, whose rounding counts by the angle only: on short ways it tells valleys that are far
+  /// The same by the sum of the slopes, whose rounding counts by the angle only: on short paths it shows valleys that are far
   /// shallower than the rounding of s.
   bool slopes_fall(const Vector3& tangent, double angle) {
     const double step = angle / kFineSteps;
@@ -133,7 +134,7 @@ class Probe {
     return false;
   }
 
-  /// Of s at the unit normal n, along a way from there.
+  /// The slope of s at the unit normal n, along a direction from there.
   double slope(const Vector3& n, const Vector3& way) {
     GapJet jet;
     gap_.evaluate(n, Order::Point, jet);
@@ -159,7 +160,7 @@ class Probe {
 
 Violations check_maximum(const HardCase& one, const Settings& settings, const Proximity& answer, std::uint64_t seed) {
   Violations out;
-  if (answer.status == Status::Apart) return out;  // stopped early: a bound, not a maximum
+  if (answer.status == Status::Apart) return out;  // it stopped early: this is a bound, not a maximum
   Probe probe(one, settings, answer);
   const Vector3 tangent1 = probe.normal().unitOrthogonal(), tangent2 = probe.normal().cross(tangent1);
   for (int k = 0; k < kWalks && out.empty(); ++k) {

@@ -1,4 +1,4 @@
-// The search for a normal that is higher than an answer's finds one where there is one on the same hill.
+// Tests that the search for a normal that is higher than an answer's finds one where there is one on the same hill.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ using namespace supernormal::samples;
 
 namespace {
 
-/// The answer that a climb gives which ends before the maximum, by an angle.
+/// The answer of a climb that ends before the maximum, by an angle.
 Proximity beside(const HardCase& one, Proximity answer, double angle) {
   answer.normal = (answer.normal + angle * answer.normal.unitOrthogonal()).normalized();
   GapFunction gap(*one.shape1, one.pose1, *one.shape2, one.pose2);
@@ -23,7 +23,7 @@ Proximity beside(const HardCase& one, Proximity answer, double angle) {
   return answer;
 }
 
-/// That the answer is a maximum, if not known to be the global one, and none is beside it by an angle.
+/// Checks that the answer is a maximum, if not known to be the global one, and none is beside it by an angle.
 void check_local_maximum(const HardCase& one, double tolerance, double angle) {
   Settings settings;
   settings.tolerance = tolerance;
@@ -35,7 +35,7 @@ void check_local_maximum(const HardCase& one, double tolerance, double angle) {
 
 }  // namespace
 
-TEST_CASE("an answer beside the maximum is told, be it apart, touching or deep") {
+TEST_CASE("an answer beside the maximum is found out, be it apart, touching or deep") {
   for (const double distance : {2.5, 2.0, 1.5}) {
     const HardCase one = pair("", "", ellipsoid(Vector3(1, 0.7, 0.5)), superball(1, 4), at(Vector3(distance, 0.3, 0.2)));
     const Proximity answer = find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, {});
@@ -45,7 +45,7 @@ TEST_CASE("an answer beside the maximum is told, be it apart, touching or deep")
 }
 
 // Around the pole of body 1, of exponent 1.6, there are several hills within 1e-5 radians; the valleys between them are 3e-14 m
-// deep, and next to the answer's normal less than s may be off by rounding at worst.
+// deep, and next to the answer's normal the depth is less than the rounding of s at worst.
 TEST_CASE("a higher normal beyond a shallow valley is another maximum") {
   Pose pose2{Vector3(1.8493363468845583, 0.35813409845690192, -1.6271422410808503), Matrix3::Identity()};
   pose2.rotation << 0.89344973057470922, -0.31982929357466361, 0.31536772489827042,  //
@@ -60,7 +60,7 @@ TEST_CASE("a higher normal beyond a shallow valley is another maximum") {
   check_local_maximum(one, 1e-12, 1e-4);
 }
 
-// In extended precision the best way to the higher maximum, at (-9.5e-4, 0, -1), leads through a valley that is 3.7e-15 m deep.
+// In extended precision the best path to the higher maximum, at (-9.5e-4, 0, -1), leads through a valley that is 3.7e-15 m deep.
 TEST_CASE("a valley of 35 units in the last place is one, where s jitters by a few") {
   Pose pose2{Vector3(0.22385214070544279, 1.1057767157012071, -1.7466884145786477), Matrix3::Identity()};
   pose2.rotation << -0.78102248067361946, -0.18791655061990364, -0.59555961472009078,  //
@@ -78,9 +78,9 @@ TEST_CASE("a valley of 35 units in the last place is one, where s jitters by a f
   check_local_maximum(one, 1e-15, 1e-3);
 }
 
-// One maximum on either axis, 3e-7 radians from the pole. The valley between is 3.8e-16 m deep and drowns in the rounding of s; its
-// slopes of -1.6e-8 do not. With an offset 1e4 times as large it is there 1e8 times as deep.
-TEST_CASE("a valley that is shallower than the rounding of s is told by its slopes") {
+// There is one maximum on either axis, 3e-7 radians from the pole. The valley between is 3.8e-16 m deep and drowns in the
+// rounding of s; its slopes of -1.6e-8 do not. With an offset 1e4 times as large it is 1e8 times as deep there.
+TEST_CASE("a valley that is shallower than the rounding of s is found by its slopes") {
   const auto body = [] { return superellipsoid(Vector3(1, 0.8, 0.5), 50, 2); };
   const Vector3 offset(-5.1523108982969034e-07, -4.827623616318814e-07, -4.6838088834834924e-07);
   check_local_maximum(pair("", "", body(), body(), at(offset)), 1e-15, 1e-6);

@@ -1,4 +1,4 @@
-// Smooth bodies against colliders with faces and edges: what issue 3 promises, for 2030 random pairs of every class.
+// Tests of smooth bodies against colliders with faces and edges: the promised accuracy for 2030 random pairs of every class.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -16,11 +16,11 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kPairsPerGap = 290;  // 2030 of each class
+constexpr int kPairsPerGap = 290;  // 2030 pairs of each class
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kExact = 1e-9;         // of the unit: what is promised
-constexpr double kMissedShare = 0.005;  // of the deep ones
-constexpr double kMissedMost = 1e-3;    // of the unit
+constexpr double kExact = 1e-9;         // relative to the unit: the promise
+constexpr double kMissedShare = 0.005;  // relative to the number of deep pairs
+constexpr double kMissedMost = 1e-3;    // relative to the unit
 
 Proximity solve(const ColliderPair& pair, const Settings& settings = {}) {
   return find_proximity(*pair.body, {}, *pair.shape, pair.pose, settings);
@@ -30,12 +30,12 @@ Proximity solve_swapped(const ColliderPair& pair, const Settings& settings = {})
   return find_proximity(*pair.shape, pair.pose, *pair.body, {}, settings);
 }
 
-/// s may be off by this: support functions and products are good to a few units in the last place of what they are of.
+/// The error of s: support functions and products are good to a few units in the last place of their terms.
 double rounding(const ColliderPair& pair) { return 16 * kEpsilon * (pair.size + pair.pose.position.norm()); }
 
 struct Counts {
   int pairs = 0, deep = 0, missed = 0;
-  double worst = 0, worst_missed = 0;  // of the unit
+  double worst = 0, worst_missed = 0;  // relative to the unit
   std::vector<int> near, all;          // evaluations; near: apart or touching
 };
 
@@ -72,7 +72,7 @@ void check_gap(const ColliderPair& pair, const Proximity& out, Counts& counts) {
   if (beyond > 0) FAIL_CHECK(describe(pair), "\n  gap ", out.gap, " reported error ", out.error, " exceeded by ", beyond);
 }
 
-/// Extreme along the normal in both bodies, on their boundaries, and a gap apart.
+/// Checks that the points are extreme along the normal in both bodies, on their boundaries, and a gap apart.
 void check_witness_points(const ColliderPair& pair, const Proximity& out) {
   const double tolerance = rounding(pair);
   const Vector3 in_collider = pair.pose.rotation.transpose() * (out.point2 - pair.pose.position);
@@ -96,7 +96,7 @@ void check_witness_points(const ColliderPair& pair, const Proximity& out) {
 void check_swapped(const ColliderPair& pair, const Proximity& out) {
   const Proximity swapped = solve_swapped(pair);
   const bool same = std::abs(swapped.gap - out.gap) <= out.error + swapped.error;
-  // Two normals that are both within the error of the best.
+  // Both normals are within the error of the best.
   GapFunction gap(*pair.body, {}, *pair.shape, pair.pose);
   GapJet jet;
   gap.evaluate(-swapped.normal, Order::Value, jet);
@@ -134,7 +134,7 @@ void check_class(ColliderKind kind) {
   CHECK(near.median <= 6);
   CHECK(near.most <= 30);
   CHECK(all.median <= 8);
-  CHECK(all.most <= 120);  // other maxima are looked for
+  CHECK(all.most <= 120);  // other maxima are searched for
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Whether a normal that is known to be higher is within the interval that an answer proves.
+// A check that a normal that is known to be higher is within the interval that an answer proves.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -8,7 +8,7 @@
 
 namespace supernormal::test {
 
-/// n: in the world's frame
+/// The gap function at the normal n, which is in the world's frame.
 inline double gap_at(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& n) {
   GapFunction gap(shape1, pose1, shape2, pose2);
   GapJet jet;

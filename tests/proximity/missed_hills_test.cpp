@@ -1,4 +1,4 @@
-// Climbs that ended beside a normal which is higher than they reported: cases that the soak program found.
+// Tests of climbs that ended beside a normal which is higher than they reported: cases that the soak program found.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -33,8 +33,8 @@ TEST_CASE("an octahedron's tip 1e-13 m beside the rim of a cylinder's face, as e
   check_covers(tip, cylinder, pose2, along_the_ridge, settings);
 }
 
-// The model promises a fifth of what it promised a step before, but its curvature is less than half of what it was.
-TEST_CASE("an octahedron's tip in another's, 5e-5 m deep: a curvature that has just halved goes on fading") {
+// The model promises a fifth of what it promised a step before, but its radius of curvature is less than half of what it was.
+TEST_CASE("an octahedron's tip in another's, 5e-5 m deep: a radius of curvature that has just halved goes on shrinking") {
   const Superellipsoid body1(Vector3(0.91855717191001063, 1.3217171393909011, 1.1310303975172471), 1.0300559655732762,
                              1.2974700621527924);
   const Superellipsoid body2(Vector3(0.622859106567343, 1.0872184036498354, 0.65620711217128369), 1.1469974323738119,
@@ -47,8 +47,9 @@ TEST_CASE("an octahedron's tip in another's, 5e-5 m deep: a curvature that has j
   check_covers(body1, body2, pose2, higher);
 }
 
-// The model promises a fifth of what it promised a step before, of a curvature that has grown fourfold across its larger one.
-TEST_CASE("the tips of two needles, 1e-3 m apart: a curvature that changes where it is small goes on changing") {
+// The model promises a fifth of what it promised a step before, with a radius of curvature that has grown fourfold across its
+// larger one.
+TEST_CASE("the tips of two needles, 1e-3 m apart: a radius of curvature that changes while it is small goes on changing") {
   const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
   Pose pose2{Vector3(1.1836744101086172, 0.081632935277476476, -0.97959202487887065), Matrix3::Identity()};
   pose2.rotation << 0.1837839537266481, -0.65285537721130771, -0.7348491782664538,  //
@@ -60,7 +61,7 @@ TEST_CASE("the tips of two needles, 1e-3 m apart: a curvature that changes where
   check_covers(needle, needle, pose2, higher, settings);
 }
 
-// The climb starts at the normal of both vertices, where s is level and nothing shows a curvature. Below an exponent of 2 the
+// The climb starts at the normal of both vertices, where s is level and no radius of curvature shows. Below an exponent of 2 the
 // radius of curvature vanishes there, though a few degrees beside it is as large as the overlap.
 TEST_CASE("a vertex deep in another's, one without a Hessian: no ball rolls there that would hold the normal") {
   const CallbackShape body1 = without_hessian(std::make_shared<Superellipsoid>(Vector3(1.4, 0.6, 0.7), 1.45, 1.35));
@@ -72,8 +73,8 @@ TEST_CASE("a vertex deep in another's, one without a Hessian: no ball rolls ther
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// Steps and curvature halve towards a shelf of s, beyond which it rises 4e-9 m farther.
-TEST_CASE("an octahedron's tip in another's, 1e-6 m deep: where the curvature is about to end, s may rise on") {
+// Steps and radii of curvature halve towards a near-degenerate stationary point of s, beyond which it rises 4e-9 m farther.
+TEST_CASE("an octahedron's tip in another's, 1e-6 m deep: where the radius of curvature is about to vanish, s may rise on") {
   const Superellipsoid body1(Vector3(0.56749216029451766, 0.65252412836825313, 1.0201018585264015), 1.1060605934645005,
                              1.1584072967469143);
   const Superellipsoid body2(Vector3(0.80102906096941917, 0.83995622940094428, 1.3256164648197444), 1.0926718750416728,
@@ -88,7 +89,7 @@ TEST_CASE("an octahedron's tip in another's, 1e-6 m deep: where the curvature is
 
 // On the plane of symmetry, which the climb never leaves, the radius of curvature across is infinite: it holds the normal for 1e-5
 // radians, with a valley 4e-14 m deep.
-TEST_CASE("a vertex in another's, both aligned: a flat spot of exponent 2.3 holds no normal for as far as matters") {
+TEST_CASE("a vertex in another's, both aligned: a flat spot of exponent 2.3 holds no normal within the tolerance radius") {
   const Superellipsoid body1(Vector3(0.68110536473488115, 0.72987765699106344, 1.1571889241910578), 2.2772102576920141,
                              1.3239459675164147);
   const Superellipsoid body2(Vector3(1.3578682070477115, 0.51462979531380537, 1.0175208230541066), 2.1587757296700878,
@@ -108,8 +109,8 @@ TEST_CASE("a vertex in another's with an aligned plane: nor does a flat spot of 
   check_covers(body1, body2, pose2, higher);
 }
 
-// On the body's plane of symmetry through the vertex the curvature is infinite: the cross-section is flat there. But a turn about
-// the vertex, however far, does not bring its point to the rim.
+// On the body's plane of symmetry through the vertex the radius of curvature is infinite: the cross-section is flat there. But a
+// turn about the vertex, however far, does not bring its point to the rim.
 TEST_CASE("a vertex of flat cross-section 1.3e-4 m beside a rim, 0.03 m apart: the turn that brings it there is the sharp norm's") {
   const Superellipsoid body1(Vector3(1.3444236321789771, 1.2687551262821948, 0.75405833063231809), 4.1731844300678489,
                              1.6727896210524513);
@@ -121,8 +122,9 @@ TEST_CASE("a vertex of flat cross-section 1.3e-4 m beside a rim, 0.03 m apart: t
   check_covers(body1, cylinder, pose2, higher, settings, &first);
 }
 
-// Its normals are no less oblique on the flat flank than beside it: a turn by 2e-4 radians is slight, but not what it leaves.
-TEST_CASE("the flat flank of a wedge, 1e-3 m deep: a slight turn leaves a flat face that is tilted") {
+// Its normals are no less oblique on the flat flank than beside it: the parametrizations agree for a turn by 2e-4 radians, but
+// not for the rest of it.
+TEST_CASE("the flat flank of a wedge, 1e-3 m deep: a small turn leaves a flat face that is tilted") {
   const Superovoid body1(Vector3(1.1232843154375776, 1.0737125999467814, 1.3603350229379723), 96.789101125327065,
                          51.108946132402053, -0.86192709793125488, -0.86192709793125488);
   const Superellipsoid body2(Vector3(1.2844175381082685, 1.306028872199287, 0.83400576432826423), 194.759665910069,
@@ -134,7 +136,8 @@ TEST_CASE("the flat flank of a wedge, 1e-3 m deep: a slight turn leaves a flat f
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// One corner of the face alone leaves a quarter of the turns open; of that the curvature of body 2 leaves a sector of 13 degrees.
+// One corner of the face alone leaves a quarter of the turns open; of that the radius of curvature of body 2 leaves a sector of
+// 13 degrees.
 TEST_CASE("a box's face in a rounded box, a corner on the point of deepest overlap: s rises in the sector that it leaves open") {
   const Box box(Vector3(1.1660950384963529, 0.72469453895462166, 0.73200031560061518));
   const Superellipsoid body2(Vector3(0.62279166333149438, 1.1619196180367359, 0.95281948862489751), 13.003417479094304,
@@ -146,9 +149,9 @@ TEST_CASE("a box's face in a rounded box, a corner on the point of deepest overl
   check_covers(box, body2, pose2, Vector3(0.025443651949511002, -0.99967625788325709, 0));
 }
 
-// Body 1 has a Hessian so small, and body 2 one of so thin an edge, that together they are singular: the step through the boundary
+// Body 1 has so small a Hessian, and body 2 one of so thin an edge, that their sum is singular: the step through the boundary
 // points is body 2's.
-TEST_CASE("an edge 1e-10 m beside a sharp edge, roughly: a curvature that drowns does not hold the normal") {
+TEST_CASE("an edge 1e-10 m beside a sharp edge, roughly: a radius of curvature that drowns does not hold the normal") {
   const Superellipsoid body1(Vector3(0.21666307587024122, 3.6158533257603551, 0.11532860785825504), 40.062935138090054,
                              1.0792247408227613);
   const Superellipsoid body2(Vector3(0.19253172420533454, 0.058907870595482748, 2.7634213402497263), 1.1271104401069829,
@@ -159,9 +162,9 @@ TEST_CASE("an edge 1e-10 m beside a sharp edge, roughly: a curvature that drowns
   check_covers(body1, body2, pose2, Vector3(-3.4058259826811749e-12, 2.2756156744483055e-12, 1).normalized(), settings);
 }
 
-// A normal 1e-6 beside the plane of symmetry, a vertex beside a corner: the flat spot holds it for as far as matters for this
-// tolerance, and is level there.
-TEST_CASE("a corner in a vertex, as exactly as can be: s rises beyond a flat spot that is just as wide as what matters") {
+// The normal is 1e-6 beside the plane of symmetry, a vertex beside a corner: the flat spot holds it within the tolerance radius,
+// and is level there.
+TEST_CASE("a corner in a vertex, as exactly as can be: s rises beyond a flat spot that is just as wide as the tolerance radius") {
   const Superellipsoid body1(Vector3(0.52554206102025414, 0.83316697474825452, 0.78785238828638682), 3.4703594224672014,
                              1.8464279827519052);
   const std::vector<Vector3> corners{{-0.54408017368739625, -0.36252818257541258, 0.54490908100436164},
@@ -182,7 +185,7 @@ TEST_CASE("a corner in a vertex, as exactly as can be: s rises beyond a flat spo
   check_covers(body1, Polytope(corners), pose2, Vector3(-0.00024668335069741776, 0, -0.99999996957366177).normalized(), settings);
 }
 
-TEST_CASE("a vertex in another's, both aligned, as exactly as can be: s rises by rounding only for as far as matters") {
+TEST_CASE("a vertex in another's, both aligned, as exactly as can be: s rises by rounding only within the tolerance radius") {
   const Superellipsoid body1(Vector3(0.57203485562414891, 0.76277235741676308, 0.92616675512158864), 2.6668881112077267,
                              1.3610710001802806);
   const Superellipsoid body2(Vector3(1.127045154361791, 0.64816896238249311, 1.4366196281302175), 2.5332381855400752,
@@ -195,7 +198,7 @@ TEST_CASE("a vertex in another's, both aligned, as exactly as can be: s rises by
 
 // On a plane of symmetry, which a climb without Hessians never leaves, s has an edge across its maximum; the higher normals are
 // beside the plane.
-TEST_CASE("a tip in another's, one without a Hessian, as exactly as can be: stalled, no curvature is believed") {
+TEST_CASE("a tip in another's, one without a Hessian, as exactly as can be: stalled, no radius of curvature is believed") {
   const Superellipsoid body1(Vector3(1.1976799266823006, 1.4678420773793968, 1.1317300192116135), 1.099513568331888,
                              1.0891374371824021);
   const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
@@ -207,8 +210,9 @@ TEST_CASE("a tip in another's, one without a Hessian, as exactly as can be: stal
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// The climb stays on a plane of symmetry, but turns by a radian on it: the ways before and after are not across one another.
-TEST_CASE("a tip 4e-3 m in another's, one without a Hessian: a long turn on a plane says nothing of the way out of it") {
+// The climb stays on a plane of symmetry, but turns by a radian on it: the directions before and after are not across one
+// another.
+TEST_CASE("a tip 4e-3 m in another's, one without a Hessian: a long turn on a plane says nothing of the direction out of it") {
   const CallbackShape body1 = without_hessian(std::make_shared<Superellipsoid>(
       Vector3(0.81757743587363507, 0.68871264031956192, 1.4692079216437368), 1.2514406145657626, 1.2499679480491082));
   const Superellipsoid body2(Vector3(1.1290488587151037, 1.177097030217231, 0.72951507342204369), 1.2123675543641061,
@@ -217,8 +221,8 @@ TEST_CASE("a tip 4e-3 m in another's, one without a Hessian: a long turn on a pl
   check_covers(body1, body2, pose2, Vector3(-0.9827693063605325, 0.1741329996797667, 0.06198539261926516).normalized());
 }
 
-// The curvature is about to end when a step beyond does not rise; that it is does not change by it.
-TEST_CASE("tips 7e-7 m in one another: a step that does not rise does not restore a curvature that fades") {
+// The radius of curvature is about to vanish when a step beyond does not rise; that does not change by it.
+TEST_CASE("tips 7e-7 m in one another: a step that does not rise does not restore a radius of curvature that shrinks") {
   const Superellipsoid body1(Vector3(0.50326613865884384, 1.0568669013476841, 0.51857686814809989), 1.1727767667760731,
                              1.2095160897887847);
   const Superellipsoid body2(Vector3(0.83732890384385839, 0.91107346864219874, 0.62580652304072482), 1.0653498347159143,
@@ -247,9 +251,8 @@ TEST_CASE("a vertex on the flat face of a body with sharp sections, 8e-6 m deep:
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// Last seen within 8e-6 radians, where it is twice the depth; 0.02 radians beyond s is higher by 7e-9 m.
-TEST_CASE(
-    "two vertices 6e-5 m deep, one without a Hessian: a curvature hardly larger than the depth may end where it was seen last") {
+// It was last seen within 8e-6 radians, where it is twice the depth; 0.02 radians beyond s is higher by 7e-9 m.
+TEST_CASE("two vertices 6e-5 m deep, one without a Hessian: a radius of curvature hardly above the depth may end where last seen") {
   const Superellipsoid body1(Vector3(3.6481008700558961, 0.96722482379045194, 1.6659483633181225), 1.0206295723104579,
                              1.1956914668550584);
   const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
@@ -274,7 +277,7 @@ TEST_CASE("a flat face with sharp sections on the edge of a box, 0.02 m deep: th
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// The rise is too slight at 6e-3 radians, and over at four times as much.
+// The rise is too small at 6e-3 radians, and ends at four times as much.
 TEST_CASE("two vertices 8e-10 m deep in a plane of symmetry: beyond a flat spot s may be level for long") {
   const Superellipsoid body1(Vector3(0.71296597701132092, 1.0984066824783172, 1.2564937760469683), 2.1866296579336773,
                              1.1656328954301227);
@@ -287,8 +290,8 @@ TEST_CASE("two vertices 8e-10 m deep in a plane of symmetry: beyond a flat spot 
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// The vertex has no curvature, and the sum overflows.
-TEST_CASE("a vertex on the edge of a flat body, 3 mm apart: where the sum of the curvatures is singular, the flatter body's step") {
+// The vertex has a radius of curvature of 0, and the sum overflows.
+TEST_CASE("a vertex on the edge of a flat body, 3 mm apart: where the sum of the Hessians is singular, the flatter body's step") {
   const Superellipsoid body1(Vector3(1.1178312846124669, 0.51561299252521375, 0.51937387119980405), 1.0652712251839331,
                              1.0215371823428434);
   const Superellipsoid body2(Vector3(0.71620011118264004, 1.1120671328332621, 0.70715741219632777), 1.1103482903243858,
@@ -303,7 +306,7 @@ TEST_CASE("a vertex on the edge of a flat body, 3 mm apart: where the sum of the
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// Not 3e-12 m, which the model promises: in a plane of symmetry, across which s rises by 1e-11 m.
+// The error is not the 3e-12 m that the model promises: across a plane of symmetry s rises by 1e-11 m.
 TEST_CASE("two vertices 7e-5 m deep, which is touching at a tolerance of 1e-3: no more is claimed than was asked for") {
   const Superellipsoid body1(Vector3(0.11645783548106431, 2.4097850836256174, 3.7581784826603002), 6.9791411274972592,
                              1.4020841648050002);
@@ -316,8 +319,8 @@ TEST_CASE("two vertices 7e-5 m deep, which is touching at a tolerance of 1e-3: n
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// Away from the plane the normal must turn within it as well.
-TEST_CASE("two vertices 4e-11 m deep in a plane of symmetry: the hill across it lies beside the way that is looked along") {
+// On the way out of the plane the normal must turn within it as well.
+TEST_CASE("two vertices 4e-11 m deep in a plane of symmetry: the hill across it lies beside the direction that is looked along") {
   const Superellipsoid body1(Vector3(0.083500117213317529, 0.27034240319537822, 0.33815383651540687), 6.4896649402147784,
                              1.1200456333232491);
   const Superellipsoid body2(Vector3(0.5822860238970049, 0.61871970214654037, 2.3773906283478077), 2.4810988125375477,
@@ -329,7 +332,7 @@ TEST_CASE("two vertices 4e-11 m deep in a plane of symmetry: the hill across it 
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// Where the point goes the normal is 1e7 times longer, and another side's.
+// On the side where the point goes the normal is 1e7 times longer, and another side's.
 TEST_CASE("a vertex on the flat face of a body with sharp sections, 4e-7 m apart: the face's normal is 1e-16 away") {
   const Superellipsoid body1(Vector3(1.0968711739033943, 1.2205116845305606, 0.61068835487633155), 1.6718304010667231,
                              1.2267469604494341);
@@ -372,7 +375,7 @@ TEST_CASE("a hull's vertex on an octahedron's, 8e-12 m apart: not touching by a 
   check_covers(body1, body2, pose2, higher);
 }
 
-// Along the edge that both have there, 3e-4 radians off, where the cuts are as level as the edges.
+// The maximum is along the edge that both have there, 3e-4 radians off, where the cuts are as level as the edges.
 TEST_CASE("two vertices 0.3 m deep, one rounded by more: the cuts do not tell what the turn to the model's maximum gains") {
   const Superellipsoid body1(Vector3(0.75020885837032969, 0.56126955248933097, 0.79438063826842731), 14.367008308971478,
                              1.0296390914127906);
@@ -399,7 +402,7 @@ TEST_CASE("a capsule beside the middle of a straight edge, 4e-10 m deep: a radiu
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// It came 0.1 radians far, and where it ends the curvature is another.
+// The step was 0.1 radians long, and where it ends the radii of curvature are different.
 TEST_CASE("an octahedron's edge on a box's corner, touching: after a long step the contraction says nothing") {
   const Superellipsoid body1(Vector3(0.87373635023403262, 0.6062102633550237, 0.8297598022203857), 1.0257828759412819,
                              16.85941093358095);

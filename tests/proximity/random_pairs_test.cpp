@@ -1,4 +1,4 @@
-// Random pairs beyond the reference file: what must hold whatever the answer is.
+// Tests of random pairs beyond the reference file: conditions that hold whatever the answer is.
 #include <doctest/doctest.h>
 
 #include <cfenv>
@@ -30,7 +30,7 @@ class RandomPairs {
     return {half_axes, delta, between(class_.least_exponent, class_.largest_exponent)};
   }
 
-  /// Near touching, apart or overlapping by up to about half of the size.
+  /// A pose near touching, apart or overlapping by up to about half of the size.
   Pose pose(const Superellipsoid& shape1, const Superellipsoid& shape2) {
     const Vector3 direction{gauss_(engine_), gauss_(engine_), gauss_(engine_)};
     const Eigen::Quaterniond attitude{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
@@ -81,7 +81,8 @@ TEST_CASE("random pairs: finite, consistent, quiet, and within the reported erro
       if (!(std::abs(jet.s - out.gap) <= gap.rounding())) FAIL_CHECK(name, " gap ", out.gap, " but s ", jet.s);
       overlapping += out.gap < 0;
 
-      // From here on as well as double precision can. What it finds more is the error, unless it is another maximum.
+      // The search continues from here as well as double precision can. A larger gap is the error, unless it belongs to another
+      // maximum.
       Settings tight;
       tight.tolerance = 1e-14;
       const Proximity again = find_proximity(*shape1, {}, *shape2, pose2, tight, &out.normal);

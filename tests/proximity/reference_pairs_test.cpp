@@ -1,4 +1,4 @@
-// The hybrid solver against 1600 pairs with known answers, none excluded: what issue 2 promises.
+// Tests of the hybrid solver against 1600 pairs with known answers, none excluded.
 #include "reference_pairs.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ Proximity solve(const ReferencePair& pair, const Settings& settings = {}, const 
   return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, first_normal);
 }
 
-/// Smallest value that `share` of the values do not exceed.
+/// The smallest value that a `share` of the values do not exceed.
 int percentile(std::vector<int> values, double share) {
   REQUIRE_FALSE(values.empty());
   std::sort(values.begin(), values.end());
@@ -36,11 +36,13 @@ double reference_rounding(const ReferencePair& pair) {
 
 using Evaluations = std::map<std::string, std::vector<int>>;  // by class
 
-/// Limits on medians; spheres and needles are in no promise but are ellipsoids. "Mixed" has exponents from octahedral to boxy.
+/// Limits on medians; nothing is promised for spheres and needles, but they are ellipsoids. "Mixed" has exponents from octahedral
+/// to boxy.
 const std::map<std::string, int> kMedianLimits = {{"sphere", 5}, {"ellipsoid", 5},    {"needle_disk", 5}, {"moderate", 6},
                                                   {"boxy", 8},   {"extreme_boxy", 8}, {"octahedral", 10}, {"mixed", 10}};
 
-/// One at `pair`, as a time step earlier would have left it: moved by 1e-3 of the smallest half-axis and turned by 1e-3.
+/// A pose near that of `pair`, as it would have been a time step earlier: moved by 1e-3 of the smallest half-axis and turned by
+/// 1e-3.
 Pose nearby(const ReferencePair& pair, std::mt19937_64& engine) {
   std::normal_distribution<double> gauss;
   const Vector3 shift = Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized();
@@ -58,7 +60,7 @@ TEST_CASE("the reference file is complete, and its groups are what they are take
   std::map<std::string, int> counts;
   for (const ReferencePair& pair : reference_pairs()) {
     ++counts[pair.kind];
-    // Several ways to separate make a gap larger than nominal, never smaller; only overlaps have several.
+    // Several separating translations make a gap larger than nominal, never smaller; only overlaps have several.
     const double excess = pair.gap / pair.unit - pair.nominal;
     const bool as_made = std::abs(excess) < 1e-12 || (pair.nominal < 0 && excess > 0 && pair.gap < 0);
     if (!as_made) FAIL_CHECK(pair.name, " gap ", pair.gap / pair.unit, " nominal ", pair.nominal);
@@ -83,7 +85,7 @@ TEST_CASE("cold hybrid: every gap of the reference pairs") {
     }
   }
   MESSAGE("largest error of the gap: ", worst, " of the smallest half-axis");
-  // Promised is less for deep overlaps of sharp bodies (up to 0.5 % may miss the global maximum); none misses.
+  // The promise is less for deep overlaps of sharp bodies (up to 0.5 % may miss the global maximum); none misses.
   CHECK(missed == 0);
 }
 
@@ -113,7 +115,8 @@ TEST_CASE("warm hybrid: two or three evaluations from the answer of a pose 1e-3 
     const Proximity out = solve(pair, {}, &earlier);
     const double error = std::abs(out.gap - pair.gap);
     if (out.status != Status::Converged) FAIL_CHECK(pair.name, " status ", static_cast<int>(out.status));
-    // With several maxima the one of the earlier pose is followed: the answer may be lower, up to what is unquestioned.
+    // If there are several maxima, that of the earlier pose is followed: the answer may be lower, up to the depth at which the
+    // branch is left.
     if (pair.nominal >= 0 && !(error <= out.error + reference_rounding(pair)))
       FAIL_CHECK(pair.name, " error ", error, " reported ", out.error);
     if (!(out.gap <= pair.gap + out.error + reference_rounding(pair)))
@@ -124,7 +127,7 @@ TEST_CASE("warm hybrid: two or three evaluations from the answer of a pose 1e-3 
     const std::string& kind = entry.first;
     const std::vector<int>& counts = entry.second;
     MESSAGE(kind, ": median ", percentile(counts, 0.5), ", 99th percentile ", percentile(counts, 0.99));
-    // On a face that is nearly flat a third one closes the bound, where the slope already promised no more.
+    // On a face that is nearly flat a third evaluation closes the bound, because the slope already promised no more.
     CHECK_MESSAGE(percentile(counts, 0.5) <= (kind == "extreme_boxy" ? 3 : 2), kind);
   }
 }
@@ -149,8 +152,8 @@ TEST_CASE("witness points lie on both boundaries, have the normal, and are a gap
 }
 
 // s is a maximum to within the error e, so the normal n lies at e >= 1/2 dn.A dn from the true one, A = H1 + H2 + s I: hence
-// |dn| <= sqrt(2 e / least eigenvalue of A). The boundary point moves by H1 dn, and |H1 dn|^2 <= |H1| dn.H1 dn, dn.H1 dn <= 2 e +
-// max(-s, 0) dn^2. Both bounds take the worse of the curvatures at either end.
+// dn| <= sqrt(2 e / least eigenvalue of A). The boundary point moves by H1 dn, and |H1 dn|^2 <= |H1| dn.H1 dn, dn.H1 dn <= 2 e +
+// max(-s, 0) dn^2. Both bounds take the worse of the Hessians at either end.
 TEST_CASE("witness points and normals where they are determined") {
   Settings tight;
   tight.tolerance = 1e-14;

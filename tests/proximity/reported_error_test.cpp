@@ -1,4 +1,4 @@
-// The reported error where the model of the gap function says too little: cases that the soak program found.
+// Tests of the reported error where the model of the gap function says too little: cases that the soak program found.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ using supernormal::test::z_axis_to;
 
 namespace {
 
-/// How much higher than the reported bound the gap function gets around the answer, m; 0 if nowhere.
+/// The largest excess of the gap function over the reported bound around the answer, m; 0 if there is none.
 double excess_around(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Proximity& answer) {
   const Vector3 across = answer.normal.unitOrthogonal();
   double excess = 0;
@@ -42,7 +42,7 @@ double excess_around(const Shape& shape1, const Pose& pose1, const Shape& shape2
   return excess;
 }
 
-/// What a rough answer reports must cover what an exact one finds.
+/// The error that a rough answer reports must cover the gap that an exact one finds.
 void check_rough_answers(const Shape& body, const Pose& pose2) {
   const Proximity exact = find_proximity(body, {}, body, pose2, {});
   Settings settings;
@@ -59,7 +59,7 @@ Pose pose_of(const Vector3& position, double w, double x, double y, double z) {
 
 }  // namespace
 
-// Both have their sharpest vertex there: s = -depth cos(turn), and no curvature that a program's functions would show.
+// Both have their sharpest vertex there: s = -depth cos(turn), and a program's functions show no radius of curvature.
 TEST_CASE("vertex in vertex without Hessians: the normal between is a minimum, and the reported error covers the hill around it") {
   const auto sharp1 = std::make_shared<Superellipsoid>(Vector3(1.1, 0.635, 0.75), 1.108, 1.143);
   const Superellipsoid body1(*sharp1);
@@ -80,9 +80,9 @@ TEST_CASE("vertex in vertex without Hessians: the normal between is a minimum, a
   }
 }
 
-// Both are turned by a millionth from one another. The flat top has an infinite curvature beside which the first steps end: the
-// promised gain falls to nothing there, and rises again on the other side.
-TEST_CASE("apex on a flat top: a step that ends beside infinite curvature is no convergence") {
+// Both are turned by a millionth from one another. The flat top has an infinite radius of curvature, near which the first steps
+// end: the promised gain falls to nothing there, and rises again on the other side.
+TEST_CASE("apex on a flat top: a step that ends beside an infinite radius of curvature is no convergence") {
   const Superellipsoid apex(Vector3(0.611306, 1.00865, 0.507747), 3.33016, 1.31775);
   const Superellipsoid top(Vector3(0.658949, 1.03858, 0.716509), 1.33293, 3.87141);
   const Vector3 n(-6.1304644873200358e-07, -7.8583620252973426e-08, 1);
@@ -96,7 +96,8 @@ TEST_CASE("apex on a flat top: a step that ends beside infinite curvature is no 
   }
 }
 
-// Along a needle the curvature falls from step to step as fast as the slope: what is promised says nothing about what follows.
+// Along a needle the radius of curvature falls from step to step as fast as the slope: the promised gain says nothing about what
+// follows.
 TEST_CASE("needles tip to tip: steps that grow are no convergence") {
   const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
   Pose pose2{Vector3(1.1836731558009868, 0.081589419827538659, -0.97956557560407753), Matrix3::Identity()};
@@ -134,7 +135,7 @@ TEST_CASE("on a cylinder's face from a normal beside it: the face's depth to rou
 }
 
 // Both are symmetric about the plane in which the normal climbs: it ends on a saddle, and has never seen a turn out of the plane.
-TEST_CASE("vertices in a common plane of symmetry, one without a Hessian: the way out of the plane is looked at") {
+TEST_CASE("vertices in a common plane of symmetry, one without a Hessian: the direction out of the plane is tried") {
   const Superellipsoid body1(Vector3(1.32053, 1.33285, 1.40549), 1.298, 1.236);
   const CallbackShape body2 =
       without_hessian(std::make_shared<Superellipsoid>(Vector3(0.596023, 0.555018, 0.950173), 1.1784, 1.1886));
@@ -147,8 +148,8 @@ TEST_CASE("vertices in a common plane of symmetry, one without a Hessian: the wa
   }
 }
 
-// Seen from the needle's flat side the rim's curvature is overestimated to one side and to the other: without the cuts the normal
-// zigzags down to that of the cap, 1e-6 beside the maximum.
+// Seen from the needle's flat side the rim's radius of curvature is overestimated to one side and to the other: without the cuts
+// the normal zigzags down to that of the cap, 1e-6 beside the maximum.
 TEST_CASE("needle across a cylinder's rim: steps that stay as long as the last are no convergence") {
   const Cylinder cylinder(2.7598075274203726, 0.41336571351567486);
   const Superellipsoid needle(Vector3(0.80612899117088677, 0.14950435281593677, 0.067824181045325865), 5.8889, 50.876);
@@ -161,7 +162,7 @@ TEST_CASE("needle across a cylinder's rim: steps that stay as long as the last a
   }
 }
 
-// The azimuth of a point that is 1e-312 m off the axis: dividing by that overflows.
+// The azimuth is that of a point 1e-312 m off the axis: dividing by that overflows.
 TEST_CASE("next to nothing beside a cylinder's axis: the depth along the axis") {
   const Cylinder cylinder(1, 1.077920734531224);
   const Superellipsoid body(Vector3(1.486, 0.68, 1.317), 1.268, 1.151);
@@ -171,7 +172,8 @@ TEST_CASE("next to nothing beside a cylinder's axis: the depth along the axis") 
   CHECK(answer.gap == test::relative(-1e-3).epsilon(1e-12));
 }
 
-// A face normal of the box whose nearest corner is exactly on the vertex: the other corners do not hold the normal there.
+// The normal is that of a face of the box whose nearest corner is exactly on the vertex: the other corners do not hold the normal
+// there.
 TEST_CASE("a box's corner exactly on a vertex: the normal between them is a minimum") {
   const Superellipsoid body(Vector3(0.520313, 0.775239, 1.29591), 1.0616, 1.0239);
   const Box box(Vector3(0.8265, 1.3193, 0.51));
@@ -218,7 +220,7 @@ TEST_CASE("box in box, turned by a ten millionth: the normal of a face that hard
   CHECK(excess_around(box, {}, box, pose2, answer) <= 1e-15);
 }
 
-// The first step is 0.6 long: that it comes near says nothing of how fast the next ones will.
+// The first step is 0.6 long: its contraction does not tell how fast the next ones will converge.
 TEST_CASE("needles tip to tip, after a long step: it tells no contraction") {
   const Superellipsoid needle(Vector3(1, 1e-4, 1e-4), 1.3, 1.3);
   const Pose pose2 = pose_of({1.1836648306002431, 0.081643334851451546, -0.9796003455933715}, -0.3030032323743363,
@@ -239,7 +241,7 @@ TEST_CASE("a flat needle beside a double cone: apart, although there is a local 
   CHECK(answer.gap == test::relative(1.1460826404430247e-4).epsilon(1e-6));
 }
 
-// Where the model has just been wrong, its small promise within a small trust region is no convergence.
+// The model has just been wrong, so its small promise within a small trust region is no convergence.
 TEST_CASE("boxes of exponent 200 in one another: a step that the trust region holds back is no convergence") {
   const Superellipsoid body1(Vector3(1.0000428164011124, 0.80005228989775901, 0.50001453720695488), 200.00356326936449,
                              199.99596973295817);
@@ -251,7 +253,7 @@ TEST_CASE("boxes of exponent 200 in one another: a step that the trust region ho
   CHECK(excess_around(body1, {}, body2, pose2, answer) <= 1e-15);
 }
 
-// The gain of a step to a normal 1e-160 away: dividing the next one by that would overflow.
+// A step leads to a normal 1e-160 away: dividing the next gain by that of this step would overflow.
 TEST_CASE("next to nothing beside a plane of symmetry: no overflow") {
   const Superellipsoid body1(Vector3(0.50084521668798021, 0.8799530275640064, 1.3617083385272106), 1.0256029248035792,
                              1.0772194785899689);
@@ -277,7 +279,7 @@ TEST_CASE("apex on a rounded edge: one direction converges fast, and does not te
                              -3.04007631221937e-06, 6.748831069300234e-06, 1.3706040401892649e-05);
   const Proximity answer = find_proximity(apex, {}, body2, pose2, {});
   CHECK(answer.status == Status::Converged);
-  CHECK(answer.gap + answer.error >= -4.4543813082498218e-11 - 1e-15);  // the bodies were placed with that
+  CHECK(answer.gap + answer.error >= -4.4543813082498218e-11 - 1e-15);  // the bodies were placed with that gap
 }
 
 // The faces are parallel but for rounding: the model of the flat face, far from where it ends, sees the body's point between the
@@ -293,8 +295,8 @@ TEST_CASE("a box's corner over the rim of a flat face: the edge does not hold th
   CHECK(answer.gap == test::relative(5.0747044678667308e-06).epsilon(1e-3));
 }
 
-// The steps end at the rounding of the boundary points: the differences between those are no curvature.
-TEST_CASE("vertex in vertex without a Hessian, as exactly as can be: rounding is not taken for a curvature that holds") {
+// The steps end at the rounding of the boundary points: the differences between those give no radius of curvature.
+TEST_CASE("vertex in vertex without a Hessian, as exactly as can be: rounding is not taken for a radius of curvature that holds") {
   const Superellipsoid body1(Vector3(0.57808874109912955, 0.65892262340956331, 1.129978841879919), 1.0347375952555244,
                              1.0686434521814809);
   const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
@@ -308,8 +310,10 @@ TEST_CASE("vertex in vertex without a Hessian, as exactly as can be: rounding is
   CHECK(excess_around(body1, {}, body2, pose2, find_proximity(body1, {}, body2, pose2, settings)) <= 1e-15);
 }
 
-// What the model promises is rounding, but only because it was made of another curvature than that of the normals around.
-TEST_CASE("concentric bodies of exponents 50 and 2, as exactly as can be: a curvature that has just changed promises nothing") {
+// The promised gain is rounding, but only because the model was made with other radii of curvature than those of the normals
+// around.
+TEST_CASE(
+    "concentric bodies of exponents 50 and 2, as exactly as can be: a radius of curvature that has just changed promises nothing") {
   const Superellipsoid body(Vector3(1, 0.8, 0.5), 50, 2);
   const Pose pose2 = pose_of({2.2943614940614911e-06, 3.504289014228068e-08, -1.0213569298247613e-06}, 1, -1.5533454596453008e-12,
                              7.621408478987834e-13, 3.7524472547362336e-13);
@@ -339,8 +343,8 @@ TEST_CASE("deep in one another on a plane of symmetry, roughly: no more is claim
         answer.gap + answer.error);
 }
 
-// The edge holds the normal where the step begins. Where it ends, the tip's curvature, which is large one way only, has turned the
-// slopes: both corners rise the other way.
+// The edge holds the normal where the step begins. Where it ends, the tip's radius of curvature, which is large one way only, has
+// turned the slopes: both corners rise the other way.
 TEST_CASE("an octahedron's tip beside a corner of a polytope: an edge that holds the normal here need not do so there") {
   const Superellipsoid tip(Vector3(1.4246107994091295, 1.4552453147657094, 1.4980420995776373), 1.0611851224682807,
                            1.1857292548358858);
@@ -358,7 +362,7 @@ TEST_CASE("an octahedron's tip beside a corner of a polytope: an edge that holds
       0.38044501995261348, 0.19547202425750937, -0.90390943933887935;
   const Proximity answer = find_proximity(tip, {}, polytope, pose2, {});
   CHECK(answer.is_global);
-  CHECK(answer.gap + answer.global_error >= 2.9898827857977039e-10);  // the bodies were placed with that
+  CHECK(answer.gap + answer.global_error >= 2.9898827857977039e-10);  // the bodies were placed with that gap
 }
 
 // Seen from five degrees aside they are as round as the overlap is deep, but not from nearer.
@@ -379,8 +383,8 @@ TEST_CASE("vertex in vertex without a Hessian: what is not reached is not claime
   CHECK(gap_at(body1, {}, body2, pose2, higher) <= answer.gap + answer.error);
 }
 
-// Where the steps end s is nearly level, but rises more steeply again beyond.
-TEST_CASE("concentric bodies of exponents 50 and 2: a shelf is no maximum") {
+// The steps end where s is nearly level, but s rises more steeply again beyond.
+TEST_CASE("concentric bodies of exponents 50 and 2: a near-degenerate stationary point is no maximum") {
   const Superellipsoid body1(Vector3(1, 0.8, 0.5), 50, 2);
   const Superellipsoid body2(Vector3(0.99999999999983802, 0.80000000000007532, 0.49999999999998263), 49.999999999989086,
                              2.0000000000000786);
@@ -399,7 +403,7 @@ TEST_CASE("a ball deep in a ball a thousand times its size: what rounding says o
   }
 }
 
-// Five degrees from its vertex the points of the second body show a radius of 1e-4 m and more.
+// Five degrees from its vertex the points of the second body show a radius of curvature of 1e-4 m and more.
 TEST_CASE("vertex in vertex, 5e-5 m deep, one without a Hessian: they are not as round as they seem from afar") {
   const Superellipsoid body1(Vector3(1.4101510110964472, 1.2836217351915686, 1.3660322909353744), 1.2269106873577822,
                              1.0814644158775701);
@@ -419,12 +423,12 @@ TEST_CASE("a brick's face on the border of a cylinder's: steps that shrink in a 
       1.2755978588381349e-16, 1, 2.7343879781824106e-17,                 //
       -1.7957608729881174e-17, -2.7343879781824106e-17, 1;
   const Proximity answer = find_proximity(brick, {}, cylinder, pose2, {});
-  CHECK(std::abs(answer.gap) <= answer.error);  // placed to touch
+  CHECK(std::abs(answer.gap) <= answer.error);  // the bodies were placed to touch
 }
 
 // The brick's point is at the wrong end of its face. A turn by 2e-15 brings it to the other end, but no further: the corners of
 // the box's face do not hold the normal that way, its edge is to be found.
-TEST_CASE("a brick's edge on a box's, started at the normal of the faces: the curvature of a face holds nothing") {
+TEST_CASE("a brick's edge on a box's, started at the normal of the faces: the radius of curvature of a face holds nothing") {
   const Box box(Vector3(0.58565179804385514, 1.3107073814951085, 0.71420637497054951));
   const Superellipsoid brick(Vector3(0.68207095075621638, 1.2143136173534945, 0.61676367917088692), 102.59479598454982,
                              196.71455901639888);
@@ -435,12 +439,13 @@ TEST_CASE("a brick's edge on a box's, started at the normal of the faces: the cu
   const Vector3 start(0.30116993208668003, -0.89749896072442492, -0.32216810441985394);
   const Proximity answer = find_proximity(box, {}, brick, pose2, {}, &start);
   CHECK(answer.error <= 1e-9);
-  CHECK(std::abs(answer.gap) <= answer.error);  // placed to touch
+  CHECK(std::abs(answer.gap) <= answer.error);  // the bodies were placed to touch
 }
 
 // The first normal, 0.9 radians from the maximum, is one of both tips: s rises along its slope as far as the normals of the tips
 // go.
-TEST_CASE("a tip in another's, one without a Hessian, at a loose tolerance: before any curvature is seen none is believed") {
+TEST_CASE(
+    "a tip in another's, one without a Hessian, at a loose tolerance: before any radius of curvature is seen none is believed") {
   const Superellipsoid body1(Vector3(1.3307026937667679, 0.67791660216741145, 1.0579499391168263), 1.2734375926967885,
                              1.0277908818452606);
   const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(
@@ -468,5 +473,5 @@ TEST_CASE("an octahedron's tip on the rim of a cylinder, at the finest tolerance
   Settings settings;
   settings.tolerance = 1e-15;
   const Proximity answer = find_proximity(cylinder, {}, tip, pose2, settings);
-  CHECK(2.7688962234151404e-13 <= answer.gap + answer.error);  // that of a normal between the cap's and the mantle's
+  CHECK(2.7688962234151404e-13 <= answer.gap + answer.error);  // the gap of a normal between the cap's and the mantle's
 }

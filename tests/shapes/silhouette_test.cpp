@@ -58,7 +58,7 @@ TEST_CASE("the submerged part of an ellipsoid is the image of a sphere's cap") {
     const Submerged part = immersion.below(up, t * scaled.norm());
     const double share = (2 + 3 * t - t * t * t) / 4;
     CHECK(std::abs(part.volume / whole - share) < 0.005);
-    const double depth = -3 * (1 - t * t) * (1 - t * t) / (16 * share);  // of the cap's centroid, in radii
+    const double depth = -3 * (1 - t * t) * (1 - t * t) / (16 * share);  // depth of the cap's centroid, in radii
     CHECK((part.centre - depth * a.cwiseProduct(scaled.normalized())).norm() < 1e-3);
   }
 }

@@ -1,4 +1,4 @@
-// Corners of a patch stay on the floor that they are on.
+// Tests that the corners of a contact manifold stay on the floor.
 #include "contact/mesh/mesh_manifold.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ using namespace supernormal;
 
 namespace {
 
-/// The rectangle from (x0, y0) to (x1, y1) at height z, in 2 * columns triangles.
+/// Adds the rectangle from (x0, y0) to (x1, y1) at height z, in 2 * columns triangles.
 void add_rectangle(double x0, double y0, double x1, double y1, double z, int columns, std::vector<MeshTriangle>& triangles) {
   for (int k = 0; k < columns; ++k) {
     const double left = x0 + (x1 - x0) * k / columns;
@@ -26,7 +26,7 @@ void add_rectangle(double x0, double y0, double x1, double y1, double z, int col
   }
 }
 
-/// Of a brick of half-axes 0.1, 0.07, 0.05 at rest on z = 0.
+/// The manifold of a brick with half-axes 0.1, 0.07, 0.05 at rest on z = 0.
 ContactManifold patch_on_plane() {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
   const Pose pose{Vector3(0, 0, 0.05 - 1e-5), Matrix3::Identity()};

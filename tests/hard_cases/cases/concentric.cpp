@@ -1,4 +1,4 @@
-// Concentric, identical, aligned: the centre line has no direction, or every direction is as good.
+// Concentric, identical, aligned bodies: the centre line has no direction, or every direction is as good.
 #include <cmath>
 
 #include "builders.hpp"
@@ -31,7 +31,7 @@ void add_nearly_concentric(std::vector<HardCase>& cases) {
   const std::string reason = "the centre line has a direction, but it is noise: far shorter than the bodies";
   for (const double offset : {1e-300, 1e-100, 1e-16, 1e-12, 1e-8, 1e-4}) {
     const Pose pose = at({0, 0, offset});
-    const double gap = kGap + offset;  // along z: out of the near side of both
+    const double gap = kGap + offset;  // along z, on the near side of both
     cases.push_back(pair("nearly concentric: ellipsoids " + text(offset) + " m apart", reason, ellipsoid(kLengths),
                          ellipsoid(kLengths), pose, gap));
     cases.push_back(pair("nearly concentric: boxy " + text(offset) + " m apart", reason, superellipsoid(kLengths, 20, 20),

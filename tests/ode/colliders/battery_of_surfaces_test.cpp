@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kRepetitions = 10000;
 
-/// Whether the pair touched: moves the body out by 0.96 of the depth, and by another 0.08.
+/// Moves the body out by 0.96 of the depth, and by another 0.08, and returns whether the pair touched.
 bool check_way_out(dGeomID body, dGeomID collider, bool body_first) {
   const dGeomID g1 = body_first ? body : collider;
   const dGeomID g2 = body_first ? collider : body;

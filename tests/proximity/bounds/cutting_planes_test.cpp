@@ -1,4 +1,4 @@
-// Cuts bound the gap function, and maximize() finds the top of their minimum.
+// Tests that cuts bound the gap function, and that maximize() finds the top of their minimum.
 #include "proximity/bounds/cutting_planes.hpp"
 
 #include <doctest/doctest.h>
@@ -52,10 +52,10 @@ TEST_CASE("no gap is larger than the cuts of other normals allow") {
       gap.evaluate(n, Order::Value, jet);
       const double bound = cuts.upper_bound(n);
       if (!(jet.s <= bound + gap.rounding())) FAIL_CHECK(pair.name, " s ", jet.s, " above ", bound);
-      // Homogeneous: half the vector, half the bound.
+      // The bound is homogeneous: half the vector has half the bound.
       CHECK(cuts.upper_bound(0.5 * n) == 0.5 * bound);
     }
-    // Where a cut was made it is exact.
+    // A cut is exact at its own normal.
     gap.evaluate(normals[3], Order::Value, jet);
     CHECK(std::abs(cuts.upper_bound(normals[3]) - jet.s) <= 2 * gap.rounding());
   }
@@ -76,7 +76,7 @@ TEST_CASE("the oldest cut gives way to the newest") {
 }
 
 TEST_CASE("maximize goes on between cuts that are all but parallel") {
-  // Two neighbouring points of a rim, which meet at u = 0: both rise the same way.
+  // Two neighbouring points of a rim meet at u = 0, and both rise the same way.
   constexpr double kRim = 1.104;
   for (int k = 0; k < 200; ++k) {
     const double angle = 0.01 * k;
@@ -112,7 +112,7 @@ TEST_CASE("maximize finds the top of random cuts") {
     CHECK(top.u.norm() <= kRadius * (1 + 1e-12));
     CHECK(std::abs(top.value - model(cuts, plane, top.u)) <= 1e-10);
     (top.is_interior ? interior : rim) += 1;
-    // The ascent stops where it meets the rim: a better place along the rim is allowed there, but the way up never led down.
+    // The ascent stops where it meets the rim: a better place along the rim is allowed there, but the path never led down.
     CHECK(top.value >= model(cuts, plane, Vector2::Zero()) - 1e-12);
     if (!top.is_interior) {
       CHECK(top.u.norm() >= kRadius * (1 - 1e-12));
@@ -177,7 +177,7 @@ TEST_CASE("a way that is open between two cuts is found, however they are turned
       const double way = std::remainder(std::atan2(open.way.y(), open.way.x()) - turn, 2 * std::numbers::pi);
       CHECK(way >= 0);
       CHECK(way <= sector);
-      // One that closes a disc across the sector.
+      // This cut closes a disc across the sector.
       cuts.add((kLevel + 0.1) * plane.n - 0.5 * plane.lift({std::cos(turn), std::sin(turn)}));
       const double stop = cuts.reach(plane, Vector2::Zero(), kLevel, kLeast).distance;
       CHECK(stop > 0.2);
