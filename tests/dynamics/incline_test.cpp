@@ -58,7 +58,7 @@ double acceleration(double epsilon) {
 }  // namespace
 
 TEST_CASE("a superellipsoid rests on an incline up to the limit of its section and not beyond") {
-  // shared/reference/README.md: "Greatest incline on which a superellipse section (a = c) can rest without sliding: exponent 4:
+  // tests/data/README.md: "Greatest incline on which a superellipse section (a = c) can rest without sliding: exponent 4:
   // 19.4712 deg; 8: 30.3696 deg"
   struct Case {
     double exponent;
@@ -73,7 +73,7 @@ TEST_CASE("a superellipsoid rests on an incline up to the limit of its section a
 }
 
 TEST_CASE("a circular equator rolls down an incline as the closed form says") {
-  // shared/reference/README.md: "Rolling down an incline on a circular equator (delta = 2): a/(g sin theta) = 0.714286 (epsilon =
+  // tests/data/README.md: "Rolling down an incline on a circular equator (delta = 2): a/(g sin theta) = 0.714286 (epsilon =
   // 2), 0.686033 (4), 0.673540 (8)."
   CHECK(acceleration(2) == relative(0.714286).epsilon(1e-4));
   CHECK(acceleration(4) == relative(0.686033).epsilon(1e-4));

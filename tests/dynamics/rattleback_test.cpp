@@ -25,7 +25,7 @@ constexpr double kEnergy = 0.12388531;  // J
 }  // namespace
 
 TEST_CASE("a rattleback turned the wrong way reverses when it should") {
-  // shared/reference/README.md: "no slip, omega_3 = -5 rad/s: the spin first reverses at 2.3527 s; smallest yaw -6.81015 rad at
+  // tests/data/README.md: "no slip, omega_3 = -5 rad/s: the spin first reverses at 2.3527 s; smallest yaw -6.81015 rad at
   // 2.8150 s; energy 0.12388531 J conserved." omega_3 is the body's, and swings with the rattling; the vertical one reverses at
   // 2.6847 s (the same equations of motion, integrated by the Runge-Kutta method).
   //
@@ -56,7 +56,7 @@ TEST_CASE("a rattleback turned the wrong way reverses when it should") {
 }
 
 TEST_CASE("a rattleback turned the right way goes on turning") {
-  // shared/reference/README.md: "Released at +5 it does not reverse early: yaw 24.767 rad at 5 s."
+  // tests/data/README.md: "Released at +5 it does not reverse early: yaw 24.767 rad at 5 s."
   OdeSession session;
   NoSlipFloor world;
   Rattleback rattleback(world.id(), world.space(), 5);

@@ -28,7 +28,7 @@ struct Rocking {
     return {h, std::copysign(slope, theta)};
   }
 
-  /// The moment of inertia about y, per mass: <x^2> + <z^2> of shared/reference/README.md.
+  /// The moment of inertia about y, per mass: <x^2> + <z^2> of tests/data/README.md.
   double inertia() const {
     const auto gamma = [](double x) { return std::tgamma(x); };
     const double e = exponent;
@@ -105,8 +105,8 @@ Motion rock(const Rocking& rocking, double dt) {
 
 }  // namespace
 
-TEST_CASE("the reference for rocking agrees with shared/reference/README.md") {
-  // shared/reference/README.md: "(0.3, 0.2, 0.1), g = 9.81: exponent 2, theta0 = 0.01: 0.317495960 / 0.388773991 s (frictionless
+TEST_CASE("the reference for rocking agrees with tests/data/README.md") {
+  // tests/data/README.md: "(0.3, 0.2, 0.1), g = 9.81: exponent 2, theta0 = 0.01: 0.317495960 / 0.388773991 s (frictionless
   // / rolling); theta0 = 0.3 frictionless: 0.489837517. Exponent 3, theta0 = 0.1: 0.309433488 / 0.351081324 s."
   CHECK(Rocking{2, 0.01, false}.period() == relative(0.317495960).epsilon(1e-6));
   CHECK(Rocking{2, 0.01, true}.period() == relative(0.388773991).epsilon(1e-6));

@@ -1,4 +1,4 @@
-// Tests of pairs with published inputs or closed forms (shared/reference/README.md), to 1e-10 of the bodies' size.
+// Tests of pairs with published inputs or closed forms (tests/data/README.md), to 1e-10 of the bodies' size.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// The 1600 pairs with known answers (tests/data/superellipsoid_pairs.csv; shared/reference/README.md says how they were made).
+// The 1600 pairs with known answers (tests/data/superellipsoid_pairs.csv; tests/data/README.md says how they were made).
 #pragma once
 
 #include <Eigen/Geometry>

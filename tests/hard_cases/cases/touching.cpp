@@ -30,7 +30,7 @@ std::vector<HardCase> touching_cases() {
     cases.push_back(on_normal("touching: " + std::string(family.name) + ", askew", "the gap is zero but for rounding", body,
                               Vector3(1, 2, -1), body, askew(), 0));
   }
-  // The LAMMPS unit tests have these superballs (shared/reference/README.md).
+  // The LAMMPS unit tests have these superballs (tests/data/README.md).
   for (const double exponent : {2., 3.5, 8.}) {
     HardCase touching = pair("touching: LAMMPS superballs " + text(exponent), "published: touch at the origin",
                              superball(3.456, exponent), superball(3.456, exponent), at({3.456, 0, 0}), 0);

@@ -43,7 +43,7 @@ TEST_CASE("ellipsoid: the textbook") {
   for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-14)));
 }
 
-TEST_CASE("superellipsoids: the values of shared/reference/README.md, 'Volume and inertia (closed form)'") {
+TEST_CASE("superellipsoids: the values of tests/data/README.md, 'Volume and inertia'") {
   OdeSession session;
   dMass mass;
   {

@@ -30,7 +30,7 @@ snStatistics statistics() {
 
 }  // namespace
 
-TEST_CASE("the published pair R1 of shared/reference/README.md") {
+TEST_CASE("the published pair R1 of tests/data/README.md") {
   OdeSession session;
   const Geom g1(snCreateSuperellipsoid(nullptr, 15, 10, 5, dReal(2 / 0.7), dReal(2 / 0.5)));
   const Geom g2(snCreateSuperellipsoid(nullptr, 5, 3, 2, dReal(2 / 0.2), dReal(2 / 1.25)));
