@@ -63,7 +63,7 @@ class Portal {
     double area = 0;                                          // m^2
 
     bool is_as_high(const Simplex& other) const { return std::abs(height - other.height) <= error + other.error; }
-    // Of two simplices that are equally high, as when the line is in an edge of both, the larger one has the better normal.
+    // If two simplices are equally high, as when the line is in an edge of both, the larger one has the better normal.
     bool is_better(const Simplex& other) const { return is_as_high(other) ? area > other.area : height < other.height; }
   };
 

@@ -1,7 +1,7 @@
 // The body is convex when the width of its section at the height s = z/c, g(s) = w(s) N(s), is concave in s for every direction
-// (A, B) in the section. Here w(s) = (1 - |s|^epsilon)^(1/epsilon) and N = |(A X, B Y)|_p with X = 1 + taper_x s, Y = 1 + taper_y
-// s. With the shares u = (A X)^p / N^p and v = 1 - u of the two sides, and their relative slopes rx = taper_x / X, ry = taper_y /
-// Y,
+// (A, B) in the section. Here w(s) = (1 - |s|^epsilon)^(1/epsilon) and
+//     N = |(A X, B Y)|_p,   X = 1 + taper_x s,   Y = 1 + taper_y s.
+// With the shares u = (A X)^p / N^p and v = 1 - u of the two sides, and their relative slopes rx = taper_x / X, ry = taper_y / Y,
 //     N'/N = u rx + v ry,   N''/N = (p - 1) u v (rx - ry)^2,
 // and -g'' >= 0, times (1 - |s|^epsilon)^2 |s|^(2 - epsilon) / g, reads
 //     (epsilon - 1) + 2 s (1 - |s|^epsilon) (u rx + v ry) - (p - 1) u v (rx - ry)^2 |s|^(2 - epsilon) (1 - |s|^epsilon)^2 >= 0

@@ -61,9 +61,8 @@ TEST_CASE("superellipsoids dropped on a plane come to rest on it and lose energy
 }
 
 TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of tests/data/README.md") {
-  // tests/data/README.md: "Frictionless, elastic drop on a plane at 1 m/s, tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg:
-  // v_z after 0.3620502923 m/s,
-  // omega| 3.7286342504 rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160."
+  // tests/data/README.md: "Frictionless, elastic drop on a plane at 1 m/s, tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z
+  // after 0.3620502923 m/s, |omega| 3.7286342504 rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160."
   struct Case {
     dReal exponent;
     double v_z, spin;

@@ -152,7 +152,7 @@ TEST_CASE("witness points lie on both boundaries, have the normal, and are a gap
 }
 
 // s is a maximum to within the error e, so the normal n lies at e >= 1/2 dn.A dn from the true one, A = H1 + H2 + s I: hence
-// dn| <= sqrt(2 e / least eigenvalue of A). The boundary point moves by H1 dn, and |H1 dn|^2 <= |H1| dn.H1 dn, dn.H1 dn <= 2 e +
+// |dn| <= sqrt(2 e / least eigenvalue of A). The boundary point moves by H1 dn, and |H1 dn|^2 <= |H1| dn.H1 dn, dn.H1 dn <= 2 e +
 // max(-s, 0) dn^2. Both bounds take the worse of the Hessians at either end.
 TEST_CASE("witness points and normals where they are determined") {
   Settings tight;
