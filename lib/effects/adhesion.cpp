@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "effects/elastic_geom.hpp"
-#include "effects/law.hpp"
 #include "effects/motion.hpp"
+#include "effects/pair_material.hpp"
 
 namespace supernormal::effects {
 namespace {
@@ -25,14 +25,14 @@ void keep_in_touch(Patch& patch) {
 }  // namespace
 
 // A contact joint cannot pull, so the attraction is an external force that the joint has to hold.
-void add_adhesion(const PairMaterial& law, Patch& patch) {
+void add_adhesion(const PairMaterial& pair, Patch& patch) {
   const dBodyID body1 = patch.body1();
   const dBodyID body2 = patch.body2();
   const auto is_awake = [](dBodyID body) { return body != nullptr && dBodyIsEnabled(body) != 0; };
   // ODE keeps the forces on a sleeping body until it wakes.
   if (!is_awake(body1) && !is_awake(body2)) return;
-  if ((law.surface.mode & dContactSoftCFM) == 0) keep_in_touch(patch);
-  const double share = law.pull_off / patch.bearers();
+  if ((pair.surface.mode & dContactSoftCFM) == 0) keep_in_touch(patch);
+  const double share = pair.pull_off / patch.bearers();
   for (const dContact& contact : patch.contacts) {
     if (!patch.bears(contact)) continue;
     const Vector3 pull = -share * ode::to_vector(contact.geom.normal);

@@ -59,7 +59,7 @@ void BodyForces::add(dBodyID body) {
     if (ours == nullptr) continue;
     Part part{geom, &ours->shape(), 0, std::nullopt};
     if (stokes_drag_) part.surface = surface_area(ours->shape());
-    if (buoyancy_) part.immersion.emplace(ours->shape());
+    if (buoyancy_) part.submerged_volume.emplace(ours->shape());
     entry.parts.push_back(std::move(part));
   }
   if (entry.parts.empty()) throw std::invalid_argument("the body has no geom made by snCreate…, but must have one");
@@ -89,7 +89,8 @@ unsigned long long BodyForces::apply_buoyancy() {
   return visit([&](const Entry& entry) {
     for (const Part& part : entry.parts) {
       const Pose pose = ode::pose_of(part.geom);
-      const Submerged submerged = part.immersion->below(pose.rotation.transpose() * up, buoyancy_->level - up.dot(pose.position));
+      const Submerged submerged =
+          part.submerged_volume->below(pose.rotation.transpose() * up, buoyancy_->level - up.dot(pose.position));
       if (submerged.volume == 0) continue;
       const Vector3 force = -buoyancy_->density * submerged.volume * gravity_;
       const Vector3 at = pose.rotation * submerged.centre + pose.position;

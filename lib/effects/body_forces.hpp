@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "effects/law.hpp"
+#include "effects/pair_material.hpp"
 #include "supernormal/effects.hpp"
 #include "supernormal/shapes/submerged_volume.hpp"
 
@@ -34,8 +34,8 @@ class BodyForces {
   struct Part {
     dGeomID geom;
     const Shape* shape;
-    double surface = 0;                        // m^2, for Stokes drag
-    std::optional<SubmergedVolume> immersion;  // for buoyancy
+    double surface = 0;                               // m^2, for Stokes drag
+    std::optional<SubmergedVolume> submerged_volume;  // for buoyancy
   };
   struct Entry {
     dBodyID body;

@@ -13,8 +13,8 @@
 
 #include "effects/elastic_geom.hpp"
 #include "effects/hertz.hpp"
-#include "effects/law.hpp"
 #include "effects/motion.hpp"
+#include "effects/pair_material.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
 
 namespace supernormal::effects {
@@ -76,28 +76,28 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
 
 }  // namespace
 
-void set_spring(const PairMaterial& law, Patch& patch) {
+void set_spring(const PairMaterial& pair, Patch& patch) {
   const double depth = greatest_depth(patch);
-  set_rows({law.stiffness * depth, law.stiffness, law.damping}, effective_mass(patch), patch);
+  set_rows({pair.stiffness * depth, pair.stiffness, pair.damping}, effective_mass(patch), patch);
 }
 
-void set_hertz(const PairMaterial& law, Patch& patch) {
+void set_hertz(const PairMaterial& pair, Patch& patch) {
   const dContactGeom& geom = patch.deepest().geom;
   const Vector3 n = ode::to_vector(geom.normal);  // into g1
   const ContactCurvature curvature = find_contact_curvature(curvature_of(geom.g1, -n) + curvature_of(geom.g2, n), n);
   const double depth = greatest_depth(patch);
   const double width = std::min(mean_half_extent(geom.g1), mean_half_extent(geom.g2));
-  Spring spring{2 * law.elastic_modulus * width * depth, 2 * law.elastic_modulus * width, 0};  // force of the flat punch
+  Spring spring{2 * pair.elastic_modulus * width * depth, 2 * pair.elastic_modulus * width, 0};  // force of the flat punch
   // Hertz's ellipses that are longer than a thousand times their width count as straight lines.
   const double smaller = std::max(curvature.smaller, 1e-6 * curvature.larger);
   if (smaller > 0 && depth > 0) {
     const double radius = 1 / std::sqrt(smaller * curvature.larger);
     const double reduced = depth / hertz_correction(curvature.larger / smaller);
-    const double force = 4.0 / 3 * law.elastic_modulus * std::sqrt(radius * reduced) * reduced;
+    const double force = 4.0 / 3 * pair.elastic_modulus * std::sqrt(radius * reduced) * reduced;
     if (force < spring.force) spring = {force, 1.5 * force / depth, 0};
   }
   const double mass = effective_mass(patch);
-  spring.damping = 2 * law.damping_ratio * std::sqrt(5.0 / 6 * mass * spring.tangent);
+  spring.damping = 2 * pair.damping_ratio * std::sqrt(5.0 / 6 * mass * spring.tangent);
   set_rows(spring, mass, patch);
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/law.hpp"
 #include "effects/motion.hpp"
+#include "effects/pair_material.hpp"
 
 namespace supernormal::effects {
 

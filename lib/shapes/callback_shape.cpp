@@ -144,7 +144,7 @@ double sharpest_bend(const Vector3& axis, const CallbackShape::Point& point) {
 }
 
 /// Searches around the nine axes through faces and edges of a cube.
-double find_sharpest_radius(const CallbackShape::Point& point) {
+double estimate_min_curvature_radius(const CallbackShape::Point& point) {
   double radius = std::numeric_limits<double>::infinity();
   const std::array<Trial, kDirections> trials = trial_directions();
   for (std::size_t i = 0; i < trials.size() / 2; ++i) {  // opposite axes have the same circle
@@ -166,7 +166,7 @@ CallbackShape::CallbackShape(Support support, Point point, Hessian hessian)
   }
   check_convex(trials, check_points(trials));
   half_extents_ = Shape::half_extents();
-  sharpest_radius_ = find_sharpest_radius(point_);
+  min_curvature_radius_ = estimate_min_curvature_radius(point_);
   if (!hessian_) return;
   for (const Trial& trial : trials) check_hessian(hessian_(trial.n), trial.n);
 }

@@ -55,8 +55,8 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
     : half_axes_(require_half_axes(half_axes)),
       delta_(require_in("delta", delta, kMinExponent, kMaxExponent)),
       epsilon_(require_in("epsilon", epsilon, kMinExponent, kMaxExponent)),
-      inner_potential_(PowerNorm::dual_to_exponent(delta)),
-      outer_potential_(PowerNorm::dual_to_exponent(epsilon)),
+      inner_support_(PowerNorm::dual_to_exponent(delta)),
+      outer_support_(PowerNorm::dual_to_exponent(epsilon)),
       inner_gauge_(PowerNorm::of_exponent(delta)),
       outer_gauge_(PowerNorm::of_exponent(epsilon)),
       rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)) {}
@@ -74,7 +74,7 @@ void Superellipsoid::evaluate_by_one_norm(const std::array<EvalRequest, kCount>&
   for (std::size_t i = 0; i < kCount; ++i) {
     const Superellipsoid& body = *requests[i].body;
     const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
-    norms[i] = {&body.inner_potential_, {scaled.x(), scaled.y(), scaled.z()}};
+    norms[i] = {&body.inner_support_, {scaled.x(), scaled.y(), scaled.z()}};
   }
   PowerNorm::evaluate_requests(norms, order);
   for (std::size_t i = 0; i < kCount; ++i) requests[i].body->assemble(norms[i], *requests[i].n, order, *requests[i].jet);
@@ -100,8 +100,8 @@ void Superellipsoid::evaluate_by_two_norms(const std::array<EvalRequest, kCount>
   for (std::size_t i = 0; i < kCount; ++i) {
     const Superellipsoid& body = *requests[i].body;
     const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
-    inner[i] = {&body.inner_potential_, scaled.x(), scaled.y(), {}};
-    outer[i] = {&body.outer_potential_, 0, scaled.z(), {}};
+    inner[i] = {&body.inner_support_, scaled.x(), scaled.y(), {}};
+    outer[i] = {&body.outer_support_, 0, scaled.z(), {}};
   }
   PowerNorm::evaluate_requests(inner, order);
   for (std::size_t i = 0; i < kCount; ++i) outer[i].x = inner[i].jet.value;
@@ -179,7 +179,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   if (!outer_is_flat) {
     // A flat inner norm turns the normal about the axis only: if that moves the point less far, near the pole, this norm goes
     // through the point as well.
-    const double across = inner_potential_.value(scaled.x(), scaled.y());
+    const double across = inner_support_.value(scaled.x(), scaled.y());
     if (across * outer.dy >= outer.dx * scaled.z()) {
       outer.dx = across;
       result.z() = scaled.z();
@@ -190,7 +190,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   if (goes_with_point) {
     result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);
   } else {
-    const double norm = inner_potential_.value(scaled.x(), scaled.y());
+    const double norm = inner_support_.value(scaled.x(), scaled.y());
     result.head<2>() = norm > 0 ? Eigen::Vector2d(scaled.head<2>() * (outer.dx / norm)) : Eigen::Vector2d(Eigen::Vector2d::Zero());
   }
   const Vector3& sign_xy = goes_with_point ? target : moved;

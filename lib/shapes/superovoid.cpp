@@ -160,15 +160,15 @@ Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, d
       taper_x_(taper_x),
       taper_y_(taper_y),
       knee_(std::exp2(-1 / epsilon)),
-      inner_potential_(PowerNorm::dual_to_exponent(delta)),
-      outer_potential_(PowerNorm::dual_to_exponent(epsilon)),
+      inner_support_(PowerNorm::dual_to_exponent(delta)),
+      outer_support_(PowerNorm::dual_to_exponent(epsilon)),
       inner_gauge_(PowerNorm::of_exponent(delta)),
       outer_gauge_(PowerNorm::of_exponent(epsilon)) {
   require_convex_taper(delta, epsilon, taper_x, taper_y);
   half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};
   // If the section has shrunk to this share, the radius of its meridian has shrunk with its square.
   const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
-  sharpest_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).min_curvature_radius_estimate() * narrowest * narrowest;
+  min_curvature_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).min_curvature_radius_estimate() * narrowest * narrowest;
 }
 
 double Superovoid::max_taper(double epsilon) {
@@ -178,8 +178,8 @@ double Superovoid::max_taper(double epsilon) {
 void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const double up = std::copysign(1.0, n.z());  // the body upside down has the opposite tapers
   const double rise = half_axes_.z() * std::abs(n.z());
-  Width width(half_axes_, up * taper_x_, up * taper_y_, inner_potential_, n);
-  const Summit m = SummitSearch(outer_potential_, width, rise, knee_).find();
+  Width width(half_axes_, up * taper_x_, up * taper_y_, inner_support_, n);
+  const Summit m = SummitSearch(outer_support_, width, rise, knee_).find();
   jet.h = m.w * width.value + rise * m.s;
   if (order == Order::Value) return;
 
@@ -225,7 +225,7 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   // The normal's part in the section, scaled to a dual norm of 1, and its signs.
   const Eigen::Vector2d axes(X * half_axes_.x(), Y * half_axes_.y());
   const Eigen::Vector2d scaled = axes.cwiseProduct(moved.head<2>());
-  const double width = inner_potential_.value(std::abs(scaled.x()), std::abs(scaled.y()));
+  const double width = inner_support_.value(std::abs(scaled.x()), std::abs(scaled.y()));
   const bool goes_with_point = inner_is_flat || turns_far(axes.cwiseProduct(n.head<2>()), scaled);
   Eigen::Vector2d across(section.dx, section.dy);
   if (!goes_with_point) across = width > 0 ? Eigen::Vector2d(scaled.cwiseAbs() / width) : Eigen::Vector2d(Eigen::Vector2d::Zero());

@@ -155,7 +155,7 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
     dWorldSetQuickStepNumIterations(scene.id(), 200);  // the loads of five contacts of one face are redundant
     scene.world.add_plane();
     const dBodyID puck = add_puck(scene);
-    const double grain_angle = 45 * kDegree + turn;
+    const double axes_angle = 45 * kDegree + turn;
     const auto decelerate = [&](double angle) {
       dBodySetPosition(puck, 0, 0, dReal(kHeight));
       dBodySetAngularVel(puck, 0, 0, 0);
@@ -168,12 +168,12 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
       return (-1 / (40 * kStep * kGravity)) * (to_vec(dBodyGetLinearVel(puck)) - before);
     };
     // The force is 0.5 % less than the ellipse on its axes: the rectangle keeps a tenth of the other side.
-    CHECK(norm(decelerate(grain_angle)) == relative(along).epsilon(0.01));
-    CHECK(norm(decelerate(grain_angle + 90 * kDegree)) == relative(across).epsilon(0.01));
-    const Vec force = decelerate(grain_angle + 45 * kDegree);
+    CHECK(norm(decelerate(axes_angle)) == relative(along).epsilon(0.01));
+    CHECK(norm(decelerate(axes_angle + 90 * kDegree)) == relative(across).epsilon(0.01));
+    const Vec force = decelerate(axes_angle + 45 * kDegree);
     const double root = std::hypot(along, across);
-    const Vec axis = {std::cos(grain_angle), std::sin(grain_angle), 0};
-    const Vec normal = {-std::sin(grain_angle), std::cos(grain_angle), 0};
+    const Vec axis = {std::cos(axes_angle), std::sin(axes_angle), 0};
+    const Vec normal = {-std::sin(axes_angle), std::cos(axes_angle), 0};
     CHECK(dot(force, axis) == relative(along * along / root).epsilon(0.05));
     CHECK(dot(force, normal) == relative(across * across / root).epsilon(0.01));
   }

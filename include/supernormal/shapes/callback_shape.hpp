@@ -29,14 +29,14 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
 
   /// An estimate from boundary points. Solvers need it to know how sharp the body is; an edge away from the nine great circles
   /// that are sampled, and shorter than the distance between two of them, may be missed.
-  double min_curvature_radius_estimate() const override { return sharpest_radius_; }
+  double min_curvature_radius_estimate() const override { return min_curvature_radius_; }
 
  private:
   Support support_;
   Point point_;
   Hessian hessian_;
   Vector3 half_extents_;  // computed once, like the next
-  double sharpest_radius_;
+  double min_curvature_radius_;
 };
 
 }  // namespace supernormal

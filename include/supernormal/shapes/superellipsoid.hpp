@@ -73,9 +73,9 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   Vector3 half_axes_;
   double delta_, epsilon_;
-  PowerNorm inner_potential_, outer_potential_;  // of (a nx, b ny) and of (inner, c nz): exponents p and q
-  PowerNorm inner_gauge_, outer_gauge_;          // of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
-  double rolling_radius_;                        // m
+  PowerNorm inner_support_, outer_support_;  // norms of (a nx, b ny) and of (inner, c nz): exponents p and q
+  PowerNorm inner_gauge_, outer_gauge_;      // norms of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
+  double rolling_radius_;                    // m
 };
 
 }  // namespace supernormal

@@ -54,7 +54,7 @@ bool DistinctContacts::has_similar(const Vector3& normal, const Vector3& point) 
   });
 }
 
-std::optional<double> DistinctContacts::shortest_way_out(int part) const {
+std::optional<double> DistinctContacts::shortest_separation(int part) const {
   std::optional<double> largest;
   for (const SurfaceContact& contact : contacts_) {
     if (contact.part == part && (!largest || contact.gap > *largest)) largest = contact.gap;
@@ -75,7 +75,7 @@ bool DistinctContacts::are_of_one_part(const SurfaceContact& a, const SurfaceCon
          std::min(b_before_a, a_before_b) < -kBehindPlane * length_unit_;
 }
 
-void DistinctContacts::keep_shortest_ways_out() {
+void DistinctContacts::keep_shortest_separations() {
   sort();
   // A contact is dropped if any shallower one, whether that one remains or not, separates the body from the same part.
   const auto is_superseded = [&](const SurfaceContact& contact) {

@@ -39,13 +39,13 @@ class DistinctContacts {
   bool has_similar(const Vector3& normal, const Vector3& point) const;
 
   /// The largest gap of the contacts with this part of the surface, m; empty if there are none.
-  std::optional<double> shortest_way_out(int part) const;
+  std::optional<double> shortest_separation(int part) const;
 
   /// Keeps, among several translations that separate the body from one convex part of the solid, the shortest. Two contacts are
   /// of one such part when neither's feature is in front of the other's tangent plane. The bodies' convexity then implies that
   /// they overlap by more than the body's radius of curvature; contacts of a body that rests on or against several parts are
   /// never of this kind.
-  void keep_shortest_ways_out();
+  void keep_shortest_separations();
 
   /// Sorts the contacts, deepest first.
   void sort();

@@ -47,15 +47,15 @@ std::span<const MeshContact> MeshContacts::find(const Shape& shape, const Pose& 
   prepare(shape, pose, triangles);
   SupportProbe probe(shape, pose.rotation);
   look_at_patches(probe);
-  for (std::size_t p = 0; p < sights_.size(); ++p) find_on_patch(probe, p);
+  for (std::size_t p = 0; p < supports_.size(); ++p) find_on_patch(probe, p);
   for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
     for (int side = 0; side < 3; ++side) find_on_edge(probe, static_cast<int>(f), side);
   }
-  for (std::size_t p = 0; p < sights_.size(); ++p) find_beyond_rim(probe, p);
+  for (std::size_t p = 0; p < supports_.size(); ++p) find_beyond_rim(probe, p);
   add_beyond_rim();
-  find_other_ways_out(probe);
+  find_other_separations(probe);
   if (found_.contacts().empty()) find_way_up(probe);
-  found_.keep_shortest_ways_out();
+  found_.keep_shortest_separations();
   evaluations_ = probe.evaluations();
   return to_world(pose.position);
 }
@@ -69,7 +69,7 @@ void MeshContacts::prepare(const Shape& shape, const Pose& pose, std::span<const
   std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near_),
                [&](const MeshTriangle& triangle) { return searched.touches(pose, triangle.vertices); });
   surface_.build(near_, pose.position, length_unit_);
-  sights_.clear();
+  supports_.clear();
   settled_.assign(at(surface_.corner_count()), 0);
   found_.clear(length_unit_);
   beyond_rim_.clear(length_unit_);
@@ -79,7 +79,7 @@ void MeshContacts::look_at_patches(SupportProbe& probe) {
   for (const CoplanarPatch& patch : surface_.patches()) {
     const DeepestPoint deepest = probe.deepest(patch.normal);
     const double plane = patch.normal.dot(surface_.faces()[at(patch.first_face)].vertices[0]);
-    sights_.push_back({deepest.point, deepest.height - plane, false});
+    supports_.push_back({deepest.point, deepest.height - plane, false});
   }
 }
 
@@ -96,14 +96,14 @@ SurfaceContact MeshContacts::contact_at(int face, const Vector3& normal, double 
 }
 
 void MeshContacts::find_on_patch(SupportProbe& probe, std::size_t patch) {
-  PatchSupport& sight = sights_[patch];
-  if (!(sight.gap <= 0)) return;
+  PatchSupport& support = supports_[patch];
+  if (!(support.gap <= 0)) return;
   const Vector3& normal = surface_.patches()[patch].normal;
   for (int f = surface_.patches()[patch].first_face; f >= 0; f = surface_.faces()[at(f)].next_in_patch) {
     const Face& face = surface_.faces()[at(f)];
-    if (!surface_.is_over(face, sight.deepest)) continue;
-    sight.is_over = true;
-    const SurfaceContact contact = contact_at(f, normal, sight.gap, sight.deepest);
+    if (!surface_.is_over(face, support.deepest)) continue;
+    support.is_over = true;
+    const SurfaceContact contact = contact_at(f, normal, support.gap, support.deepest);
     if (touches_surface(probe, contact)) found_.add(contact);
     return;
   }
@@ -119,14 +119,15 @@ bool MeshContacts::is_edge_owned_by_neighbour(int face, int side) const {
 
 bool MeshContacts::open_arc(SupportProbe& probe, int f, int side, Arc& arc, ArcSample& low, ArcSample& high) const {
   const Face& face = surface_.faces()[at(f)];
-  const EdgeConvexity fold = face.fold[at(side)];
-  const PatchSupport& sight = sights_[at(face.patch)];
-  if (fold == EdgeConvexity::Flat || fold == EdgeConvexity::Concave || !(sight.gap <= 0) || is_edge_owned_by_neighbour(f, side))
+  const EdgeConvexity convexity = face.convexity[at(side)];
+  const PatchSupport& support = supports_[at(face.patch)];
+  if (convexity == EdgeConvexity::Flat || convexity == EdgeConvexity::Concave || !(support.gap <= 0) ||
+      is_edge_owned_by_neighbour(f, side))
     return false;
   const Vector3& across = face.outward[at(side)];
   arc = {surface_.patches()[at(face.patch)].normal, across, 0.5 * std::numbers::pi, face.vertices[at(side)]};
-  low = arc.sample(0, sight.deepest);
-  if (fold == EdgeConvexity::Border) {
+  low = arc.sample(0, support.deepest);
+  if (convexity == EdgeConvexity::Border) {
     if (!(low.slope > surface_.rounding())) return false;
     high = arc.sample(arc.end, probe);
     return true;
@@ -135,8 +136,8 @@ bool MeshContacts::open_arc(SupportProbe& probe, int f, int side, Arc& arc, ArcS
   const Vector3& other_normal = surface_.patches()[other].normal;
   const double angle = std::atan2(other_normal.dot(across), other_normal.dot(arc.from));
   arc.end = angle > 0 ? angle : std::numbers::pi;  // the faces are back to back
-  high = arc.sample(arc.end, sights_[other].deepest);
-  return sights_[other].gap <= 0;
+  high = arc.sample(arc.end, supports_[other].deepest);
+  return supports_[other].gap <= 0;
 }
 
 void MeshContacts::find_on_edge(SupportProbe& probe, int f, int side) {
@@ -170,7 +171,7 @@ void MeshContacts::find_on_arc(SupportProbe& probe, int f, int side, const Arc& 
   contact.error = top.error;
   contact.evaluations = probe.evaluations() - first_evaluation;
   contact.status = top.converged ? Status::Converged : Status::EvaluationLimit;
-  if (face.fold[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point)) return;
+  if (face.convexity[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point)) return;
   if (surface_.violates_normal_cone(contact.normal, contact.feature_point, contact.surface_point)) return;
   if (touches_surface(probe, contact)) found_.add(contact);
 }
@@ -245,20 +246,20 @@ bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proxim
 // of that plane it must be in the solid, so that a known face lies between that place and the body's other end.
 void MeshContacts::find_beyond_rim(SupportProbe& probe, std::size_t p) {
   const CoplanarPatch& patch = surface_.patches()[p];
-  const PatchSupport& sight = sights_[p];
-  if (!(sight.gap <= 0) || sight.is_over) return;
-  const Vector3 to_top = probe.deepest(-patch.normal).point - sight.deepest;
+  const PatchSupport& support = supports_[p];
+  if (!(support.gap <= 0) || support.is_over) return;
+  const Vector3 to_top = probe.deepest(-patch.normal).point - support.deepest;
   const double rise = patch.normal.dot(to_top);
-  if (!(rise > -sight.gap)) return;  // the whole body is behind the plane
-  if (!surface_.exits_solid(sight.deepest - sight.gap / rise * to_top, sight.deepest + to_top)) return;
-  SurfaceContact contact = contact_at(patch.first_face, patch.normal, sight.gap, sight.deepest);
+  if (!(rise > -support.gap)) return;  // the whole body is behind the plane
+  if (!surface_.exits_solid(support.deepest - support.gap / rise * to_top, support.deepest + to_top)) return;
+  SurfaceContact contact = contact_at(patch.first_face, patch.normal, support.gap, support.deepest);
   int side = 0;
   contact.feature_point = surface_.nearest_on_rim(patch, contact.surface_point, contact.face, side);
   const Face& face = surface_.faces()[at(contact.face)];
   const bool goes_on_behind_wall = surface_.find_wall(patch.normal, contact.feature_point, contact.surface_point) >= 0;
-  const bool goes_on_unseen =
-      face.fold[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point);
-  if (goes_on_unseen || goes_on_behind_wall) beyond_rim_.add(contact);
+  const bool goes_on_unknown =
+      face.convexity[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point);
+  if (goes_on_unknown || goes_on_behind_wall) beyond_rim_.add(contact);
 }
 
 // Among nearly parallel contacts the deepest is added, whatever the order of the triangles.
@@ -314,15 +315,15 @@ void MeshContacts::find_way_up(SupportProbe& probe) {
   std::optional<SurfaceContact> shortest;
   for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
     const Face& face = surface_.faces()[f];
-    const PatchSupport& sight = sights_[at(face.patch)];
-    if (!(sight.gap <= 0) || (shortest && sight.gap <= shortest->gap)) continue;
+    const PatchSupport& support = supports_[at(face.patch)];
+    if (!(support.gap <= 0) || (shortest && support.gap <= shortest->gap)) continue;
     const Proximity found = meet_face(probe, face);
     if (found.status == Status::Apart || found.gap > 0) continue;
     const bool is_in_front = face.normal.dot(centre - face.vertices[0]) > surface_.rounding();
     // If the body has a flat side, point1 may be any point of it.
     const Vector3 opposite = found.point2 - found.gap * found.normal;
     if (!is_in_front && !surface_.exits_solid(centre, found.point1) && !surface_.exits_solid(centre, opposite)) continue;
-    shortest = contact_at(static_cast<int>(f), face.normal, sight.gap, sight.deepest);
+    shortest = contact_at(static_cast<int>(f), face.normal, support.gap, support.deepest);
   }
   if (shortest) found_.add(*shortest);
 }

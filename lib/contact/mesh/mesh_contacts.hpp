@@ -67,7 +67,7 @@ class MeshContacts {
   bool add_at_vertex(SupportProbe& probe, int face, int k, const Proximity& found);
   void find_beyond_rim(SupportProbe& probe, std::size_t patch);
   void add_beyond_rim();
-  void find_other_ways_out(SupportProbe& probe);
+  void find_other_separations(SupportProbe& probe);
   std::optional<double> depth_cutoff(int part) const;
   void find_shorter_over_edges(SupportProbe& probe, int face, double known);
   void find_shorter_over_vertices(SupportProbe& probe, int part, double known);
@@ -87,9 +87,9 @@ class MeshContacts {
   double length_unit_ = 1;
   Settings settings_;
   Surface surface_;
-  std::vector<PatchSupport> sights_;  // one for each patch
-  std::vector<char> settled_;         // for each corner: whether a contact there is found, or ruled out
-  std::vector<Vector3> hull_;         // points whose hull is solved for
+  std::vector<PatchSupport> supports_;  // one for each patch
+  std::vector<char> settled_;           // for each corner: whether a contact there is found, or ruled out
+  std::vector<Vector3> hull_;           // points whose hull is solved for
   DistinctContacts found_;
   DistinctContacts beyond_rim_;  // candidates for contacts beyond the rim of a patch
   std::vector<MeshContact> contacts_;

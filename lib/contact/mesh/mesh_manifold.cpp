@@ -75,20 +75,20 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
 
 }  // namespace
 
-void draw_in_corners(ContactManifold& patch, std::span<const MeshTriangle> triangles) {
-  const Vector3& contact = patch.deepest.contact;
-  const double depth = -patch.deepest.gap;
-  const Floor floor{-patch.deepest.normal, patch.deepest.point2, depth};
+void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles) {
+  const Vector3& contact = manifold.deepest.contact;
+  const double depth = -manifold.deepest.gap;
+  const Floor floor{-manifold.deepest.normal, manifold.deepest.point2, depth};
   bool is_on_face = false;
-  for (int k = 0; k < patch.corner_count; ++k) {
-    ManifoldCorner& corner = patch.corners[static_cast<std::size_t>(k)];
+  for (int k = 0; k < manifold.corner_count; ++k) {
+    ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
     const double share = share_on_floor(floor, triangles, corner.point);
     is_on_face = is_on_face || share > 0;
     if (share >= 1) continue;
     corner.point = contact + share * (corner.point - contact);
     corner.depth = depth + share * (corner.depth - depth);
   }
-  if (!is_on_face) patch.corner_count = 0;
+  if (!is_on_face) manifold.corner_count = 0;
 }
 
 }  // namespace supernormal

@@ -74,7 +74,7 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin) {
   face.triangle = triangle.index;
   face.corner = {-1, -1, -1};
   face.neighbour = {-1, -1, -1};
-  face.fold = {EdgeConvexity::Border, EdgeConvexity::Border, EdgeConvexity::Border};
+  face.convexity = {EdgeConvexity::Border, EdgeConvexity::Border, EdgeConvexity::Border};
   face.patch = -1;
   face.next_in_patch = -1;
   faces_.push_back(face);
@@ -134,12 +134,12 @@ void Surface::match_uses(std::span<EdgeUse> uses) {
       if (flatness <= best) continue;
       best = flatness;
       face.neighbour[at(use.side)] = other.face;
-      face.fold[at(use.side)] = fold_between(face, use.side, candidate);
+      face.convexity[at(use.side)] = convexity_between(face, use.side, candidate);
     }
   }
 }
 
-EdgeConvexity Surface::fold_between(const Face& face, int side, const Face& neighbour) const {
+EdgeConvexity Surface::convexity_between(const Face& face, int side, const Face& neighbour) const {
   const double sine = neighbour.normal.dot(face.outward[at(side)]);
   const double cosine = neighbour.normal.dot(face.normal);
   // The faces are back to back: the two sides of a sheet.
@@ -166,7 +166,7 @@ void Surface::grow_patch(int seed) {
     const Face& face = faces_[at(to_visit_.back())];
     to_visit_.pop_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      if (face.fold[k] != EdgeConvexity::Flat) continue;
+      if (face.convexity[k] != EdgeConvexity::Flat) continue;
       Face& neighbour = faces_[at(face.neighbour[k])];
       // Many nearly flat edges make a bend, so the normal is compared with the first one.
       if (neighbour.patch >= 0 || (neighbour.normal - normal).norm() > 2 * kFlat) continue;
@@ -181,7 +181,7 @@ void Surface::grow_patch(int seed) {
 void Surface::join_parts() {
   for (const Face& face : faces_) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (face.fold[k] != EdgeConvexity::Convex && face.fold[k] != EdgeConvexity::Flat) continue;
+      if (face.convexity[k] != EdgeConvexity::Convex && face.convexity[k] != EdgeConvexity::Flat) continue;
       const int part1 = find_part(face.patch);
       const int part2 = find_part(faces_[at(face.neighbour[k])].patch);
       patches_[at(std::max(part1, part2))].part = std::min(part1, part2);
@@ -213,7 +213,7 @@ Vector3 Surface::nearest_on_rim(const CoplanarPatch& patch, const Vector3& point
   for (int f = patch.first_face; f >= 0; f = faces_[at(f)].next_in_patch) {
     const Face& face = faces_[at(f)];
     for (int k = 0; k < 3; ++k) {
-      if (face.fold[at(k)] == EdgeConvexity::Flat) continue;
+      if (face.convexity[at(k)] == EdgeConvexity::Flat) continue;
       const Vector3& start = face.vertices[at(k)];
       const Vector3 edge = face.vertices[at(next(k))] - start;
       const double share = std::clamp(edge.dot(point - start) / edge.squaredNorm(), 0.0, 1.0);

@@ -19,7 +19,7 @@ struct Face {
   Vector3 normal;                  ///< unit, out of the solid
   std::array<int, 3> corner;       ///< numbers of the vertices; vertices at equal coordinates have the same number
   std::array<int, 3> neighbour;    ///< the face across edge k, or -1
-  std::array<EdgeConvexity, 3> fold;
+  std::array<EdgeConvexity, 3> convexity;
   int triangle;       ///< the caller's number for the triangle
   int patch;          ///< number of the CoplanarPatch that it belongs to
   int next_in_patch;  ///< next face of that patch, or -1
@@ -82,7 +82,7 @@ class Surface {
   void number_corners();
   void match_edges();
   void match_uses(std::span<EdgeUse> uses);
-  EdgeConvexity fold_between(const Face& face, int side, const Face& neighbour) const;
+  EdgeConvexity convexity_between(const Face& face, int side, const Face& neighbour) const;
   void collect_patches();
   void grow_patch(int seed);
   void join_parts();

@@ -36,7 +36,7 @@ struct Patch {
 
 struct Pass {
   EffectIndex effect;
-  void (*run)(const PairMaterial& law, Patch& patch);
+  void (*run)(const PairMaterial& pair, Patch& patch);
 };
 
 /// Coefficients of friction that depend on the direction of slip on one of the bodies.
@@ -49,7 +49,7 @@ struct FrictionAxes {
 
 struct PairMaterial {
   dSurfaceParameters surface{};  ///< parameters that all contacts start from
-  FrictionAxes grain;
+  FrictionAxes axes;
   double rolling = 0;                      ///< m
   double spinning = 0;                     ///< m
   EffectIndex spring = std::variant_npos;  ///< the effect that makes the contact soft, if any
@@ -68,13 +68,13 @@ struct PairMaterial {
 
 /// The parameters of all ordered pairs of materials: one row and one column for each material up to the largest that is listed,
 /// and one more for all others.
-class Laws {
+class PairMaterials {
  public:
   /// Throws std::invalid_argument when two effects of a pair exclude each other.
-  explicit Laws(const std::vector<Effect>& list);
+  explicit PairMaterials(const std::vector<Effect>& list);
 
-  PairMaterial& of(Material material1, Material material2) { return laws_[slot(material1) * size_ + slot(material2)]; }
-  const std::vector<PairMaterial>& all() const { return laws_; }
+  PairMaterial& of(Material material1, Material material2) { return pairs_[slot(material1) * size_ + slot(material2)]; }
+  const std::vector<PairMaterial>& all() const { return pairs_; }
 
  private:
   std::size_t slot(Material material) const {
@@ -82,15 +82,15 @@ class Laws {
     return number < size_ ? number : size_ - 1;
   }
   std::size_t size_ = 1;
-  std::vector<PairMaterial> laws_;
+  std::vector<PairMaterial> pairs_;
 };
 
 // The passes are in friction.cpp, compliance.cpp and adhesion.cpp.
-void align_friction(const PairMaterial& law, Patch& patch);
-void align_anisotropic_friction(const PairMaterial& law, Patch& patch);
-void align_rolling(const PairMaterial& law, Patch& patch);
-void set_spring(const PairMaterial& law, Patch& patch);
-void set_hertz(const PairMaterial& law, Patch& patch);
-void add_adhesion(const PairMaterial& law, Patch& patch);
+void align_friction(const PairMaterial& pair, Patch& patch);
+void align_anisotropic_friction(const PairMaterial& pair, Patch& patch);
+void align_rolling(const PairMaterial& pair, Patch& patch);
+void set_spring(const PairMaterial& pair, Patch& patch);
+void set_hertz(const PairMaterial& pair, Patch& patch);
+void add_adhesion(const PairMaterial& pair, Patch& patch);
 
 }  // namespace supernormal::effects
