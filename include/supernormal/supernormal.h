@@ -4,7 +4,7 @@
  * placeable dGeomID: dGeomSetBody, dGeomSetOffset…, dSpaceAdd, dCollide and dGeomDestroy work as for the built-in classes.
  * Rotations are orthonormal as ODE keeps them, or nearly so: where they are not to rounding, the nearest one is taken, and a geom
  * whose rotation is 1 % off has no contacts and no answers (snLastError says so). The library may be used from several threads
- * wherever ODE itself may; see README, "Threads".
+ * wherever ODE itself may; see lib/README.md.
  */
 #ifndef SUPERNORMAL_SUPERNORMAL_H
 #define SUPERNORMAL_SUPERNORMAL_H
@@ -42,8 +42,8 @@ SUPERNORMAL_API const char* snLastError(void);
  * dTriMesh and dHeightfield; inside spaces and dGeomTransform as everywhere. With a user class of another program it asks that
  * class. A geom with a length that is not finite, or above 1e30 (but for a dRay), makes no contacts, and snLastError says so.
  * Contacts: the deepest point of the overlap first, with its depth. Where flat bodies overlap in a wide region its corners follow,
- * two or four, with depth 0, if there is room for them: what a body rests on (README, "Resting"). Round bodies make one contact,
- * and so does everything with room for one.
+ * two or four, with depth 0, if there is room for them: what a body rests on (lib/contact/README.md). Round bodies make one
+ * contact, and so does everything with room for one.
  *  - dConvex: only the vertices count, not the planes and polygons that it was made with; after dGeomSetConvex call dGeomMoved.
  *  - dTriMesh: single-sided, what is behind a triangle (seen from there its corners run clockwise) is solid; a contact's
  *    side of the mesh is the number of the triangle. snGeomProximity takes a mesh that is met from behind as two-sided.

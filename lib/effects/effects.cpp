@@ -10,8 +10,8 @@
 #include "effects/body_forces.hpp"
 #include "effects/pair_material.hpp"
 #include "effects/validate.hpp"
-#include "ode/api/require.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/support/require.hpp"
 
 namespace supernormal::effects {
 namespace {

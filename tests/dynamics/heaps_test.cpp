@@ -7,7 +7,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Sets ODE's auto-disable as README.md recommends it: thresholds of the bodies' size, over the mean of ten steps.
+/// Sets ODE's auto-disable as samples/studies/README.md recommends it: thresholds of the bodies' size, over the mean of ten steps.
 void let_sleep(const World& world, double size) {
   dWorldSetAutoDisableFlag(world.id(), 1);
   dWorldSetAutoDisableAverageSamplesCount(world.id(), 10);

@@ -249,7 +249,7 @@ TEST_CASE("a flat body rests on springs at the depth that its weight asks for") 
   turn(body, {1, 0.5, 0}, 2 * kDegree);
   scene.run_until(3);
   CHECK(scene.depth == relative(mass_of(body) * kGravity / k).epsilon(0.02));
-  // The unrest is no more than rigid contacts leave, half of g times the step (README, "Settings of the world").
+  // The unrest is no more than rigid contacts leave, half of g times the step (samples/studies/README.md).
   CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.5 * kGravity * 5e-4);
   CHECK(norm(to_vec(dBodyGetAngularVel(body))) < 0.5 * kGravity * 5e-4 / 0.05);
 }

@@ -97,7 +97,7 @@ struct Tilt {
   double angle;
 };
 
-/// Number 0 is the tilt that the README names; the others go once around and from 1 to 6.5 degrees.
+/// Number 0 tilts by 0.05 rad about (1, 0.3, 0); the others go once around and from 1 to 6.5 degrees.
 Tilt tilt_of_drop(int k) {
   if (k == 0) return {{1, 0.3, 0}, 0.05};
   return {{std::cos(2.4 * k), std::sin(2.4 * k), 0}, 0.02 + 0.004 * k};

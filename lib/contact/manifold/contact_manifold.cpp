@@ -52,8 +52,8 @@ struct CornerList {
     const Vector3& deepest = manifold.deepest.contact;
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double lean = drops[k] - least;
-      const double excess = std::max(1.0, lean / largest_lean);
-      manifold.corners[k] = {deepest + (points[k] - deepest) / (excess * excess), std::max(0.0, -manifold.deepest.gap - lean)};
+      const double share = lean > largest_lean ? largest_lean / lean : 1;
+      manifold.corners[k] = {deepest + share * share * (points[k] - deepest), std::max(0.0, -manifold.deepest.gap - lean)};
     }
     manifold.corner_count = ContactManifold::kMaxCorners;
   }
@@ -66,10 +66,14 @@ class Side {
       : apex_(frame.project(polygon.support_point())), axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
     for (std::size_t k = 0; k < 4; ++k) {
       const SupportPolygon::Vertex& vertex = polygon.vertices()[sees_it_from_below ? 3 - k : k];
-      spokes_[k] = frame.plane.project(vertex.offset);
+      x_[k] = frame.plane.t1.dot(vertex.offset);
+      y_[k] = frame.plane.t2.dot(vertex.offset);
       drops_[k] = vertex.drop;
     }
-    for (std::size_t k = 0; k < 4; ++k) inverse_areas_[k] = inverse_area(spokes_[k], spokes_[(k + 1) % 4]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      inverse_areas_[k] = inverse_area(spoke(k), spoke((k + 1) % 4));
+      has_parallel_spokes_ = has_parallel_spokes_ || inverse_areas_[k] == 0;
+    }
   }
 
   /// The support point, which the polygon need not contain.
@@ -77,7 +81,7 @@ class Side {
 
   ConvexPolygon outline() const {
     ConvexPolygon outline;
-    for (const Vector2& spoke : spokes_) outline.add(apex_ + spoke);
+    for (std::size_t k = 0; k < 4; ++k) outline.add(apex_ + spoke(k));
     return outline;
   }
 
@@ -85,22 +89,27 @@ class Side {
   /// neighbouring vertices, which lie in the body.
   double drop_at(const Vector2& point) const {
     const Vector2 way = point - apex_;
-    double least_outside = HUGE_VAL;
-    double drop = 0;
-    double across = cross(spokes_[0], way);
+    std::array<double, 5> across;  // cross products of the spokes and the way; the first one is repeated
+    for (std::size_t k = 0; k < 4; ++k) across[k] = x_[k] * way.y() - y_[k] * way.x();
+    across[4] = across[0];
+    // Each triangle has shares of its two spokes; `outside` is positive when the point is outside it.
+    std::array<double, 4> share1, share2, outside;
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t next = (k + 1) % 4;
-      const double across_next = cross(spokes_[next], way);
-      Vector2 share(-across_next * inverse_areas_[k], across * inverse_areas_[k]);
-      if (inverse_areas_[k] == 0) share = share_along_longer(spokes_[k], spokes_[next], way);
-      across = across_next;
-      const double outside = std::max({-share.x(), -share.y(), share.sum() - 1});
-      if (!(outside < least_outside)) continue;
-      least_outside = outside;
-      const double first = std::clamp(share.x(), 0.0, 1.0);
-      drop = first * drops_[k] + std::clamp(share.y(), 0.0, 1 - first) * drops_[next];
+      share1[k] = -across[k + 1] * inverse_areas_[k];
+      share2[k] = across[k] * inverse_areas_[k];
     }
-    return drop;
+    for (std::size_t k = 0; has_parallel_spokes_ && k < 4; ++k) {
+      if (inverse_areas_[k] != 0) continue;
+      const Vector2 share = share_along_longer(spoke(k), spoke((k + 1) % 4), way);
+      share1[k] = share.x();
+      share2[k] = share.y();
+    }
+    for (std::size_t k = 0; k < 4; ++k) outside[k] = std::max(std::max(-share1[k], -share2[k]), share1[k] + share2[k] - 1);
+    // The nearest triangle is the one that contains the point, or that the point is least outside of.
+    const std::size_t nearest02 = outside[2] < outside[0] ? 2 : 0, nearest13 = outside[3] < outside[1] ? 3 : 1;
+    const std::size_t nearest = outside[nearest13] < outside[nearest02] ? nearest13 : nearest02;
+    const double first = std::clamp(share1[nearest], 0.0, 1.0);
+    return first * drops_[nearest] + std::clamp(share2[nearest], 0.0, 1 - first) * drops_[(nearest + 1) % 4];
   }
 
   /// The direction of the axes, the same for all four of them, as a complex number whose length grows as the body gets smaller.
@@ -121,10 +130,16 @@ class Side {
     return length1 >= length2 ? Vector2(point.dot(spoke1) / length1, 0) : Vector2(0, point.dot(spoke2) / length2);
   }
 
+  /// The vector from the apex to a corner.
+  Vector2 spoke(std::size_t k) const { return {x_[k], y_[k]}; }
+
   Vector2 apex_;
-  std::array<Vector2, 4> spokes_;  // the vectors from the apex to the corners
+  // Coordinates of the spokes, the vectors from the apex to the corners. They are stored by coordinate because the compiler
+  // vectorises operations on all four, two at a time.
+  std::array<double, 4> x_{}, y_{};
   std::array<double, 4> drops_{};
   std::array<double, 4> inverse_areas_{};  // inverse areas of the parallelograms between two spokes
+  bool has_parallel_spokes_ = false;
   Vector2 axis_;
   double area_;
 };
@@ -181,8 +196,9 @@ void unite(ManifoldCorner& corner, ManifoldCorner& other, double least_depth) {
 /// from twice the distance on, to one place within it.
 void draw_together(ManifoldCorner& corner, ManifoldCorner& other, double distance) {
   const Vector3 way = other.point - corner.point;
-  const double share = std::min(1.0, 2 - way.norm() / distance);
-  if (!(share > 0)) return;
+  const double squared_length = way.squaredNorm();
+  if (!(squared_length < 4 * distance * distance)) return;
+  const double share = std::min(1.0, 2 - std::sqrt(squared_length) / distance);
   corner.point += 0.5 * share * way;
   other.point -= 0.5 * share * way;
   const double depth = std::max(corner.depth, other.depth);

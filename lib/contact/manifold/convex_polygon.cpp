@@ -11,25 +11,40 @@ double ConvexPolygon::area() const {
   return 0.5 * twice;
 }
 
-// Clips by Sutherland and Hodgman's algorithm (1974): the other polygon's edges cut this one, one after the other.
+// Clips by Sutherland and Hodgman's algorithm (1974): the other polygon's edges cut this one, one after the other. If edges lie on
+// edges, as in a stack, rounding decides which corners are kept, and no branch predictor foresees it: so corners are written in any
+// case, and only their count depends on it.
 ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
-  ConvexPolygon rest = *this;
-  for (int edge = 0; edge < other.size() && rest.size() > 0; ++edge) {
+  using Corners = std::array<Vector2, kCapacity + 2>;
+  std::array<Corners, 2> buffers;  // one holds the corners that are cut, the other those that are kept; they take turns
+  std::copy_n(corners_.begin(), size_, buffers[0].begin());
+  auto count = static_cast<std::size_t>(size_);
+  std::size_t current = 0;
+  for (int edge = 0; edge < other.size() && count > 0; ++edge) {
+    const Corners& rest = buffers[current];
+    Corners& kept = buffers[1 - current];
     const Vector2& from = other[edge];
-    const Vector2 along = other[(edge + 1) % other.size()] - from;
-    ConvexPolygon cut;
+    const Vector2 along = other[edge + 1 < other.size() ? edge + 1 : 0] - from;
+    std::size_t kept_count = 0;
     double side_here = cross(along, rest[0] - from);
-    for (int k = 0; k < rest.size(); ++k) {
-      const Vector2& here = rest[k];
-      const Vector2& next = rest[(k + 1) % rest.size()];
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vector2 here = rest[k];
+      const Vector2 next = rest[k + 1 < count ? k + 1 : 0];
       const double side_next = cross(along, next - from);
-      if (side_here >= 0 && cut.size() < kCapacity) cut.add(here);
-      const bool crosses = (side_here > 0 && side_next < 0) || (side_here < 0 && side_next > 0);
-      if (crosses && cut.size() < kCapacity) cut.add(here + (next - here) * (side_here / (side_here - side_next)));
+      const bool crosses = ((side_here > 0) & (side_next < 0)) | ((side_here < 0) & (side_next > 0));
+      kept[kept_count] = here;
+      kept_count += side_here >= 0 ? 1 : 0;
+      kept[kept_count] = here + (next - here) * (side_here / (crosses ? side_here - side_next : 1));
+      kept_count += crosses ? 1 : 0;
+      kept_count = std::min(kept_count, std::size_t{kCapacity});
       side_here = side_next;
     }
-    rest = cut;
+    count = kept_count;
+    current = 1 - current;
   }
+  ConvexPolygon rest;
+  std::copy_n(buffers[current].begin(), count, rest.corners_.begin());
+  rest.size_ = static_cast<int>(count);
   return rest;
 }
 
@@ -62,11 +77,11 @@ Vector2 ConvexPolygon::nearest_to(const Vector2& point) const {
   Vector2 nearest = corners_[0];
   double least = HUGE_VAL;
   for (int k = 0; k < size_; ++k) {
-    const Vector2& here = (*this)[k];
-    const Vector2 edge = (*this)[(k + 1) % size_] - here;
-    const double along = edge.dot(point - here);
+    const Vector2 here = (*this)[k];
+    const Vector2 edge = (*this)[k + 1 < size_ ? k + 1 : 0] - here;
     const double length = edge.squaredNorm();
-    const Vector2 candidate = along > 0 && length > 0 ? Vector2(here + std::min(along / length, 1.0) * edge) : here;
+    const double share = std::clamp(edge.dot(point - here) / (length > 0 ? length : 1), 0.0, 1.0);
+    const Vector2 candidate = here + share * edge;
     const double distance = (point - candidate).squaredNorm();
     if (distance >= least) continue;
     least = distance;

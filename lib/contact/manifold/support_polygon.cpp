@@ -50,8 +50,9 @@ constexpr double kLeastSpread = 1e-6;
 constexpr std::array<std::array<double, 2>, 4> kSigns = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 constexpr std::array<std::array<std::size_t, 4>, 2> kFacing = {{{1, 0, 3, 2}, {3, 2, 1, 0}}};
 
-/// 0 up to `zero`, 1 from `one` on, either of which may be the larger.
-double ramp(double value, double zero, double one) { return std::clamp((value - zero) / (one - zero), 0.0, 1.0); }
+/// The ramp is 0 up to `zero` and 1 from `one` on, either of which may be the larger. Callers pass constants, so that the compiler
+/// computes the quotient.
+inline double ramp(double value, double zero, double one) { return std::clamp((value - zero) * (1 / (one - zero)), 0.0, 1.0); }
 
 /// The axes of a body as they lie in the tangent plane: two directions at right angles, such that all the body's axes, and their
 /// opposites, are near one of them or its opposite. Axes are added as complex numbers to the power of four, in which these are
@@ -75,7 +76,7 @@ double reach_of(double depth, double height, double largest) { return std::max(d
 // exponent has half of the reach as its drop along either axis.
 double tangent_of_tilt(double reach, double height) {
   const double x = 0.5 * kFaceExponent * std::min(reach / height, kLargestDepth);
-  return x / std::sqrt(std::sqrt(std::sqrt(x)));
+  return std::sqrt(x * std::sqrt(x * std::sqrt(x)));
 }
 
 }  // namespace
@@ -94,10 +95,10 @@ class SupportPolygon::Observer {
 
   /// Finds the support points of the normals that are tilted towards each of the four diagonals.
   std::array<PatchSupport, 4> of_diagonals(const Tilt& diagonal) const {
-    const double length = std::sqrt(1 + diagonal[0] * diagonal[0] + diagonal[1] * diagonal[1]);
+    const double inverse_length = 1 / std::sqrt(1 + diagonal[0] * diagonal[0] + diagonal[1] * diagonal[1]);
     std::array<Vector3, 4> normals;
     for (std::size_t k = 0; k < 4; ++k) {
-      normals[k] = tilted({kSigns[k][0] * diagonal[0], kSigns[k][1] * diagonal[1]}) / length;
+      normals[k] = inverse_length * tilted({kSigns[k][0] * diagonal[0], kSigns[k][1] * diagonal[1]});
     }
     std::array<Jet, 4> jets;
     if (const Superellipsoid* const body = shape_->as_superellipsoid()) {
@@ -206,24 +207,26 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
 // Fits a plane to the four points and returns its tilt, limited to the diagonals; it is level along an axis along which the
 // points do not differ.
 SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<PatchSupport, 4>& sights, const Tilt& diagonal) const {
-  const auto way_of = [&](const PatchSupport& sight) { return Vector2(sight.way[0] / extents_[0], sight.way[1] / extents_[1]); };
+  const Vector2 inverse_extents(1 / extents_[0], 1 / extents_[1]);
+  std::array<Vector2, 4> ways;
   Vector2 mean = Vector2::Zero();
   double mean_drop = 0;
-  for (const PatchSupport& sight : sights) {
-    mean += 0.25 * way_of(sight);
-    mean_drop += 0.25 * sight.drop;
+  for (std::size_t k = 0; k < 4; ++k) {
+    ways[k] = {sights[k].way[0] * inverse_extents.x(), sights[k].way[1] * inverse_extents.y()};
+    mean += 0.25 * ways[k];
+    mean_drop += 0.25 * sights[k].drop;
   }
   Symmetric2 spread;
   Vector2 rise = Vector2::Zero();
-  for (const PatchSupport& sight : sights) {
-    const Vector2 way = way_of(sight) - mean;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector2 way = ways[k] - mean;
     spread = spread + Symmetric2{way.x() * way.x(), way.x() * way.y(), way.y() * way.y()};
-    rise += (sight.drop - mean_drop) * way;
+    rise += (sights[k].drop - mean_drop) * way;
   }
   if (!(spread.trace() > 0)) return {};
   const Vector2 slope = spread.plus_identity(kLeastSpread * spread.trace()).solve(rise);
-  return {std::clamp(slope.x() / extents_[0], -diagonal[0], diagonal[0]),
-          std::clamp(slope.y() / extents_[1], -diagonal[1], diagonal[1])};
+  return {std::clamp(slope.x() * inverse_extents.x(), -diagonal[0], diagonal[0]),
+          std::clamp(slope.y() * inverse_extents.y(), -diagonal[1], diagonal[1])};
 }
 
 // Where the body is round along an axis, or leans too far, it stands on the line through the support point: there the chord
@@ -232,6 +235,7 @@ SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<PatchSupport,
 std::array<SupportPolygon::PatchSupport, 4> SupportPolygon::drawn_in(std::array<PatchSupport, 4> points,
                                                                      const std::array<double, 2>& widths) {
   for (std::size_t a = 0; a < 2; ++a) {
+    if (widths[a] == 1) continue;  // most faces have full width: their vertices stay where they are
     const double width = std::max(widths[a], kThinnest);
     const std::array<PatchSupport, 4> apart = points;
     for (std::size_t k = 0; k < 4; ++k) {

@@ -15,12 +15,14 @@ inline Vector2 fourth_power(const Vector2& z) {
   return product(square, square);
 }
 
-/// The root with a positive real part of a complex number of length 1.
-inline Vector2 unit_root(const Vector2& z) {
-  return z.x() > -1 ? Vector2(z + Vector2::UnitX()).normalized() : Vector2(Vector2::UnitY());
-}
+/// A square root, of any length, with a real part that is not negative: it halves the angle, as a diagonal of a rhombus does. The
+/// result is 0 if z is negative and real.
+inline Vector2 direction_of_square(const Vector2& z) { return {z.x() + z.norm(), z.y()}; }
 
-/// The direction within 45 degrees of the first axis whose fourth power has that of z, which must not be 0.
-inline Vector2 direction_of_fourth_power(const Vector2& z) { return unit_root(unit_root(z / z.norm())); }
+/// The unit vector within 45 degrees of the first axis whose fourth power has the direction of z, which must not be 0.
+inline Vector2 direction_of_fourth_power(const Vector2& z) {
+  const Vector2 square = direction_of_square(z);
+  return direction_of_square(square.squaredNorm() > 0 ? square : Vector2(Vector2::UnitY())).normalized();
+}
 
 }  // namespace supernormal

@@ -2,10 +2,10 @@
 #include <memory>
 #include <utility>
 
-#include "ode/api/last_error.hpp"
+#include "ode/api/registration.hpp"
 #include "ode/geom/body.hpp"
-#include "ode/geom/geom_class.hpp"
 #include "ode/geom/user_shape.hpp"
+#include "ode/support/last_error.hpp"
 #include "supernormal/supernormal.h"
 
 using namespace supernormal::ode;

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ode/api/last_error.hpp"
-#include "ode/api/require.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/support/last_error.hpp"
+#include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {

@@ -4,11 +4,12 @@
 #include <string>
 #include <utility>
 
-#include "ode/api/last_error.hpp"
-#include "ode/api/require.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "ode/support/last_error.hpp"
+#include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {

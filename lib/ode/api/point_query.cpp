@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "ode/api/last_error.hpp"
-#include "ode/api/require.hpp"
+#include "ode/colliders/goal.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
-#include "ode/runtime/solver_settings.hpp"
+#include "ode/support/last_error.hpp"
+#include "ode/support/require.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/supernormal.h"

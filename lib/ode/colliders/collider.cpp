@@ -3,30 +3,39 @@
 #include <algorithm>
 #include <array>
 
-#include "ode/colliders/solve_pair.hpp"
+#include "ode/colliders/contact.hpp"
 #include "ode/geom/geom_class.hpp"
+#include "ode/support/last_error.hpp"
 
 namespace supernormal::ode {
 namespace {
 
+/// The dColliderFn that writes the contacts of a query.
+template <PairQuery kQuery>
+int collide_by(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
+  return guarded("dCollide", 0, [&] {
+    const ContactArray out{ours, collider, flags, contacts, skip};
+    return write_contacts(kQuery(ours, collider, out.room() > 1 ? Goal::Contacts : Goal::OneContact), out);
+  });
+}
+
 struct Collider {
   int geom_class;
-  const char* name;
   dColliderFn* collide;
   PairQuery* query;
 };
 
 // ODE's own classes without spaces and dGeomTransform, which ODE resolves itself.
 constexpr std::array<Collider, 9> kColliders = {{
-    {dSphereClass, "dSphere", collide_by<query_sphere>, query_sphere},
-    {dBoxClass, "dBox", collide_by<query_box>, query_box},
-    {dCapsuleClass, "dCapsule", collide_by<query_capsule>, query_capsule},
-    {dCylinderClass, "dCylinder", collide_by<query_cylinder>, query_cylinder},
-    {dPlaneClass, "dPlane", collide_by<query_plane>, query_plane},
-    {dRayClass, "dRay", collide_with_ray, query_ray},
-    {dConvexClass, "dConvex", collide_by<query_convex>, query_convex},
-    {dTriMeshClass, "dTriMesh", collide_with_trimesh, query_trimesh},
-    {dHeightfieldClass, "dHeightfield", collide_with_heightfield, query_heightfield},
+    {dSphereClass, collide_by<query_sphere>, query_sphere},
+    {dBoxClass, collide_by<query_box>, query_box},
+    {dCapsuleClass, collide_by<query_capsule>, query_capsule},
+    {dCylinderClass, collide_by<query_cylinder>, query_cylinder},
+    {dPlaneClass, collide_by<query_plane>, query_plane},
+    {dRayClass, collide_with_ray, query_ray},
+    {dConvexClass, collide_by<query_convex>, query_convex},
+    {dTriMeshClass, collide_with_trimesh, query_trimesh},
+    {dHeightfieldClass, collide_with_heightfield, query_heightfield},
 }};
 
 const Collider* find_builtin(int collider_class) {
@@ -52,15 +61,6 @@ PairQuery* find_query(int collider_class) {
 void set_colliders(int our_class) {
   for (const Collider& collider : kColliders) dSetColliderOverride(our_class, collider.geom_class, collider.collide);
   dSetColliderOverride(our_class, our_class, collide_by<query_body>);
-}
-
-std::string geom_class_name(dGeomID geom) {
-  const int number = dGeomGetClass(geom);
-  if (number == geom_class()) return "a geom of this library's class";
-  if (const Collider* const collider = find_builtin(number)) return std::string("a ") + collider->name;
-  if (dGeomIsSpace(geom) != 0) return "a space";
-  if (number == dGeomTransformClass) return "a dGeomTransform";
-  return "a geom of user class " + std::to_string(number);
 }
 
 }  // namespace supernormal::ode

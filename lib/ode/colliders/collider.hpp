@@ -5,9 +5,7 @@
 
 #include <ode/ode.h>
 
-#include <string>
-
-#include "ode/runtime/solver_settings.hpp"
+#include "ode/colliders/goal.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 
 namespace supernormal::ode {
@@ -29,7 +27,7 @@ PairQuery query_trimesh;
 PairQuery query_heightfield;
 
 /// The dColliderFn for a geom of ours and a collider, in this order: ODE swaps the contacts when it was called with the other
-/// order. Those that write the contacts of their query are made by collide_by (solve_pair.hpp).
+/// order. Colliders that only write the contacts of their query need no such function (see collide_by in collider.cpp).
 dColliderFn collide_with_ray;
 dColliderFn collide_with_trimesh;
 dColliderFn collide_with_heightfield;
@@ -42,8 +40,5 @@ PairQuery* find_query(int collider_class);
 
 /// Enters our colliders for all of ODE's own classes, and for our own class, into ODE's table.
 void set_colliders(int our_class);
-
-/// A name for messages: "a dBox", "a body of this library", ...
-std::string geom_class_name(dGeomID geom);
 
 }  // namespace supernormal::ode

@@ -18,9 +18,10 @@ bool is_contact(const Proximity& proximity) {
   return overlap && unit_normal && proximity.contact.allFinite();
 }
 
-/// Writes one contact after the `count` that are there, if there is room, and returns how many are there now.
+/// Writes one contact, which must satisfy is_contact(), after the `count` that are there, if there is room, and returns how many
+/// are there now.
 int append_contact(const Proximity& proximity, const ContactArray& out, int count, int side2) {
-  if (count >= out.room() || !is_contact(proximity)) return count;
+  if (count >= out.room()) return count;
   auto* const place = reinterpret_cast<char*>(out.first) + std::ptrdiff_t{count} * out.skip;
   dContactGeom& contact = *reinterpret_cast<dContactGeom*>(place);
   from_vector(proximity.contact, contact.pos);
@@ -41,7 +42,7 @@ int append_corners(const ContactManifold& manifold, double share_of_depth, const
     const ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
     contact.gap = -share_of_depth * corner.depth;
     contact.contact = corner.point;
-    count = append_contact(contact, out, count, side2);
+    if (is_contact(contact)) count = append_contact(contact, out, count, side2);
   }
   return count;
 }
@@ -73,6 +74,7 @@ bool lists_deepest(const ContactManifold& reduced, int room) { return reduced.co
 
 int write_contacts(const ContactManifold& manifold, const ContactArray& out, int side2) {
   if (!is_contact(manifold.deepest)) return 0;
+  if (manifold.corner_count == 0) return append_contact(manifold.deepest, out, 0, side2);
   const ContactManifold reduced = reduced_to(manifold, out.room());
   if (!lists_deepest(reduced, out.room())) return append_corners(reduced, 1, out, 0, side2);
   const int count = append_contact(manifold.deepest, out, 0, side2);
@@ -88,9 +90,10 @@ int write_contacts(std::span<LocatedManifold> manifolds, const ContactArray& out
     ContactManifold& manifold = located.manifold;
     located.room = shares.next(manifold);
     manifold = reduced_to(manifold, located.room);
+    if (!is_contact(manifold.deepest)) continue;
     if (lists_deepest(manifold, located.room)) {
       count = append_contact(manifold.deepest, out, count, located.side2);
-    } else if (is_contact(manifold.deepest)) {
+    } else {
       count = append_corners(manifold, 1, out, count, located.side2);
     }
   }

@@ -1,30 +1,77 @@
 #include "ode/colliders/solve_pair.hpp"
 
+#include <algorithm>
+
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/solver_settings.hpp"
 #include "ode/runtime/statistics.hpp"
-#include "ode/runtime/warm_start.hpp"
 #include "supernormal/proximity/solve.hpp"
 
 namespace supernormal::ode {
+namespace {
+
+struct PosedShape {
+  const Shape& shape;
+  const Pose& pose;
+};
+
+/// Solves for two shapes. `last.pose` must be set; the remembered normals are in the frame with the attitude `frame`, and `size`
+/// is passed on to recall_normal().
+ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, Goal goal, const Matrix3& frame,
+                      double size, const Remembered& remembered, LastNormal& last) {
+  Vector3 first_normal;
+  const bool is_warm = recall_normal(remembered, last.pose, size, first_normal);
+  // The solver takes the normal in the frame of the first shape.
+  if (is_warm && &frame != &one.pose.rotation) first_normal = one.pose.rotation.transpose() * (frame * first_normal);
+  const Proximity result =
+      find_proximity(one.shape, one.pose, other.shape, other.pose, for_goal(settings, goal), is_warm ? &first_normal : nullptr);
+  count_query(result, is_warm);
+  last.is_known = result.status != Status::InvalidInput;
+  last.normal.noalias() = frame.transpose() * result.normal;
+  return goal == Goal::Contacts ? find_contact_manifold(one.shape, one.pose, other.shape, other.pose, result)
+                                : ContactManifold(result);
+}
+
+}  // namespace
+
+BodyPair::BodyPair(dGeomID g1, dGeomID g2)
+    : geom1_(g1),
+      geom2_(g2),
+      body1_(&require_body(g1)),
+      body2_(&require_body(g2)),
+      is_swapped_(body2_->serial() < body1_->serial()) {
+  if (!is_swapped_) return;
+  std::swap(geom1_, geom2_);
+  std::swap(body1_, body2_);
+}
+
+PairKey BodyPair::key() const { return PairKey::of_bodies(body1_->serial(), body2_->serial()); }
+
+ContactManifold BodyPair::solve(const Remembered& remembered, Goal goal, LastNormal& last) const {
+  const Pose pose1 = pose_of(geom1_);
+  const Pose pose2 = pose_of(geom2_);
+  last.pose = RelativePose::of(pose1, pose2);
+  ContactManifold manifold =
+      ode::solve({body1_->shape(), pose1}, {body2_->shape(), pose2}, combined(body1_->settings(), body2_->settings()), goal,
+                 pose1.rotation, std::min(body1_->size(), body2_->size()), remembered, last);
+  if (is_swapped_) {
+    manifold.deepest.normal = -manifold.deepest.normal;
+    manifold.deepest.point1.swap(manifold.deepest.point2);
+  }
+  return manifold;
+}
 
 ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goal) {
   const Body& body = require_body(ours);
   const Pose pose = pose_of(ours);
-  const RelativePose relative_pose = RelativePose::of(collider.pose, pose);
-  const PairKey key = PairKey::of_direction(body.serial(), relative_pose.offset, collider.kind);
-  Vector3 first_normal;
-  const bool warm = recall_normal(reserve_entry(key), relative_pose, body.size(), first_normal);
-  if (warm) first_normal = pose.rotation.transpose() * (collider.pose.rotation * first_normal);
-  const Settings settings = for_goal(body.settings(), goal);
-  const Proximity result =
-      find_proximity(body.shape(), pose, collider.shape, collider.pose, settings, warm ? &first_normal : nullptr);
-  count_query(result, warm);
-  if (result.status != Status::InvalidInput) {
-    fill_entry(key, relative_pose, collider.pose.rotation.transpose() * result.normal);
-  }
-  return goal == Goal::Contacts ? find_contact_manifold(body.shape(), pose, collider.shape, collider.pose, result)
-                                : ContactManifold(result);
+  LastNormal last;
+  last.pose = RelativePose::of(collider.pose, pose);
+  const PairKey key = PairKey::of_direction(body.serial(), last.pose.offset, collider.kind);
+  ContactManifold manifold = solve({body.shape(), pose}, {collider.shape, collider.pose}, body.settings(), goal,
+                                   collider.pose.rotation, body.size(), reserve_entry(key), last);
+  last.remember(key);
+  return manifold;
 }
 
 }  // namespace supernormal::ode

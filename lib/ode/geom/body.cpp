@@ -5,9 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "ode/colliders/collider.hpp"
 #include "ode/geom/geom_class.hpp"
-#include "ode/runtime/solver_settings.hpp"
+#include "ode/geom/solver_settings.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "ode/api/last_error.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
+#include "ode/support/last_error.hpp"
 #include "supernormal/proximity/plane.hpp"
 
 namespace supernormal::ode {

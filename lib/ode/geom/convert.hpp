@@ -32,6 +32,10 @@ inline Matrix3 rotation_of(dGeomID geom) { return orthonormal(to_rotation(dGeomG
 
 /// The current pose of a placeable geom. It is read anew in every call: inside a dGeomTransform ODE swaps the pose for the time
 /// of the call.
-inline Pose pose_of(dGeomID geom) { return {to_vector(dGeomGetPosition(geom)), rotation_of(geom)}; }
+inline Pose pose_of(dGeomID geom) {
+  Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
+  if (!is_orthonormal(pose.rotation)) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare; otherwise nothing is copied
+  return pose;
+}
 
 }  // namespace supernormal::ode

@@ -1,120 +1,51 @@
 #include "ode/geom/geom_class.hpp"
 
 #include <atomic>
-#include <cstring>
-#include <mutex>
-#include <stdexcept>
-#include <string>
-
-#include "ode/api/last_error.hpp"
-#include "ode/colliders/collider.hpp"
-#include "ode/geom/body.hpp"
-#include "ode/geom/bounding_box.hpp"
-#include "ode/geom/class_slot.hpp"
-#include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
 namespace {
 
-std::mutex class_mutex;
-std::atomic<int> class_number{-1};  // -1: not registered
-std::atomic<int> live_geoms{0};
-int last_class_number = -1;  // class number before the last snClose; guarded by class_mutex
+std::atomic<int> class_number{-1};
 
-// Another program may call dCreateGeom(snGeomClass()): a geom with class data of zeros, which every callback must accept.
-void destroy_geom_data(dGeomID geom) {
-  Body* const body = static_cast<ClassData*>(dGeomGetClassData(geom))->body;
-  if (body == nullptr) return;
-  delete body;
-  --live_geoms;
-}
-
-void require_same_precision() {
-  const bool is_double = sizeof(dReal) == sizeof(double);
-  if (dCheckConfiguration(is_double ? "ODE_double_precision" : "ODE_single_precision") != 0) return;
-  throw std::runtime_error(std::string("this library was built for ODE with ") + (is_double ? "double" : "single") +
-                           " precision, but the ODE library of this process reports: " + dGetConfiguration());
-}
-
-int register_class() {
-  dGeomClass description{};
-  description.bytes = sizeof(ClassData);
-  description.collider = find_collider;
-  description.aabb = compute_aabb;
-  description.aabb_test = test_aabb;
-  description.dtor = destroy_geom_data;
-  const int number = take_class_slot(description);
-  if (number >= 0) return number;
-  throw std::runtime_error("ODE has no free geometry class: a process has " + std::to_string(dMaxUserClasses) +
-                           ", and other code has registered all of them");
-}
-
-// ODE must be initialised. If another client kept it open, our class has outlived our own snClose.
-int register_class_once() {
-  if (last_class_number >= 0 && class_table_is_marked()) return last_class_number;
-  const int number = register_class();
-  // The table is filled at once, so that the first dCollide of a pair, which may happen in two threads at a time, finds nothing
-  // to write.
-  set_colliders(number);
-  mark_class_table();
-  return number;
-}
-
-void close() {
-  const std::lock_guard lock(class_mutex);
-  if (class_number < 0) return;
-  if (live_geoms > 0) {
-    throw std::runtime_error("live geoms = " + std::to_string(live_geoms) +
-                             ", but must be 0: destroy them first; nothing was closed");
+/// The name for messages; null for classes that are not ODE's own, and for spaces and dGeomTransform.
+const char* builtin_name(int number) {
+  switch (number) {
+    case dSphereClass:
+      return "a dSphere";
+    case dBoxClass:
+      return "a dBox";
+    case dCapsuleClass:
+      return "a dCapsule";
+    case dCylinderClass:
+      return "a dCylinder";
+    case dPlaneClass:
+      return "a dPlane";
+    case dRayClass:
+      return "a dRay";
+    case dConvexClass:
+      return "a dConvex";
+    case dTriMeshClass:
+      return "a dTriMesh";
+    case dHeightfieldClass:
+      return "a dHeightfield";
+    default:
+      return nullptr;
   }
-  last_class_number = class_number;
-  class_number = -1;
-  dCloseODE();
 }
 
 }  // namespace
 
-int require_geom_class() {
-  if (const int number = class_number.load(std::memory_order_acquire); number >= 0) return number;
-  const std::lock_guard lock(class_mutex);
-  if (class_number >= 0) return class_number;
-  require_same_precision();
-  if (dInitODE2(0) == 0) throw std::runtime_error("dInitODE2 failed");
-  try {
-    class_number.store(register_class_once(), std::memory_order_release);
-  } catch (...) {
-    dCloseODE();
-    throw;
-  }
-  return class_number;
-}
-
 int geom_class() noexcept { return class_number.load(std::memory_order_acquire); }
 
-dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body) {
-  const dGeomID geom = dCreateGeom(require_geom_class());
-  static_cast<ClassData*>(dGeomGetClassData(geom))->body = body.release();
-  ++live_geoms;
-  if (space != nullptr) dSpaceAdd(space, geom);
-  return geom;
+void set_geom_class(int number) noexcept { class_number.store(number, std::memory_order_release); }
+
+std::string geom_class_name(dGeomID geom) {
+  const int number = dGeomGetClass(geom);
+  if (number == geom_class()) return "a geom of this library's class";
+  if (const char* const name = builtin_name(number)) return name;
+  if (dGeomIsSpace(geom) != 0) return "a space";
+  if (number == dGeomTransformClass) return "a dGeomTransform";
+  return "a geom of user class " + std::to_string(number);
 }
 
 }  // namespace supernormal::ode
-
-using namespace supernormal::ode;
-
-extern "C" int snInit(void) {
-  return guarded("snInit", 0, [] {
-    require_geom_class();
-    return 1;
-  });
-}
-
-extern "C" void snClose(void) {
-  guarded("snClose", 0, [] {
-    close();
-    return 1;
-  });
-}
-
-extern "C" int snGeomClass(void) { return geom_class(); }

@@ -1,22 +1,19 @@
-// The one geometry class of this library inside ODE, and the reference on ODE that keeps it alive.
+// The number of the one geometry class of this library inside ODE, and the names of all classes.
 #pragma once
 
 #include <ode/ode.h>
 
-#include <memory>
+#include <string>
 
 namespace supernormal::ode {
-
-class Body;
-
-/// Our class number; registers the class first if that has not happened yet. Any thread may call it. Throws std::runtime_error
-/// when ODE has another precision than this library, cannot be initialised or has no free user class.
-int require_geom_class();
 
 /// Our class number; -1 while the class is not registered.
 int geom_class() noexcept;
 
-/// Creates a geom of our class in `space` (or in none, when 0) that owns `body`.
-dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body);
+/// Changes what geom_class() returns.
+void set_geom_class(int number) noexcept;
+
+/// A name for messages: "a dBox", "a geom of this library's class", ...
+std::string geom_class_name(dGeomID geom);
 
 }  // namespace supernormal::ode

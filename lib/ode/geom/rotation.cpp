@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ode/colliders/collider.hpp"
+#include "ode/geom/geom_class.hpp"
 #include "shapes/finite.hpp"
 #include "shapes/validation.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "ode/api/require.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/support/require.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 
 namespace supernormal::ode {

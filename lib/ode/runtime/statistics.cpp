@@ -2,10 +2,6 @@
 
 #include <utility>
 
-#include "ode/api/last_error.hpp"
-#include "ode/api/require.hpp"
-#include "supernormal/supernormal.h"
-
 namespace supernormal::ode {
 namespace {
 
@@ -24,6 +20,8 @@ void count_closed_form() noexcept { ++statistics.closed_forms; }
 
 void count_contact() noexcept { ++statistics.contacts; }
 
+snStatistics thread_statistics() noexcept { return statistics; }
+
 snStatistics exchange_statistics(const snStatistics& other) noexcept { return std::exchange(statistics, other); }
 
 void add_statistics(const snStatistics& more) noexcept {
@@ -37,15 +35,3 @@ void add_statistics(const snStatistics& more) noexcept {
 }
 
 }  // namespace supernormal::ode
-
-using namespace supernormal::ode;
-
-extern "C" void snGetStatistics(snStatistics* out) {
-  guarded("snGetStatistics", 0, [&] {
-    require_not_null("out", out);
-    *out = statistics;
-    return 1;
-  });
-}
-
-extern "C" void snResetStatistics(void) { statistics = {}; }

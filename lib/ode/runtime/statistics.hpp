@@ -14,6 +14,9 @@ void count_closed_form() noexcept;
 
 void count_contact() noexcept;
 
+/// The counts of this thread so far.
+snStatistics thread_statistics() noexcept;
+
 /// Replaces this thread's counts and returns the old ones: jobs that are done for another thread are taken out here and added
 /// there.
 snStatistics exchange_statistics(const snStatistics& statistics) noexcept;

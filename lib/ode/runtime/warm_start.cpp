@@ -18,9 +18,10 @@ struct Entry {
 };
 static_assert(sizeof(Entry) == 64);
 
-constexpr double kSimilarOffset = 0.5;           // relative to the size of the bodies
-const double kSimilarAttitude = std::cos(0.25);  // the cosine of half the angle
-constexpr unsigned kCellBits = 13;               // bits of PairKey::collider that hold the direction
+constexpr double kSimilarOffset = 0.5;                         // relative to the size of the bodies
+constexpr int kAttitudeUnit = 1 << 14;                         // the number of units of RelativePose::Attitude in 1
+constexpr double kLeastTrace = 1 + 2 * 0.8775825618903727162;  // 1 + 2 cos(0.5): the trace of a rotation by half a radian
+constexpr unsigned kCellBits = 13;                             // bits of PairKey::collider that hold the direction
 
 // The table is a set-associative cache: a pair has one set, which holds the four last used pairs, latest first. Two pairs that
 // share a slot of a direct-mapped table would push each other out at every step. Counts on lattices of neighbours: all of the
@@ -45,6 +46,22 @@ constexpr unsigned kSpreadBits = 6;  // over the sets of the next three bodies, 
 std::size_t set_index(const PairKey& key) {
   const std::uint32_t hash = key.collider * 0x9e3779b1U;  // odd; 2^32 / golden ratio
   return (key.body * kSetsPerBody + (hash >> (32U - kSpreadBits))) % kSets;
+}
+
+/// Rounds a number within [-2, 2) to units of 2^-14, by taking the last bits of its sum with a number whose last place is this
+/// unit. Any other number, infinities and NaN are allowed too, but give arbitrary results.
+std::int16_t to_units(double value) {
+  constexpr double kLastPlaceIsUnit = 3 * 0x1p51 / kAttitudeUnit;
+  return static_cast<std::int16_t>(std::bit_cast<std::uint64_t>(value + kLastPlaceIsUnit));
+}
+
+/// Whether the angle between two attitudes is at most half a radian: the trace of R^T R' is 1 + 2 cos of that angle. Unknown pairs
+/// have attitudes of zeros, which are similar to no attitude.
+bool is_similar(const RelativePose::Attitude& a, const RelativePose::Attitude& b) {
+  constexpr auto kLeast = static_cast<std::int32_t>(kLeastTrace * kAttitudeUnit * kAttitudeUnit);
+  std::uint32_t trace = 0;  // within 3 kAttitudeUnit^2 for rotations; the core refuses other matrices
+  for (std::size_t k = 0; k < a.size(); ++k) trace += static_cast<std::uint32_t>(a[k] * b[k]);
+  return static_cast<std::int32_t>(trace) >= kLeast;
 }
 
 bool same(const PairKey& a, const PairKey& b) { return a.body == b.body && a.collider == b.collider; }
@@ -74,8 +91,12 @@ std::uint32_t collider_kind(int geom_class, std::initializer_list<double> length
 }
 
 RelativePose RelativePose::of(const Pose& frame, const Pose& other) {
+  RelativePose relative;
   const Matrix3 to_frame = frame.rotation.transpose();
-  return {to_frame * (other.position - frame.position), Eigen::Quaterniond(Matrix3(to_frame * other.rotation))};
+  relative.offset.noalias() = to_frame * (other.position - frame.position);
+  const Matrix3 rotation = to_frame * other.rotation;
+  for (std::size_t k = 0; k < relative.attitude.size(); ++k) relative.attitude[k] = to_units(rotation.data()[k]);
+  return relative;
 }
 
 void set_warm_start(bool on) noexcept { enabled.store(on, std::memory_order_relaxed); }
@@ -87,6 +108,7 @@ Remembered reserve_entry(const PairKey& key) noexcept {
     if (!table) return {};
   }
   Set& set = table[set_index(key)];
+  if (same(set.front().key, key)) return set.front().remembered;  // this is nearly always so
   const auto known = std::find_if(set.begin(), set.end(), [&](const Entry& entry) { return same(entry.key, key); });
   const Entry entry = known == set.end() ? Entry{key, {}} : *known;
   const auto last = known == set.end() ? known - 1 : known;  // the oldest is dropped
@@ -102,22 +124,21 @@ void prefetch_entry(const PairKey& key) noexcept {
 bool recall_normal(const Remembered& remembered, const RelativePose& pose, double size, Vector3& normal) noexcept {
   const auto& [direction, offset, attitude] = remembered;
   const Vector3 moved = pose.offset - Vector3(offset[0], offset[1], offset[2]);
-  const Eigen::Quaterniond then(attitude[3], attitude[0], attitude[1], attitude[2]);
-  const bool is_similar = moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size &&
-                          std::abs(pose.attitude.dot(then)) >= kSimilarAttitude;  // q and -q are the same attitude
-  if (is_similar) normal = Vector3(direction[0], direction[1], direction[2]);
-  return is_similar;
+  const bool found = moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size && is_similar(pose.attitude, attitude);
+  if (found) normal = Vector3(direction[0], direction[1], direction[2]);
+  return found;
 }
 
 void fill_entry(const PairKey& key, const RelativePose& pose, const Vector3& normal) noexcept {
   if (!table || !enabled.load(std::memory_order_relaxed)) return;
-  const Eigen::Vector3f offset = pose.offset.cast<float>();
-  const Eigen::Vector4f attitude = pose.attitude.coeffs().cast<float>();
   for (Entry& entry : table[set_index(key)]) {
     if (!same(entry.key, key)) continue;
-    entry.remembered = {{normal.x(), normal.y(), normal.z()},
-                        {offset.x(), offset.y(), offset.z()},
-                        {attitude.x(), attitude.y(), attitude.z(), attitude.w()}};
+    Remembered& remembered = entry.remembered;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      remembered.normal[axis] = normal[static_cast<int>(axis)];
+      remembered.offset[axis] = static_cast<float>(pose.offset[static_cast<int>(axis)]);
+    }
+    remembered.attitude = pose.attitude;
     return;
   }
 }

@@ -1,7 +1,6 @@
 // The last normal of each pair, where the next query of the pair starts.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -31,8 +30,11 @@ std::uint32_t collider_kind(int geom_class, std::initializer_list<double> length
 
 /// The pose of one body in the frame of the other, which is also that of the normal.
 struct RelativePose {
-  Vector3 offset = Vector3::Zero();                              ///< m
-  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< unit; always the identity for a sphere
+  /// The entries of a rotation in units of 2^-14: a comparison with half a radian needs no more digits.
+  using Attitude = std::array<std::int16_t, 9>;
+
+  Vector3 offset = Vector3::Zero();  ///< m
+  Attitude attitude{};               ///< always the identity for a sphere
 
   static RelativePose of(const Pose& frame, const Pose& other);
 };
@@ -43,7 +45,7 @@ void set_warm_start(bool on) noexcept;
 struct Remembered {
   std::array<double, 3> normal{};
   std::array<float, 3> offset{};
-  std::array<float, 4> attitude{};  // x, y, z, w
+  RelativePose::Attitude attitude{};
 };
 
 /// Keeps room for the pair in this thread's table, until others push it out, and returns its content; zeros when warm start is

@@ -1,6 +1,6 @@
 // Our bodies among themselves.
-#include "ode/colliders/body_pair.hpp"
 #include "ode/colliders/collider.hpp"
+#include "ode/colliders/solve_pair.hpp"
 
 namespace supernormal::ode {
 
@@ -8,9 +8,9 @@ ContactManifold query_body(dGeomID ours, dGeomID collider, Goal goal) {
   const BodyPair pair(ours, collider);
   const PairKey key = pair.key();
   LastNormal last;
-  ContactManifold patch = pair.solve(reserve_entry(key), goal, last);
+  ContactManifold manifold = pair.solve(reserve_entry(key), goal, last);
   last.remember(key);
-  return patch;
+  return manifold;
 }
 
 }  // namespace supernormal::ode

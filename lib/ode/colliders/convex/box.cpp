@@ -13,12 +13,12 @@ ContactManifold query_box(dGeomID ours, dGeomID collider, Goal goal) {
   dGeomBoxGetLengths(collider, lengths);
   const Box box(0.5 * to_vector(lengths));
   const ColliderShape shape{box, pose_of(collider), collider_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
-  ContactManifold patch = solve_pair(ours, shape, goal);
+  ContactManifold manifold = solve_pair(ours, shape, goal);
   // The contact is moved onto the box, where ODE's own contacts of dSphere and dBox are.
-  const Vector3 onto_box = 0.5 * patch.deepest.gap * patch.deepest.normal;
-  patch.deepest.contact += onto_box;
-  for (int k = 0; k < patch.corner_count; ++k) patch.corners[static_cast<std::size_t>(k)].point += onto_box;
-  return patch;
+  const Vector3 onto_box = 0.5 * manifold.deepest.gap * manifold.deepest.normal;
+  manifold.deepest.contact += onto_box;
+  for (int k = 0; k < manifold.corner_count; ++k) manifold.corners[static_cast<std::size_t>(k)].point += onto_box;
+  return manifold;
 }
 
 }  // namespace supernormal::ode

@@ -5,12 +5,12 @@
 // convex geoms, firstContact, backfaceCull and closestHit make no difference.
 #include "supernormal/raycast/ray.hpp"
 
-#include "ode/api/last_error.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"
+#include "ode/support/last_error.hpp"
 
 namespace supernormal::ode {
 namespace {

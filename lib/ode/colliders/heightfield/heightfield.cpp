@@ -6,13 +6,13 @@
 #include "contact/mesh/mesh_contacts.hpp"
 #include "contact/mesh/mesh_manifold.hpp"
 #include "contact/mesh/nearest_triangle.hpp"
-#include "ode/api/last_error.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/heightfield/heightfield_patch.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"
+#include "ode/support/last_error.hpp"
 #include "supernormal/proximity/plane.hpp"
 
 namespace supernormal::ode {

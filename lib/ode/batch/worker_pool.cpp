@@ -1,4 +1,4 @@
-#include "ode/runtime/worker_pool.hpp"
+#include "ode/batch/worker_pool.hpp"
 
 namespace supernormal::ode {
 

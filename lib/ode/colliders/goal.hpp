@@ -1,4 +1,4 @@
-// Solver settings of geoms and of pairs, and their defaults.
+// The purpose of a query of a pair.
 #pragma once
 
 #include "supernormal/proximity/proximity.hpp"
@@ -12,12 +12,6 @@ enum class Goal {
   Distance,
   CertifiedDistance,  ///< with a proof that the depth of overlapping bodies is the smallest
 };
-
-/// The settings of geoms that are created from now on; any thread may call it.
-Settings default_settings();
-
-/// The tighter tolerance and the larger limit of both; their solver if they agree on one, the hybrid if not.
-Settings combined(const Settings& settings1, const Settings& settings2);
 
 inline Settings for_goal(Settings settings, Goal goal) {
   settings.stop_when_apart = goal == Goal::OneContact || goal == Goal::Contacts;

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "ode/colliders/body_pair.hpp"
-#include "ode/runtime/worker_pool.hpp"
+#include "ode/batch/worker_pool.hpp"
+#include "ode/colliders/solve_pair.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {

@@ -1,21 +1,16 @@
-#include "ode/runtime/solver_settings.hpp"
-
-#include <algorithm>
-#include <mutex>
+// Solver settings of one geom and of all.
 #include <stdexcept>
 #include <string>
 
-#include "ode/api/last_error.hpp"
-#include "ode/api/require.hpp"
 #include "ode/geom/body.hpp"
+#include "ode/geom/solver_settings.hpp"
 #include "ode/runtime/warm_start.hpp"
+#include "ode/support/last_error.hpp"
+#include "ode/support/require.hpp"
 #include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
 namespace {
-
-std::mutex default_mutex;
-Settings default_value;
 
 Solver to_solver(snSolver solver) {
   switch (solver) {
@@ -42,20 +37,6 @@ Settings to_settings(snSolver solver, dReal tolerance, int max_evaluations) {
 }
 
 }  // namespace
-
-Settings default_settings() {
-  const std::lock_guard lock(default_mutex);
-  return default_value;
-}
-
-Settings combined(const Settings& settings1, const Settings& settings2) {
-  Settings both;
-  both.solver = settings1.solver == settings2.solver ? settings1.solver : Solver::Hybrid;
-  both.tolerance = std::min(settings1.tolerance, settings2.tolerance);
-  both.max_evaluations = std::max(settings1.max_evaluations, settings2.max_evaluations);
-  return both;
-}
-
 }  // namespace supernormal::ode
 
 using namespace supernormal::ode;
@@ -69,9 +50,7 @@ extern "C" int snGeomSetSolver(dGeomID geom, snSolver solver, dReal tolerance, i
 
 extern "C" int snSetDefaultSolver(snSolver solver, dReal tolerance, int max_evaluations) {
   return guarded("snSetDefaultSolver", 0, [&] {
-    const auto settings = to_settings(solver, tolerance, max_evaluations);
-    const std::lock_guard lock(default_mutex);
-    default_value = settings;
+    set_default_settings(to_settings(solver, tolerance, max_evaluations));
     return 1;
   });
 }

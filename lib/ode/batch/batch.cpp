@@ -1,17 +1,10 @@
-#include "ode/runtime/batch.hpp"
+#include "ode/batch/batch.hpp"
 
 #include <algorithm>
-#include <array>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <thread>
+#include <new>
 
-#include "ode/api/last_error.hpp"
-#include "ode/api/require.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/geom/body.hpp"
-#include "ode/geom/geom_class.hpp"
 #include "ode/runtime/statistics.hpp"
 
 namespace supernormal::ode {
@@ -19,7 +12,6 @@ namespace {
 
 constexpr std::size_t kJobsAtOnce = 16;  // some 20 µs: waiting for a lock is short beside it, and the last thread is soon done
 constexpr std::size_t kPrefetch = 8;     // how many pairs ahead entries are prefetched
-constexpr int kMostThreads = 256;
 
 bool is_solid_pair(dGeomID g1, dGeomID g2) {
   const dBodyID body = dGeomGetBody(g1);
@@ -118,8 +110,8 @@ void Batch::solve_job(std::size_t index) {
   const auto [g1, g2] = job.pair.geoms();
   dContactGeom* const first = &job_contacts_[index * static_cast<std::size_t>(room_of_job_)];
   try {
-    const ContactManifold patch = job.pair.solve(job.remembered, room_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
-    job.count = write_contacts(patch, {g1, g2, room_of_job_, first, sizeof(dContactGeom)});
+    const ContactManifold manifold = job.pair.solve(job.remembered, room_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
+    job.count = write_contacts(manifold, {g1, g2, room_of_job_, first, sizeof(dContactGeom)});
   } catch (...) {
     job.is_refused = true;  // a user-defined body threw: the pair is collided once more where the error can be reported
   }
@@ -151,41 +143,3 @@ const dContactGeom* Batch::contacts_of(const Item& item) const {
 }
 
 }  // namespace supernormal::ode
-
-using namespace supernormal::ode;
-
-struct snBatch : Batch {
-  using Batch::Batch;
-};
-
-extern "C" snBatchID snBatchCreate(int threads) {
-  return guarded("snBatchCreate", snBatchID{}, [&] {
-    if (threads < 0 || threads > kMostThreads) {
-      throw std::invalid_argument("threads = " + std::to_string(threads) + " is outside [0, " + std::to_string(kMostThreads) + "]");
-    }
-    const int available = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
-    return std::make_unique<snBatch>(threads == 0 ? available : threads).release();
-  });
-}
-
-extern "C" snBatchID snBatchCreateOn(snParallelFor* run, void* pool) {
-  return guarded("snBatchCreateOn", snBatchID{}, [&] {
-    if (run == nullptr) throw std::invalid_argument("run = NULL, but must be a function");
-    return std::make_unique<snBatch>(run, pool).release();
-  });
-}
-
-extern "C" void snBatchDestroy(snBatchID batch) { delete batch; }
-
-extern "C" int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
-                              snContactsCallback* contacts) {
-  return guarded("snBatchCollide", -1, [&] {
-    require_not_null("batch", batch);
-    require_not_null("space", space);
-    if (contacts == nullptr) throw std::invalid_argument("contacts = NULL, but must be a function");
-    if (max_contacts < 1 || max_contacts > 0xffff) {
-      throw std::invalid_argument("max_contacts = " + std::to_string(max_contacts) + " is outside [1, 65535]");
-    }
-    return batch->collide(space, max_contacts, {data, wanted, contacts});
-  });
-}

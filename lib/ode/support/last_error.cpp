@@ -1,9 +1,7 @@
-#include "ode/api/last_error.hpp"
+#include "ode/support/last_error.hpp"
 
 #include <array>
 #include <cstdio>
-
-#include "supernormal/supernormal.h"
 
 namespace supernormal::ode {
 namespace {
@@ -19,5 +17,3 @@ void set_last_error(const char* function, const char* message) noexcept {
 const char* last_error() noexcept { return text.data(); }
 
 }  // namespace supernormal::ode
-
-extern "C" const char* snLastError(void) { return supernormal::ode::last_error(); }

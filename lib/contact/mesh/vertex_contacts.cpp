@@ -1,0 +1,97 @@
+// Contacts at the vertices of a surface, found over the normals between those of the faces there.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "contact/mesh/mesh_contacts.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/polytope.hpp"
+
+namespace supernormal {
+namespace {
+
+// Normals that differ by less than this (radians) are indistinguishable at the tolerance of the gap.
+constexpr double kNearEdgeNormal = 1e-5;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+double angle_at(const Face& face, int k) {
+  const Vector3 edge1 = face.vertices[at((k + 1) % 3)] - face.vertices[at(k)];
+  const Vector3 edge2 = face.vertices[at((k + 2) % 3)] - face.vertices[at(k)];
+  return std::atan2(edge1.cross(edge2).norm(), edge1.dot(edge2));
+}
+
+}  // namespace
+
+// Solves for the hull of the triangles at the vertex, not for the point alone, whose gap may be larger still along normals that
+// the surface does not have.
+void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vector3& start) {
+  const int corner = surface_.faces()[at(f)].corner[at(k)];
+  if (settled_[at(corner)] != 0) return;
+  hull_.clear();
+  for (const Face& face : surface_.faces()) {
+    if (std::find(face.corner.begin(), face.corner.end(), corner) == face.corner.end()) continue;
+    hull_.insert(hull_.end(), face.vertices.begin(), face.vertices.end());
+  }
+  const Proximity found = solve_for_hull(probe, surface_.faces()[at(f)].vertices[at(k)], &start);
+  if (found.status == Status::InvalidInput) return;
+  const bool is_apart = found.status == Status::Apart || found.gap > 0;
+  // The contact of another edge is found over that edge; but the edge that led here may touch a flat side of the body, any point
+  // of which was as good as the one found there.
+  const bool is_other_edge = (found.normal + start).norm() > kNearEdgeNormal && is_normal_of_edge_at(corner, -found.normal);
+  // If the normal is not one of the vertex, another edge may lead to another maximum.
+  settled_[at(corner)] = is_apart || (!is_other_edge && add_at_vertex(probe, f, k, found)) ? 1 : 0;
+}
+
+bool MeshContacts::is_normal_of_edge_at(int corner, const Vector3& normal) const {
+  return std::any_of(surface_.faces().begin(), surface_.faces().end(), [&](const Face& face) {
+    const auto* const found = std::find(face.corner.begin(), face.corner.end(), corner);
+    if (found == face.corner.end()) return false;
+    const int k = static_cast<int>(found - face.corner.begin());
+    return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& other) {
+      const Vector3 edge = other - face.vertices[at(k)];
+      return normal.dot(edge) > -kNearEdgeNormal * edge.norm();
+    });
+  });
+}
+
+Proximity MeshContacts::solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start) {
+  for (Vector3& point : hull_) point -= origin;
+  Vector3 first_normal;
+  if (start != nullptr) first_normal = -(probe.rotation().transpose() * *start);
+  const Proximity found = find_proximity(probe.shape(), {Vector3::Zero(), probe.rotation()}, Polytope(hull_),
+                                         {origin, Matrix3::Identity()}, settings_, start != nullptr ? &first_normal : nullptr);
+  probe.count(found.evaluations);
+  return found;
+}
+
+// Returns false when the normal is not one of the surface there, or when that cannot be decided.
+bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
+  const Face& face = surface_.faces()[at(f)];
+  const Vector3& vertex = face.vertices[at(k)];
+  if (!has_complete_neighbourhood(probe, vertex)) return false;
+  SurfaceContact contact = contact_at(f, -found.normal, found.gap, found.point1);
+  contact.surface_point = contact.feature_point = vertex;
+  contact.crease = face.corner[at(k)];
+  contact.error = found.error;
+  contact.evaluations = found.evaluations;
+  contact.status = found.status;
+  if (surface_.violates_normal_cone(contact.normal, vertex, vertex) || !is_outside_at(face.corner[at(k)], contact.normal))
+    return false;
+  if (touches_surface(probe, contact)) found_.add(contact);
+  return true;
+}
+
+// The angle-weighted mean of the normals at a vertex tells outside from inside (Baerentzen, Aanaes: Signed distance computation
+// using the angle weighted pseudonormal, IEEE TVCG 11, 2005).
+bool MeshContacts::is_outside_at(int corner, const Vector3& normal) const {
+  Vector3 mean = Vector3::Zero();
+  for (const Face& face : surface_.faces()) {
+    for (int k = 0; k < 3; ++k) {
+      if (face.corner[at(k)] == corner) mean += angle_at(face, k) * face.normal;
+    }
+  }
+  return normal.dot(mean) >= -1e-12;
+}
+
+}  // namespace supernormal
