@@ -1,5 +1,5 @@
-# What `cmake --install` puts where: headers, library, CMake package, pkg-config files. All of it can be moved as a whole. There are two
-# components: what a program needs to run, and what it needs to be built.
+# Says where `cmake --install` puts headers, library, CMake package and pkg-config files. All of it can be moved as a whole. There
+# are two components: one for programs to run, one for programs to be built.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 

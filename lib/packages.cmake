@@ -1,5 +1,5 @@
-# `cpack -G DEB` in the build folder makes two Debian packages of what lib/install.cmake installs: the library, and what it takes to build
-# programs with it. A static library is all in the second.
+# `cpack -G DEB` in the build folder makes two Debian packages of what lib/install.cmake installs: the library, and the files that
+# programs are built with. A static library is all in the second.
 set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
 set(CPACK_PACKAGE_NAME supernormal)
@@ -15,7 +15,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_COMPONENTS_ALL supernormal_development)
 
-# The summary comes before this in a package's description.
+# The summary precedes this text in a package's description.
 set(description
     "Ellipsoids, superellipsoids, superovoids, any of them with rounded edges, and
 bodies of your own, as one geometry class, exact to the tolerance you ask for.")

@@ -1,4 +1,4 @@
-// The same question with different rubbish on the stack: memory that was never set must not decide an answer.
+// Repeats a query with different rubbish on the stack: memory that was never set must not decide an answer.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace supernormal::test {
 /// program.
 inline constexpr std::uint64_t kSignallingNan = 0x7FF4'0000'7FA0'0000;
 
-/// What a variable that is never set may hold: zeros, nothing that can be computed with, moderate, huge and tiny numbers, and as an
-/// integer a negative one.
+/// Possible contents of a variable that is never set: zeros, a signalling NaN, moderate, huge and tiny numbers, and as an integer
+/// a negative one.
 inline constexpr std::array<std::uint64_t, 6> kPaints = {0,
                                                          kSignallingNan,
                                                          std::bit_cast<std::uint64_t>(-1.0),
@@ -24,7 +24,7 @@ inline constexpr std::array<std::uint64_t, 6> kPaints = {0,
                                                          std::bit_cast<std::uint64_t>(-1e-300),
                                                          0xFFFF'FFFF'FFFF'FFFF};
 
-/// Bytes; more than a query takes.
+/// Bytes; a query takes less.
 inline constexpr std::size_t kPaintedSize = 64 * 1024;
 
 /// Fills the stack below the caller's frame, where the frames of the functions that it calls next will be.
@@ -33,7 +33,7 @@ inline constexpr std::size_t kPaintedSize = 64 * 1024;
   for (volatile std::uint64_t& word : below) word = paint;
 }
 
-/// Every number of an answer.
+/// All numbers of an answer.
 using Numbers = std::vector<double>;
 
 inline Numbers numbers_of(const Proximity& answer) {
@@ -45,7 +45,7 @@ inline Numbers numbers_of(const Proximity& answer) {
   return numbers;
 }
 
-/// To the bit: one NaN is like another, and unlike any number.
+/// Compares to the bit, where any NaN equals any other, and no number.
 inline bool are_identical(const Numbers& a, const Numbers& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -54,15 +54,15 @@ inline bool are_identical(const Numbers& a, const Numbers& b) {
   return true;
 }
 
-/// The answer after the stack has been painted. A function of its own, so that the painted part begins where the frame of `ask`
-/// will.
+/// The answer after the stack has been painted. It is a function of its own, so that the painted part begins where the frame of
+/// `ask` will.
 template <typename Ask>
 [[gnu::noinline]] auto ask_on_painted_stack(std::uint64_t paint, const Ask& ask) {
   paint_stack(paint);
   return ask();
 }
 
-/// Whether ask() answers the same over every paint. numbers_of() must know its answers.
+/// Whether ask() answers the same over every paint. numbers_of() must be defined for its answers.
 template <typename Ask>
 bool is_same_on_every_stack(const Ask& ask) {
   const Numbers first = numbers_of(ask_on_painted_stack(kPaints[0], ask));

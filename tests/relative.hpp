@@ -7,7 +7,7 @@
 
 namespace supernormal::test {
 
-/// See relative().
+/// The value that relative() returns.
 class Relative {
  public:
   explicit constexpr Relative(double expected, double epsilon = 1e-5) : expected_(expected), epsilon_(epsilon) {}
@@ -26,7 +26,7 @@ class Relative {
   double epsilon_;
 };
 
-/// Equal to `expected` within less than .epsilon(e) times its size. doctest's own Approx adds 1 to that: of a millimetre, in
+/// Equal to `expected` within less than .epsilon(e) times its size. doctest's own Approx adds 1 to that: for a millimetre, in
 /// metres, it would check nothing. Nothing is near 0.
 constexpr Relative relative(double expected) { return Relative(expected); }
 

@@ -1,4 +1,4 @@
-// Floating-point exceptions as a program meets them that has trapped them: one that is raised ends it.
+// Floating-point traps: an exception that is raised ends the program.
 #pragma once
 
 #include <unistd.h>
@@ -10,12 +10,12 @@
 
 namespace supernormal::test {
 
-/// Traps while it lives; an exception ends the program with the name of what was asked.
+/// Traps exceptions while it lives; an exception ends the program with the name of the query.
 class Traps {
  public:
   static constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
-  /// Refers to the name.
+  /// Keeps a reference to the name.
   explicit Traps(const char* name) : old_handler_(std::signal(SIGFPE, say_what_was_asked)) {
     asked = name;
     std::feclearexcept(FE_ALL_EXCEPT);
@@ -31,7 +31,7 @@ class Traps {
   Traps& operator=(Traps&&) = delete;
 
  private:
-  /// Only what a signal handler may call.
+  /// The handler calls only functions that a signal handler may call.
   static void say_what_was_asked(int /*signal*/) {
     for (const char* part : {"floating-point exception in \"", asked, "\"\n"}) {
       if (write(STDERR_FILENO, part, std::strlen(part)) < 0) break;

@@ -49,7 +49,7 @@ SUPERNORMAL_API const char* snLastError(void);
  *    side of the mesh is the number of the triangle. snGeomProximity takes a mesh that is met from behind as two-sided.
  *  - dHeightfield: what is below its triangles is solid.
  *  - dRay: as for ODE's convex classes: `depth` is the distance along the ray to the first point of the boundary, the normal
- * opposes the ray, from inside too; a ray that is wholly inside, or of no length, hits nothing. */
+ *    opposes the ray, from inside too; a ray that is wholly inside, or of no length, hits nothing. */
 
 /* (x/a)^2 + (y/b)^2 + (z/c)^2 = 1 with half-axes a, b, c in [1e-30, 1e30]. */
 SUPERNORMAL_API dGeomID snCreateEllipsoid(dSpaceID space, dReal a, dReal b, dReal c);
@@ -96,13 +96,13 @@ SUPERNORMAL_API int snGeomSuperovoidGetParams(dGeomID geom, dReal* a, dReal* b, 
  * rounding; 0 takes it away. */
 SUPERNORMAL_API int snGeomSetRounding(dGeomID geom, dReal radius);
 
-/* --- questions about one body ------------------------------------------------------------------------------------------ */
+/* --- queries of one body ----------------------------------------------------------------------------------------------- */
 
-/* Distance of a point in world coordinates from the boundary, m, to the tolerance of the geom's solver settings: positive inside, 0
- * on it, negative outside. NaN (and snLastError) when the point is not finite or the geom is not ours. */
+/* Returns the distance of a point in world coordinates from the boundary, m, to the tolerance of the geom's solver settings:
+ * positive inside, 0 on it, negative outside. NaN (and snLastError) when the point is not finite or the geom is not ours. */
 SUPERNORMAL_API dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z);
 
-/* The boundary point whose outward normal is `direction` (world frame, any length but 0); `point` in world coordinates. */
+/* Finds the boundary point whose outward normal is `direction` (world frame, any length but 0); `point` in world coordinates. */
 SUPERNORMAL_API int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 point);
 
 /* Mass, centre of mass and inertia of the homogeneous body, in the geom's frame: exact for ellipsoids, superellipsoids
@@ -125,71 +125,73 @@ typedef enum snSolver SN_ENUM_BASE { SN_SOLVER_HYBRID, SN_SOLVER_NEWTON, SN_SOLV
 #undef SN_ENUM_BASE
 
 /* tolerance: the largest error of the gap that a query may leave, relative to the smallest half-extent of the two bodies, in
- * [1e-15, 1]; default 1e-9. max_evaluations: of the gap function, in [1, 1000000]; default 1000. A pair uses the tighter
- * tolerance and the larger limit of its two geoms, and the hybrid solver unless both ask for the same other one. */
+ * [1e-15, 1]; default 1e-9. max_evaluations: how often a query may evaluate the gap function, in [1, 1000000]; default 1000. A pair
+ * uses the tighter tolerance and the larger limit of its two geoms, and the hybrid solver unless both ask for the same other one.
+ */
 SUPERNORMAL_API int snGeomSetSolver(dGeomID geom, snSolver solver, dReal tolerance, int max_evaluations);
 
-/* For the geoms created from now on, in every thread. */
+/* Sets the defaults for the geoms created from now on, in every thread. */
 SUPERNORMAL_API int snSetDefaultSolver(snSolver solver, dReal tolerance, int max_evaluations);
 
-/* Start each pair from its last normal in this thread (default on). Off: results are a pure function of the two poses. On: the same
- * scene, built and run in the same order by one thread, gives the same digits in every run. */
+/* Whether each pair starts from its last normal in this thread (default on). Off: results are a pure function of the two poses. On:
+ * the same scene, built and run in the same order by one thread, gives the same digits in every run. */
 SUPERNORMAL_API void snSetWarmStart(int on);
 
-/* --- questions about two bodies ---------------------------------------------------------------------------------------- */
+/* --- queries of two bodies --------------------------------------------------------------------------------------------- */
 
 typedef struct snProximity {
   dReal gap;       /* m; < 0: overlap depth = -gap */
   dReal error;     /* m; estimate of |gap - local maximum of s|; a bound where it is proved (is_global); 0 for closed forms */
   dVector3 normal; /* unit, from g1 to g2, world frame */
   dVector3 point1, point2; /* m, world frame, on the two boundaries */
-  int evaluations;         /* of the gap function; 0 for closed forms */
+  int evaluations;         /* evaluations of the gap function; 0 for closed forms */
   int converged;           /* 1: the error is within the tolerance */
-  int is_global;           /* 1: proved that no shorter translation than -gap separates the geoms; always when apart or touching */
+  int is_global; /* 1: it is proved that no translation shorter than -gap separates the geoms; always 1 when apart or touching */
 } snProximity;
 
 /* Signed distance of two geoms, apart or overlapping, in either order; at least one is ours, the other ours or one of ODE's own
  * (not a space, not a dGeomTransform). The normal of faces and edges is that of the face or edge; point1 and point2 are then any of
- * those that touch. Of a dTriMesh or dHeightfield, the gap of the deepest contact that dCollide makes; without contact, the
- * distance of the nearest triangle, from either side; negative without a contact only for a body that touches a sheet's border from
- * behind. Returns 1; 0 (and snLastError) when the pair is not supported or a pose or length is not finite. */
+ * those that touch. For a dTriMesh or dHeightfield it gives the gap of the deepest contact that dCollide makes; without contact,
+ * the distance of the nearest triangle, from either side; negative without a contact only for a body that touches a sheet's border
+ * from behind. Returns 1; 0 (and snLastError) when the pair is not supported or a pose or length is not finite. */
 SUPERNORMAL_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
 
-/* The same, but of overlapping geoms it searches on until the depth is proved the smallest, or the limit of evaluations is reached:
- * is_global tells. Tens to hundreds of evaluations. Without a proof for a dTriMesh or dHeightfield, where it is snGeomProximity. */
+/* The same, but for overlapping geoms it searches on until the depth is proved the smallest, or the limit of evaluations is
+ * reached: is_global tells which. Takes tens to hundreds of evaluations. There is no such proof for a dTriMesh or dHeightfield,
+ * where it does what snGeomProximity does. */
 SUPERNORMAL_API int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out);
 
 /* --- many pairs at once ------------------------------------------------------------------------------------------------ */
 
-/* What it takes to collide a space on several threads. It keeps its memory and its threads from one call to the next. */
+/* The memory and threads for colliding a space in parallel. A batch keeps them from one call to the next. */
 typedef struct snBatch* snBatchID;
 
-/* With `threads` in [1, 256], the calling one among them, or as many as the machine has when 0. Returns 0 (and snLastError) when
- * refused. */
+/* Creates a batch with `threads` in [1, 256], the calling one among them, or as many as the machine has when 0. Returns 0 (and
+ * snLastError) when refused. */
 SUPERNORMAL_API snBatchID snBatchCreate(int threads);
 
 /* Calls task(context, i) once for every i in [0, count), on whatever threads, and returns when all calls have. */
 typedef void snParallelFor(void* pool, int count, void (*task)(void* context, int i), void* context);
 
-/* With the threads of the program: `run` is called with `pool`, once in every snBatchCollide. */
+/* Creates a batch that uses the threads of the program: `run` is called with `pool`, once in every snBatchCollide. */
 SUPERNORMAL_API snBatchID snBatchCreateOn(snParallelFor* run, void* pool);
 
 SUPERNORMAL_API void snBatchDestroy(snBatchID batch);
 
-/* Nonzero: collide these two. For pairs that need no contacts: of bodies that sleep, or hang together by a joint. */
+/* Returns nonzero to collide these two, 0 for pairs that need no contacts: of bodies that sleep, or that a joint connects. */
 typedef int snPairFilter(void* data, dGeomID g1, dGeomID g2);
 
-/* The contacts of a pair, as dCollide(g1, g2, …) would have written them; count > 0. */
+/* Takes the contacts of a pair, as dCollide(g1, g2, …) would have written them; count > 0. */
 typedef void snContactsCallback(void* data, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
 
-/* dSpaceCollide with a dCollide of every pair, for max_contacts in [1, 65535], and the same contacts bit for bit: first it collects
- * the pairs, those that `wanted` (may be NULL: all) agrees to; then it solves those of two geoms of ours on all threads, and the
- * others, by dCollide, on the calling one; then it calls `contacts` for each pair that has some, in the order in which
+/* Does what dSpaceCollide with a dCollide of every pair does, for max_contacts in [1, 65535], with the same contacts bit for bit.
+ * First it collects the pairs that `wanted` (may be NULL: all) agrees to; then it solves those of two geoms of ours on all threads,
+ * and the others, by dCollide, on the calling one; then it calls `contacts` for each pair that has some, in the order in which
  * dSpaceCollide named the pairs. Both callbacks are called on the calling thread, `contacts` with the space unlocked. Geoms of
  * spaces within the space meet those outside, as in dSpaceCollide2; for those among themselves call it for that space.
  *
  * Until it returns nothing may move or change a geom, and nobody may use the batch elsewhere. Callbacks of snCreateConvex are
- * called on all threads. Statistics count on the calling thread. A dSetColliderOverride for two geoms of our class is not asked.
+ * called on all threads. Statistics count on the calling thread. A dSetColliderOverride for two geoms of our class is not called.
  * No memory is allocated unless there are more pairs than ever before. Returns the number of contacts; -1 (and snLastError)
  * when an argument is refused or memory has run out. */
 SUPERNORMAL_API int snBatchCollide(snBatchID batch, dSpaceID space, int max_contacts, void* data, snPairFilter* wanted,
@@ -204,13 +206,13 @@ __extension__ typedef unsigned long long snCount;
 typedef unsigned long long snCount;
 #endif
 
-/* Of this thread since the last reset: what the colliders and snGeomProximity did. With meshes, heightfields and rays no normal is
- * remembered. */
+/* Counts of what the colliders and snGeomProximity did in this thread since the last reset. With meshes, heightfields and rays no
+ * normal is remembered. */
 typedef struct snStatistics {
   snCount queries_cold, queries_warm;         /* pairs solved without and with a remembered normal */
-  snCount evaluations_cold, evaluations_warm; /* of the gap function, in those queries */
+  snCount evaluations_cold, evaluations_warm; /* evaluations of the gap function in those queries */
   snCount closed_forms;                       /* pairs settled without iteration, such as body and plane */
-  snCount contacts;                           /* emitted */
+  snCount contacts;                           /* contacts that dCollide was given */
   snCount not_converged;                      /* queries whose error exceeds the tolerance */
 } snStatistics;
 SUPERNORMAL_API void snGetStatistics(snStatistics* out);

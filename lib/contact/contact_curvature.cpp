@@ -8,18 +8,19 @@
 namespace supernormal {
 namespace {
 
-constexpr double kSharpest = 1e-9;    // radius of an edge, relative to the smallest half-extent
-constexpr double kFlattest = 1e12;    // radius of a face
-constexpr double kDifference = 1e-4;  // rad; boundary points are good to rounding, so the differences to about 1e-8
+constexpr double kSharpest = 1e-9;    // radius of curvature of an edge, relative to the smallest half-extent
+constexpr double kFlattest = 1e12;    // radius of curvature beyond which a face counts as flat, relative to the same
+constexpr double kDifference = 1e-4;  // rad; boundary points are good to rounding, so the differences are good to about 1e-8
 
-/// The tangent plane at m with an axis of the body's frame: the flattest, so that a face does not drown the curvature across it.
+/// The tangent plane at m with one basis vector along an axis of the body's frame: the flattest one, so that the large radius of
+/// curvature of a face does not drown the one across it.
 TangentPlane plane_along(const Vector3& m, const Vector3& flatness) {
   int axis = 0;
   if (flatness.maxCoeff(&axis) > 0) return {m, Vector3::Unit(axis)};
   return {m, m.unitOrthogonal()};
 }
 
-/// By differences of boundary points.
+/// Estimates the radii of curvature from differences of boundary points.
 Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
   const auto change = [&](const Vector3& t) {
     const Vector3 forward = shape.point((plane.n + kDifference * t).normalized());

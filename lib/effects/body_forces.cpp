@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Drag of `coefficient` (N s/m) against the velocity that the step would end with, so that it brings to rest at most.
+/// Applies a drag of `coefficient` (N s/m) against the velocity that the step would end with, so that it brings the body to rest
+/// at most.
 void add_drag(dBodyID body, double coefficient, double step) {
   dMass mass;
   dBodyGetMass(body, &mass);
@@ -23,7 +24,7 @@ void add_drag(dBodyID body, double coefficient, double step) {
   dBodyAddForce(body, ode::to_real(force.x()), ode::to_real(force.y()), ode::to_real(force.z()));
 }
 
-/// The direction of motion in the frame of a geom; x where the body does not move.
+/// The direction of motion in the frame of a geom; the x-axis if the body does not move.
 Vector3 heading(dBodyID body, dGeomID geom) {
   const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body));
   const double speed = velocity.norm();
@@ -45,7 +46,7 @@ BodyForces::BodyForces(const std::vector<Effect>& list, double step) : step_(ste
       passes_.push_back({effect.index(), &BodyForces::apply_buoyancy});
     }
   }
-  // Behind buoyancy: drag acts on the velocity that the other forces lead to.
+  // Drag passes come after buoyancy, because drag acts on the velocity that the other forces lead to.
   if (quadratic_drag_) passes_.push_back({drag, &BodyForces::apply_quadratic_drag});
   if (stokes_drag_) passes_.push_back({stokes, &BodyForces::apply_stokes_drag});
 }
@@ -58,7 +59,7 @@ void BodyForces::add(dBodyID body) {
     if (ours == nullptr) continue;
     Part part{geom, &ours->shape(), 0, std::nullopt};
     if (stokes_drag_) part.surface = surface_area(ours->shape());
-    if (buoyancy_) part.immersion.emplace(ours->shape());
+    if (buoyancy_) part.submerged_volume.emplace(ours->shape());
     entry.parts.push_back(std::move(part));
   }
   if (entry.parts.empty()) throw std::invalid_argument("the body has no geom made by snCreate…, but must have one");
@@ -88,7 +89,8 @@ unsigned long long BodyForces::apply_buoyancy() {
   return visit([&](const Entry& entry) {
     for (const Part& part : entry.parts) {
       const Pose pose = ode::pose_of(part.geom);
-      const Submerged submerged = part.immersion->below(pose.rotation.transpose() * up, buoyancy_->level - up.dot(pose.position));
+      const Submerged submerged =
+          part.submerged_volume->below(pose.rotation.transpose() * up, buoyancy_->level - up.dot(pose.position));
       if (submerged.volume == 0) continue;
       const Vector3 force = -buoyancy_->density * submerged.volume * gravity_;
       const Vector3 at = pose.rotation * submerged.centre + pose.position;

@@ -1,4 +1,4 @@
-// Forces on bodies, one pass over them for each effect that is listed.
+// Forces on bodies; each listed effect makes one pass over them.
 #pragma once
 
 #include <ode/ode.h>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "effects/law.hpp"
+#include "effects/pair_material.hpp"
 #include "supernormal/effects.hpp"
 #include "supernormal/shapes/submerged_volume.hpp"
 
@@ -22,7 +22,7 @@ class BodyForces {
   void add(dBodyID body);
   void remove(dBodyID body);
 
-  /// The passes; each counts the bodies it visits, which are awake.
+  /// A pass, which returns the number of bodies that it visited, those that are awake.
   struct Listed {
     EffectIndex effect;
     unsigned long long (BodyForces::*run)();
@@ -30,12 +30,12 @@ class BodyForces {
   const std::vector<Listed>& passes() const { return passes_; }
 
  private:
-  /// A geom of ours; a body may have several.
+  /// A geom of ours on a body; a body may have several.
   struct Part {
     dGeomID geom;
     const Shape* shape;
-    double surface = 0;                        // m^2, for Stokes
-    std::optional<SubmergedVolume> immersion;  // for buoyancy
+    double surface = 0;                               // m^2, for Stokes drag
+    std::optional<SubmergedVolume> submerged_volume;  // for buoyancy
   };
   struct Entry {
     dBodyID body;

@@ -1,28 +1,28 @@
 // Springs and dampers as rows of ODE's solver.
 //
-// A row with softness cfm and target velocity u holds v + cfm f = u for the velocity v after the step: a force f = A - B v with
-// B = 1 / cfm and A = B u. ODE's soft ERP and CFM make this the implicit Euler method. Here A is the force at the start of
-// the step and B only the new half of the damper, so that with ODE's positions, which move with the new velocity, it is the
-// leapfrog: no damping of its own. That is stable for s = h^2 k / m < 4, m the mass of the contact, and a contact takes pi /
-// sqrt(s) steps. With A - theta h k v, theta from 0 (leapfrog) to 1 (implicit Euler), it is stable for s (1 - 2 theta) < 4 and
-// damped by 1 / (1 + theta s) a step. theta = (s - limit) / (s + 1) begins where a contact takes ten steps, is stable for any s,
-// also where a body has ten such contacts at once, and lets no impact gain more than 0.5 %, wherever in a step it begins.
+// A row with softness cfm and target velocity u holds v + cfm f = u for the velocity v after the step: a force f = A - B v with B
+// = 1 / cfm and A = B u. ODE's soft ERP and CFM make this the implicit Euler method. Here A is the force at the start of the step
+// and B only the new half of the damper. Since ODE moves positions with the new velocity, this is the leapfrog, which adds no
+// damping. It is stable for s = h^2 k / m < 4, with m the mass of the contact, and a contact takes pi / sqrt(s) steps. With A -
+// theta h k v, theta from 0 (leapfrog) to 1 (implicit Euler), it is stable for s (1 - 2 theta) < 4 and damped by 1 / (1 + theta
+// s) a step. theta = (s - limit) / (s + 1) begins where a contact takes ten steps, is stable for any s, also where a body has ten
+// such contacts at once, and lets no impact gain more than 0.5 %, wherever in a step it begins.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "effects/elastic_geom.hpp"
 #include "effects/hertz.hpp"
-#include "effects/law.hpp"
 #include "effects/motion.hpp"
+#include "effects/pair_material.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
 
 namespace supernormal::effects {
 namespace {
 
-constexpr double kLeastSteps = 10;  // of a contact, half a period
+constexpr double kLeastSteps = 10;  // number of steps that a contact, half a period, should last
 constexpr double kStiffest = (std::numbers::pi / kLeastSteps) * (std::numbers::pi / kLeastSteps);
-constexpr double kLeastShare = 1e-6;  // of B in mass / step: what stands for 0, a rigid row that ODE's solver can divide by
+constexpr double kLeastShare = 1e-6;  // smallest B, in mass / step: it stands for 0, a rigid row, and ODE's solver can divide by it
 
 struct Spring {
   double force;    ///< N, at the depth of the deepest contact
@@ -43,7 +43,7 @@ double greatest_depth(const Patch& patch) {
   return depth;
 }
 
-/// Puts contacts that carry nothing, corners of an undamped spring, behind the others.
+/// Puts contacts that carry no force, corners of an undamped spring, behind the others.
 void leave_out_idle(Patch& patch) {
   const auto carries = [](const dContact& contact) { return contact.geom.depth > 0; };
   const auto idle = std::partition(patch.contacts.begin() + 1, patch.contacts.end(), carries);
@@ -57,7 +57,7 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
   const double stiffness = mass > 0 ? h * h * spring.tangent / mass : 0;
   const double implicit = std::max(0.0, (stiffness - kStiffest) / (stiffness + 1));
   if (implicit > 0) patch.coarse = patch.kept;
-  // A damper so strong that it would turn the velocity around within the step is made implicit altogether.
+  // A damper so strong that it would reverse the velocity within the step is made fully implicit.
   const double new_half = spring.damping * h > 2 * mass ? 1 - mass / (spring.damping * h) : 0.5;
   const double damping = spring.damping / patch.bearers();
   const Vector3 n = ode::to_vector(patch.deepest().geom.normal);
@@ -76,28 +76,28 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
 
 }  // namespace
 
-void set_spring(const PairMaterial& law, Patch& patch) {
+void set_spring(const PairMaterial& pair, Patch& patch) {
   const double depth = greatest_depth(patch);
-  set_rows({law.stiffness * depth, law.stiffness, law.damping}, effective_mass(patch), patch);
+  set_rows({pair.stiffness * depth, pair.stiffness, pair.damping}, effective_mass(patch), patch);
 }
 
-void set_hertz(const PairMaterial& law, Patch& patch) {
+void set_hertz(const PairMaterial& pair, Patch& patch) {
   const dContactGeom& geom = patch.deepest().geom;
   const Vector3 n = ode::to_vector(geom.normal);  // into g1
   const ContactCurvature curvature = find_contact_curvature(curvature_of(geom.g1, -n) + curvature_of(geom.g2, n), n);
   const double depth = greatest_depth(patch);
   const double width = std::min(mean_half_extent(geom.g1), mean_half_extent(geom.g2));
-  Spring spring{2 * law.elastic_modulus * width * depth, 2 * law.elastic_modulus * width, 0};  // the flat punch
-  // Longer than a thousand times their width Hertz's ellipses are straight lines.
+  Spring spring{2 * pair.elastic_modulus * width * depth, 2 * pair.elastic_modulus * width, 0};  // force of the flat punch
+  // Hertz's ellipses that are longer than a thousand times their width count as straight lines.
   const double smaller = std::max(curvature.smaller, 1e-6 * curvature.larger);
   if (smaller > 0 && depth > 0) {
     const double radius = 1 / std::sqrt(smaller * curvature.larger);
     const double reduced = depth / hertz_correction(curvature.larger / smaller);
-    const double force = 4.0 / 3 * law.elastic_modulus * std::sqrt(radius * reduced) * reduced;
+    const double force = 4.0 / 3 * pair.elastic_modulus * std::sqrt(radius * reduced) * reduced;
     if (force < spring.force) spring = {force, 1.5 * force / depth, 0};
   }
   const double mass = effective_mass(patch);
-  spring.damping = 2 * law.damping_ratio * std::sqrt(5.0 / 6 * mass * spring.tangent);
+  spring.damping = 2 * pair.damping_ratio * std::sqrt(5.0 / 6 * mass * spring.tangent);
   set_rows(spring, mass, patch);
 }
 

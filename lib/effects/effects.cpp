@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "effects/body_forces.hpp"
-#include "effects/law.hpp"
+#include "effects/pair_material.hpp"
 #include "effects/validate.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/support/require.hpp"
@@ -62,9 +62,9 @@ bool is_same_normal(const dContact& a, const dContact& b) { return std::equal(a.
 
 struct Effects::State {
   State(const std::vector<Effect>& effects, double duration)
-      : list(validated(effects)), step(ode::require_positive("step", duration, "s")), laws(list), forces(list, step) {}
+      : list(validated(effects)), step(ode::require_positive("step", duration, "s")), pair_materials(list), forces(list, step) {}
 
-  /// Adds the time of a piece of work to an effect's, if asked to.
+  /// Does a piece of work and adds its time to that of an effect, if times are measured.
   template <typename Work>
   void timed(EffectIndex effect, const Work& work) {
     if (!is_measuring) return work();
@@ -73,26 +73,26 @@ struct Effects::State {
     seconds[effect] += std::chrono::duration<double>(Clock::now() - start).count();
   }
 
-  int run_passes(PairMaterial& law, std::span<dContact> contacts);
+  int run_passes(PairMaterial& pair, std::span<dContact> contacts);
 
   std::vector<Effect> list;
   double step;
-  Laws laws;
+  PairMaterials pair_materials;
   BodyForces forces;
   bool is_measuring = false;
   std::array<double, std::variant_size_v<Effect>> seconds{};
   std::array<unsigned long long, std::variant_size_v<Effect>> visits{};
 };
 
-// One pass after the other over the contacts with the same normal, which follow one another; those to be attached move to the
+// Runs the passes on each group of contacts with the same normal, which are consecutive; contacts to be attached move to the
 // front.
-int Effects::State::run_passes(PairMaterial& law, std::span<dContact> contacts) {
+int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts) {
   std::size_t kept = 0;
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
     while (end < contacts.size() && is_same_normal(contacts[first], contacts[end])) ++end;
     Patch patch{contacts.subspan(first, end - first), step, static_cast<int>(end - first)};
-    for (const Pass& pass : law.passes) timed(pass.effect, [&] { pass.run(law, patch); });
-    law.coarse += static_cast<unsigned long long>(patch.coarse);
+    for (const Pass& pass : pair.passes) timed(pass.effect, [&] { pass.run(pair, patch); });
+    pair.coarse += static_cast<unsigned long long>(patch.coarse);
     for (int k = 0; k < patch.kept; ++k, ++kept) {
       const std::size_t from = first + static_cast<std::size_t>(k);
       if (from != kept) std::swap(contacts[from], contacts[kept]);
@@ -111,10 +111,10 @@ void Effects::set_up(dWorldID world) const {
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, Material material2) {
-  PairMaterial& law = state_->laws.of(material1, material2);
-  for (dContact& contact : contacts) contact.surface = law.surface;
-  const int kept = law.passes.empty() ? static_cast<int>(contacts.size()) : state_->run_passes(law, contacts);
-  law.contacts += static_cast<unsigned long long>(kept);
+  PairMaterial& pair = state_->pair_materials.of(material1, material2);
+  for (dContact& contact : contacts) contact.surface = pair.surface;
+  const int kept = pair.passes.empty() ? static_cast<int>(contacts.size()) : state_->run_passes(pair, contacts);
+  pair.contacts += static_cast<unsigned long long>(kept);
   return kept;
 }
 
@@ -136,17 +136,17 @@ void Effects::measure() { state_->is_measuring = true; }
 
 std::vector<Cost> Effects::costs() const {
   std::vector<Cost> costs = {{.name = "rigid_contact"}};
-  for (const PairMaterial& law : state_->laws.all()) costs.front().contacts += law.contacts;
+  for (const PairMaterial& pair : state_->pair_materials.all()) costs.front().contacts += pair.contacts;
   costs.front().rows = costs.front().contacts;
   for (EffectIndex index = 0; index < std::variant_size_v<Effect>; ++index) {
     const bool is_listed = std::ranges::any_of(state_->list, [&](const Effect& effect) { return effect.index() == index; });
     if (!is_listed) continue;
     Cost cost{.name = descriptions()[index].name, .bodies = state_->visits[index], .seconds = state_->seconds[index]};
-    for (const PairMaterial& law : state_->laws.all()) {
-      if (std::ranges::find(law.listed, index) == law.listed.end()) continue;
-      cost.contacts += law.contacts;
-      cost.rows += law.contacts * static_cast<unsigned long long>(law.rows[index]);
-      if (index == law.spring) cost.coarse += law.coarse;
+    for (const PairMaterial& pair : state_->pair_materials.all()) {
+      if (std::ranges::find(pair.listed, index) == pair.listed.end()) continue;
+      cost.contacts += pair.contacts;
+      cost.rows += pair.contacts * static_cast<unsigned long long>(pair.rows[index]);
+      if (index == pair.spring) cost.coarse += pair.coarse;
     }
     costs.push_back(cost);
   }

@@ -1,4 +1,4 @@
-// Coulomb friction within ODE's contact joint, whose two friction forces are limited one by one: a rectangle in the tangent plane.
+// Coulomb friction within ODE's contact joint, whose two friction forces have separate limits: a rectangle in the tangent plane.
 #include <cmath>
 
 #include "effects/slip.hpp"
@@ -8,22 +8,22 @@ namespace {
 
 constexpr double kNoSlip = 1e-150;  // m/s; below, there is no direction
 
-// 45 degrees from the slip, so that the corner of ODE's square of forces lies against it.
+// Turns the first direction 45 degrees from the slip, so that the corner of ODE's square of forces lies against it.
 void align_corner(const Slip& slip, dContact& contact) {
   const Vector3 n = ode::to_vector(contact.geom.normal);
   const Vector3 u = slip.at(contact);
   const double speed = u.norm();
   const Vector3 along = speed > kNoSlip ? Vector3(u / speed) : n.unitOrthogonal();
-  // Rounding has left a share along n, which ODE would take for a slanting direction.
+  // Rounding has left a component along n, which ODE would take for a slanting direction.
   Vector3 first = along + n.cross(along);
   first -= n.dot(first) * n;
   ode::from_vector(first.normalized(), contact.fdir1);
 }
 
-/// The direction in the world, of the body or, without one, of the geom.
-Vector3 world_direction(const FrictionAxes& grain, const dContactGeom& geom) {
-  const dGeomID carrier = grain.is_on_second ? geom.g2 : geom.g1;
-  const Vector3& d = grain.direction;
+/// The direction in the world frame; it is fixed to the body or, without one, to the geom.
+Vector3 world_direction(const FrictionAxes& axes, const dContactGeom& geom) {
+  const dGeomID carrier = axes.is_on_second ? geom.g2 : geom.g1;
+  const Vector3& d = axes.direction;
   dVector3 world;
   if (const dBodyID body = dGeomGetBody(carrier)) {
     dBodyVectorToWorld(body, ode::to_real(d.x()), ode::to_real(d.y()), ode::to_real(d.z()), world);
@@ -33,36 +33,36 @@ Vector3 world_direction(const FrictionAxes& grain, const dContactGeom& geom) {
   return ode::to_vector(world);
 }
 
-void set_ellipse(const FrictionAxes& grain, const Slip& slip, dContact& contact) {
+void set_ellipse(const FrictionAxes& axes, const Slip& slip, dContact& contact) {
   const Vector3 n = ode::to_vector(contact.geom.normal);
-  Vector3 first = world_direction(grain, contact.geom);
+  Vector3 first = world_direction(axes, contact.geom);
   first -= n.dot(first) * n;
-  // Looked at end on, the grain has no direction.
-  if (first.norm() < 1e-6 * grain.direction.norm()) first = n.unitOrthogonal();
+  // Seen along its own axis, the direction has no projection onto the surface, and any tangent will do.
+  if (first.norm() < 1e-6 * axes.direction.norm()) first = n.unitOrthogonal();
   first.normalize();
   const Vector3 u = slip.at(contact);
-  Shares shares = Shares::towards(grain.along * first.dot(u), grain.across * n.cross(first).dot(u));
-  if (grain.along == 0 || grain.across == 0) shares = {1, 1};  // a line in place of the ellipse
+  Shares shares = Shares::towards(axes.along * first.dot(u), axes.across * n.cross(first).dot(u));
+  if (axes.along == 0 || axes.across == 0) shares = {1, 1};  // a line in place of the ellipse
   ode::from_vector(first, contact.fdir1);
-  contact.surface.mu = ode::to_real(grain.along * shares.first);
-  contact.surface.mu2 = ode::to_real(grain.across * shares.second);
+  contact.surface.mu = ode::to_real(axes.along * shares.first);
+  contact.surface.mu2 = ode::to_real(axes.across * shares.second);
 }
 
 }  // namespace
 
-void align_friction(const PairMaterial& /*law*/, Patch& patch) {
+void align_friction(const PairMaterial& /*pair*/, Patch& patch) {
   const Slip slip(patch);
   for (dContact& contact : patch.contacts) align_corner(slip, contact);
 }
 
-void align_anisotropic_friction(const PairMaterial& law, Patch& patch) {
+void align_anisotropic_friction(const PairMaterial& pair, Patch& patch) {
   const Slip slip(patch);
-  for (dContact& contact : patch.contacts) set_ellipse(law.grain, slip, contact);
+  for (dContact& contact : patch.contacts) set_ellipse(pair.axes, slip, contact);
 }
 
-// The axes are those of friction (fdir1). Torques are limited one by one too. At rest it is the torque of what pulls the bodies
-// along that would set them rolling, about the axis n x slip.
-void align_rolling(const PairMaterial& law, Patch& patch) {
+// The axes are those of friction (fdir1), and torques have separate limits too. At rest, the bodies would be set rolling by the
+// torque of the force that pulls them along, about the axis n x slip.
+void align_rolling(const PairMaterial& pair, Patch& patch) {
   const Slip slip(patch);
   const Vector3 spin = spin_of(patch.body1()) - spin_of(patch.body2());
   for (dContact& contact : patch.contacts) {
@@ -70,7 +70,7 @@ void align_rolling(const PairMaterial& law, Patch& patch) {
       align_corner(slip, contact);
       contact.surface.mode |= dContactFDir1;
     }
-    if (law.rolling == 0) continue;
+    if (pair.rolling == 0) continue;
     const Vector3 n = ode::to_vector(contact.geom.normal);
     const Vector3 first = ode::to_vector(contact.fdir1);
     double radius = INFINITY;
@@ -81,8 +81,8 @@ void align_rolling(const PairMaterial& law, Patch& patch) {
     const Vector3 onset = radius > 0 && std::isfinite(radius) ? Vector3(n.cross(slip.at(contact)) / radius) : Vector3::Zero();
     const Vector3 turn = spin + onset;
     const Shares shares = Shares::towards(turn.dot(first), turn.dot(n.cross(first)));
-    contact.surface.rho = ode::to_real(law.rolling * shares.first);
-    contact.surface.rho2 = ode::to_real(law.rolling * shares.second);
+    contact.surface.rho = ode::to_real(pair.rolling * shares.first);
+    contact.surface.rho2 = ode::to_real(pair.rolling * shares.second);
   }
 }
 

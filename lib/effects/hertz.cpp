@@ -10,7 +10,8 @@ struct EllipticIntegrals {
   double K, E;
 };
 
-/// Complete ones of the ellipse with axis ratio k' = b/a, by the arithmetic-geometric mean (Abramowitz and Stegun, 17.6).
+/// The complete elliptic integrals of the ellipse with axis ratio k' = b/a, by the arithmetic-geometric mean (Abramowitz and
+/// Stegun, 17.6).
 EllipticIntegrals elliptic_integrals(double axis_ratio) {
   double a = 1;
   double b = axis_ratio;
@@ -28,7 +29,8 @@ EllipticIntegrals elliptic_integrals(double axis_ratio) {
   return {K, K * (1 - sum)};
 }
 
-/// Rebound from an impact with mass, stiffness and velocity 1: x'' = -x^(3/2) - sqrt(5) b x^(1/4) x', by Runge-Kutta's method.
+/// The rebound velocity from an impact with mass, stiffness and velocity 1: x'' = -x^(3/2) - sqrt(5) b x^(1/4) x', by
+/// Runge-Kutta's method.
 double rebound(double b) {
   constexpr double kStep = 0.002;
   const double factor = std::sqrt(5.0) * b;
@@ -38,7 +40,7 @@ double rebound(double b) {
   };
   double x = 0;
   double v = 1;
-  // From x = 0 the damper starts with an infinite slope; the first step is exact without it, and short.
+  // At x = 0 the damper starts with an infinite slope; a first short step is exact without it.
   x = 1e-6;
   while (true) {
     const double f1 = force(x, v);
@@ -55,7 +57,8 @@ double rebound(double b) {
 
 double hertz_correction(double ratio) {
   if (ratio < 1 + 1e-6) return 1;
-  // (a/b)^2 E - K = ratio (K - E), solved for the axis ratio; nearly a power law, so by secants of the logarithms.
+  // The equation (a/b)^2 E - K = ratio (K - E) is solved for the axis ratio; it is nearly a power law, so secants of the
+  // logarithms converge.
   const auto excess = [&](double log_axes) {
     const double k = std::exp(log_axes);
     const auto [K, E] = elliptic_integrals(k);

@@ -1,11 +1,11 @@
-// The slip that a step would bring to a contact without friction: what friction opposes.
+// The slip that a step would bring to a contact without friction, which friction opposes.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
-#include "effects/law.hpp"
 #include "effects/motion.hpp"
+#include "effects/pair_material.hpp"
 
 namespace supernormal::effects {
 
@@ -14,7 +14,7 @@ class Slip {
   explicit Slip(const Patch& patch)
       : body1_(patch.body1()), body2_(patch.body2()), gain_(patch.step * (acceleration_of(body1_) - acceleration_of(body2_))) {}
 
-  /// m/s, tangential, of body 1 against body 2.
+  /// m/s; the tangential velocity of body 1 relative to body 2.
   Vector3 at(const dContact& contact) const {
     const Vector3 point = ode::to_vector(contact.geom.pos);
     const Vector3 n = ode::to_vector(contact.geom.normal);
@@ -28,8 +28,8 @@ class Slip {
   Vector3 gain_;
 };
 
-/// Shares of a limit for two perpendicular directions, squares that sum to one: a rectangle in the unit circle whose corner is as
-/// near to (x, y) as it gets while neither side is shorter than a tenth.
+/// Shares of a limit for two perpendicular directions, whose squares sum to one: a rectangle in the unit circle whose corner is
+/// as near to (x, y) as possible while neither side is shorter than a tenth.
 struct Shares {
   double first, second;
 

@@ -96,7 +96,7 @@ class Check {
   const char* name_;
 };
 
-/// Null for effects that are not of surfaces.
+/// The materials that the effect is for; null for effects that are not of contacts.
 const MaterialSelector* surfaces_of(const Effect& effect) {
   return std::visit(
       [](const auto& e) -> const MaterialSelector* {

@@ -7,7 +7,7 @@
 
 namespace supernormal::effects {
 
-/// std::invalid_argument for the first parameter out of its range, or for an effect that is listed twice or lacks another.
+/// Throws std::invalid_argument for the first parameter out of its range, or for an effect that is listed twice or lacks another.
 void require_valid(const std::vector<Effect>& list);
 
 }  // namespace supernormal::effects

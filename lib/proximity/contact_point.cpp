@@ -13,13 +13,14 @@ namespace {
 // A radius of curvature beyond this, in units of the pair's length, drowns those across it unless the basis is aligned with it.
 constexpr double kFlat = 1e4;
 
-/// What rounding leaves of the radii of curvature, m: the basis is aligned with the flatter body, not with the other.
+/// Rounding error of the radii of curvature, m, in a basis that is aligned with the flatter body and not with the other.
 double curvature_rounding(const Symmetric2& A1, const Symmetric2& A2) {
   return 4 * std::numeric_limits<double>::epsilon() * std::min(A1.xx + A1.yy, A2.xx + A2.yy);
 }
 
-/// How far the contact lies from the middle of the witness points. Where edges are nearly parallel, the place where they would meet
-/// may be outside the bodies; it cannot be farther from the witness points than these are apart and the smaller body is long.
+/// Limits the distance of the contact from the middle of the witness points. If edges are nearly parallel, the place where they
+/// would meet may be outside the bodies; it cannot be farther from the witness points than these are apart and the smaller body
+/// is long.
 template <typename Vector>
 Vector within_reach(const GapFunction& gap, const Vector& shift, double half_distance) {
   const double length = shift.norm();
@@ -32,13 +33,14 @@ Vector within_reach(const GapFunction& gap, const Vector& shift, double half_dis
 /// The contact in a basis of the tangent plane that is aligned with the flattest face.
 Vector3 contact_of_flat_bodies(const GapFunction& gap, const GapJet& jet, const Vector3& middle) {
   const LocalModel local = LocalModel::of(gap, jet);
-  // The same added to both gives half the weight to each where neither has a curvature that is known.
+  // The same number added to both gives half the weight to each if neither radius of curvature is known.
   const double rounding = curvature_rounding(local.A1, local.A2);
   const Symmetric2 A1 = local.A1.plus_identity(rounding), A2 = local.A2.plus_identity(rounding);
   const Vector2 across = local.plane1.project(jet.d);
   // The turn of the normal that would bring both points together, and how far it moves point 1.
   const Vector2 turn = (A1 + A2).solve(across);
-  // Where no finite turn does, at two vertices; asked before anything is computed with it, which would raise an exception.
+  // If no finite turn does, at two vertices, the middle is taken; testing it before computing with it avoids a floating-point
+  // exception.
   if (!std::isfinite(turn.x()) || !std::isfinite(turn.y())) return middle;
   const Vector2 from_point1 = A1 * turn;
   if (!std::isfinite(from_point1.x()) || !std::isfinite(from_point1.y())) return middle;

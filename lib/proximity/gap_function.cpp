@@ -10,7 +10,7 @@
 namespace supernormal {
 namespace {
 
-// Rounding of s in units of the last place of its terms: each support function is good to a few, their sum adds a few.
+// Rounding of s in units of the last place of its terms: each support function is good to a few, and their sum adds a few.
 constexpr double kRoundingUnits = 8;
 
 double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_extents2) {

@@ -13,8 +13,8 @@ namespace supernormal {
 
 using Vector2 = Eigen::Vector2d;
 
-/// An orthonormal basis t1, t2 of the plane perpendicular to a unit normal. A direction near n is given by gnomonic coordinates u:
-/// it is the direction of n + u1 t1 + u2 t2, so that |u| is the tangent of the angle.
+/// An orthonormal basis t1, t2 of the plane perpendicular to a unit normal. A direction near n is given by gnomonic coordinates
+/// u: it is the direction of n + u1 t1 + u2 t2, so that |u| is the tangent of the angle.
 struct TangentPlane {
   Eigen::Vector3d n, t1, t2;
 
@@ -50,9 +50,9 @@ struct Symmetric2 {
   Symmetric2 operator+(const Symmetric2& o) const { return {xx + o.xx, xy + o.xy, yy + o.yy}; }
   Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
 
-  /// The vector that this matrix maps to b; infinite when the matrix is singular or as good as that: when the vector would be
-  /// beyond kLongest. By elimination with the largest pivot: radii of curvature go up to 1e120 beside others of 1e-270, whose
-  /// products would underflow.
+  /// The vector that this matrix maps to b; infinite when the matrix is singular or nearly so: when the vector would be beyond
+  /// kLongest. Eliminates with the largest pivot: radii of curvature go up to 1e120 beside others of 1e-270, whose products would
+  /// underflow.
   Vector2 solve(const Vector2& b) const {
     const double x_size = std::abs(xx), y_size = std::abs(yy);
     double x = 0, y = 0;
@@ -73,7 +73,7 @@ struct Symmetric2 {
  private:
   static constexpr double kLongest = 1e150;
 
-  /// False where the quotient would be beyond kLongest.
+  /// Returns false if the quotient would be beyond kLongest.
   static bool divide(double numerator, double denominator, double& quotient) {
     if (!is_quotient_within(numerator, denominator, kLongest)) return false;
     quotient = numerator / denominator;
@@ -89,19 +89,19 @@ struct Eigen2 {
   explicit Eigen2(const Symmetric2& A) {
     const double mean = 0.5 * A.trace();
     const double half_difference = 0.5 * (A.xx - A.yy);
-    // Scaled, so that no square over- or underflows: two vertices leave next to nothing beside the mean.
+    // The entries are scaled, so that no square over- or underflows: two vertices leave next to nothing beside the mean.
     const double scale = std::max(std::abs(half_difference), std::abs(A.xy));
     const double cosine = scale > 0 ? half_difference / scale : 0;
     const double sine = scale > 0 ? A.xy / scale : 0;
     const double length = std::sqrt(cosine * cosine + sine * sine);
     const double radius = scale * length;
-    // The eigenvalue of larger size by the sum; the other by the determinant, since the difference would cancel: where one radius
-    // of curvature is huge it would leave nothing of the small one.
+    // The eigenvalue of larger size is found from the sum, the other from the determinant, since the difference would cancel: if
+    // one radius of curvature is huge it would leave nothing of the small one.
     const double large = mean >= 0 ? mean + radius : mean - radius;
     const double small = large != 0 ? A.xx * (A.yy / large) - A.xy * (A.xy / large) : 0;
     low = mean >= 0 ? small : large;
     high = mean >= 0 ? large : small;
-    // Of the two ways to write the eigenvector take the one without cancellation.
+    // There are two ways to write the eigenvector; this is the one without cancellation.
     const Vector2 v = half_difference >= 0 ? Vector2(length + cosine, sine) : Vector2(sine, length - cosine);
     high_vector = scale > 0 ? Vector2(v.normalized()) : Vector2(1, 0);
     low_vector = Vector2(-high_vector.y(), high_vector.x());

@@ -1,4 +1,4 @@
-// Which poses can be computed with.
+// A test for poses that can be computed with.
 #pragma once
 
 #include "shapes/finite.hpp"
@@ -6,10 +6,11 @@
 
 namespace supernormal {
 
-/// m; the square of what is farther away than this is not finite.
+/// m; the square of a larger distance is not finite.
 inline constexpr double kFarthest = 1e150;
 
-/// Asked of the entries before anything is computed: products of what is out of range would raise floating-point exceptions.
+/// Whether the numbers of a pose are in range. It looks at them one by one, because products of numbers out of range would raise
+/// floating-point exceptions.
 inline bool is_usable(const Pose& pose) { return all_within(pose.position, kFarthest) && all_finite(pose.rotation); }
 
 }  // namespace supernormal

@@ -5,7 +5,7 @@
 namespace supernormal {
 namespace {
 
-// Relative errors of a few products and sums.
+// Relative error of a few products and sums.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -24,7 +24,7 @@ bool Portal::add(const Vector3& d) {
   return is_news;
 }
 
-// The sector from the first point counter-clockwise to the last, less than half a turn, holds all points so far.
+// The sector from the first point counter-clockwise to the last, less than half a turn, contains all points so far.
 bool Portal::narrow(const Vertex& vertex) {
   if (vertex.p.norm() <= rounding_) {
     simplex_ = {{vertex, vertex, vertex}, 2, vertex.z, rounding_, 0};
@@ -47,7 +47,7 @@ bool Portal::narrow(const Vertex& vertex) {
   return is_before || is_behind;
 }
 
-// The best of the simplices that the new point makes with the old ones.
+// Takes the best of the simplices that the new point makes with the old ones.
 bool Portal::refine(const Vertex& vertex) {
   Simplex best;
   for (int i = 0; i < simplex_.count; ++i) {
@@ -79,7 +79,7 @@ void Portal::consider(const Vertex& a, const Vertex& b, Simplex& best) const {
 }
 
 void Portal::consider(const Vertex& a, const Vertex& b, const Vertex& c, Simplex& best) const {
-  Vector3 area(cross(b.p, c.p), cross(c.p, a.p), cross(a.p, b.p));  // twice those between the line and the edges
+  Vector3 area(cross(b.p, c.p), cross(c.p, a.p), cross(a.p, b.p));  // twice the areas between the line and the edges
   const Vector3 edge((c.p - b.p).norm(), (a.p - c.p).norm(), (b.p - a.p).norm());
   double sum = area.sum();
   if (sum < 0) {

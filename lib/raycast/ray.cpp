@@ -23,7 +23,7 @@ void check(const Vector3& direction, double length, const Settings& settings) {
   if (all_finite(direction)) require_in("length of the ray's direction", direction.norm(), 1 - 1e-6, 1 + 1e-6);
 }
 
-/// A ray in the body's frame: o = foot + start v, with the point of the line nearest to the body's origin as foot, so that a ray
+/// A ray in the body's frame, o = foot + start v, with the point of the line nearest to the body's origin as foot, so that a ray
 /// from far away loses no digits near the body.
 struct LocalRay {
   Vector3 v, foot;
@@ -39,7 +39,7 @@ struct LocalRay {
   }
 };
 
-/// The question in two: where does the line enter the body, and, for an origin behind that, where does it leave it.
+/// Solves the ray query in two parts: the entry of the line and, for an origin behind that, its exit.
 class RayQuery {
  public:
   RayQuery(const Shape& shape, const LocalRay& ray, const Settings& settings)
@@ -53,7 +53,7 @@ class RayQuery {
 
   RayHit run() {
     if (ray_.start <= 0) return from_entry();
-    // The body is rather behind: most such rays are settled by one plane.
+    // The body is more likely behind the origin: most such rays are settled by one plane.
     const EntrySearch::Result exit = search(-ray_.v, -ray_.start);
     if (exit.status == Status::InvalidInput || exit.kind != EntrySearch::Kind::Found) return miss(exit.status);
     const EntrySearch::Result entry = search(ray_.v, ray_.end);
@@ -80,7 +80,7 @@ class RayQuery {
     return entry.kind == EntrySearch::Kind::Found && entry.t <= ray_.end ? hit(entry, entry.t, false) : miss(entry.status);
   }
 
-  /// The exit is the entry of the line walked the other way. A line that only grazes the body may leave it behind the origin.
+  /// The exit is the entry of the reversed line. A line that only grazes the body may leave it behind the origin.
   RayHit leaving(const EntrySearch::Result& exit) const {
     const double t = -exit.t;
     return ray_.start <= t && t <= ray_.end ? hit(exit, t, true) : miss(exit.status);
@@ -137,8 +137,8 @@ RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin,
   return out;
 }
 
-// What is farther from the origin than twice the farthest point of the body is not nearest to it, and the body clears the ray
-// sideways before it clears its end: a ray of any length has a segment that fits in double precision.
+// A point farther from the origin than twice the farthest point of the body is not nearest to it, and the body clears the ray
+// sideways before it clears its end: so a ray of any length may be cut to a segment that fits in double precision.
 Proximity find_ray_proximity(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction, double length,
                              const Settings& settings) {
   check(direction, length, settings);

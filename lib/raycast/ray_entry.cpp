@@ -15,18 +15,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // the square of this, times a radius of curvature, of the silhouette.
 constexpr double kGrazing = 1e-9;
 
-// A longer step (tangent of the angle) is one of rounding.
+// A step longer than this (tangent of the angle) is due to rounding.
 constexpr double kLongestStep = 1e4;
 
-// A step of the paraboloid shall reduce what is left by this factor.
+// A step of the paraboloid should reduce the remaining error by this factor.
 constexpr double kGoodContraction = 0.5;
 
-// What is left is summed as a geometric series of the contraction of the last two steps, which is believed to be no slower than
-// this.
+// The remaining error is summed as a geometric series of the contraction of the last two steps, which is assumed to be no slower
+// than this.
 constexpr double kSlowestContraction = 0.95;
 constexpr double kGainSafety = 3;
 
-// Steps longer than this (radians) reach to where the curvature may be another: their contraction is not believed.
+// Steps longer than this (radians) reach to where the curvature may differ: their contraction is not believed.
 constexpr double kAsymptoticStep = 1e-3;
 
 // A direction far from the line is not tried by the paraboloid more often than this without narrowing the sector by half.
@@ -36,23 +36,24 @@ constexpr int kMaxSlowSteps = 2;
 // slopes on a flat face still differ.
 constexpr int kMaxPolishingSteps = 32;
 
-// After so many steps that bring nothing new there is nothing left to try; nor after so many that bring neither a better plane nor
-// the portal nearer to it, to this share of the distance.
+// The search ends after so many steps that change nothing, or after so many that bring neither a better plane nor the portal
+// nearer to it, to this share of the distance.
 constexpr int kMaxIdleSteps = 60;
 constexpr int kMaxFruitlessSteps = 150;
 constexpr double kProgress = 0.99;
 
-// The remembered points are asked for a normal within this distance (tangent of the angle).
+// The remembered points are searched for a normal within this distance (tangent of the angle).
 constexpr double kReach = 100;
 
-// Radii of curvature below this (m) are those of an edge or a vertex, to rounding: no paraboloid, and a division out of range.
+// Radii of curvature below this (m) are those of an edge or a vertex, to rounding: there is no paraboloid, and a division would
+// be out of range.
 constexpr double kSharpestRadius = 1e-100;
 
-// What rounding makes of the height of a portal above the best plane, in GapFunction::rounding(): one from the plane, a little more
+// Rounding error of the height of a portal above the best plane, in GapFunction::rounding(): one from the plane, a little more
 // than one from a steep portal, whose points are off by that.
 constexpr double kPortalRounding = 3;
 
-// A paraboloid that the line dips into by so many times the tolerance is hit, whatever is left.
+// A paraboloid that the line enters by so many times the tolerance is certainly hit, whatever the remaining error.
 constexpr double kSureDepth = 100;
 
 bool is_curved(const Symmetric2& A) {
@@ -63,8 +64,8 @@ bool is_curved(const Symmetric2& A) {
 // Whether products of such numbers with lengths, and of four of these, are in range.
 bool is_in_range(const Vector2& u) { return std::abs(u.x()) < 1e60 && std::abs(u.y()) < 1e60; }
 
-/// The smaller root of a t^2 + 2 b t + c, a >= 0; its minimum when there is none. Infinite when it has neither: straight, and not
-/// falling.
+/// The smaller root of a t^2 + 2 b t + c, a >= 0; its minimum when there is none. Infinite when it has neither, being straight
+/// and not falling.
 double first_root(double a, double b, double c) {
   constexpr double kStraight = 1e-150;
   const double discriminant = b * b - a * c;
@@ -76,7 +77,7 @@ double first_root(double a, double b, double c) {
 }  // namespace
 
 Vector3 first_entry_normal(const Vector3& half_extents, const Vector3& c, const Vector3& v) {
-  constexpr double kThinnest = 1e-12;  // a flat body has no ellipsoid
+  constexpr double kThinnest = 1e-12;  // a flat body is given this thickness
   const double largest = half_extents.maxCoeff();
   if (largest == 0) return -v;
   const Vector3 half = half_extents.cwiseMax(kThinnest * largest);
@@ -139,7 +140,7 @@ void EntrySearch::evaluate(const Vector3& normal) {
 // Near the maximum t is level to rounding while the boundary point still comes nearer to the line.
 bool EntrySearch::is_better(const Sample& sample) const {
   const double level = gap_.rounding() / -sample.slope;
-  if (!(sample.t <= best_.t + level)) return true;  // also when it is not a number
+  if (!(sample.t <= best_.t + level)) return true;  // also when `t` is not a number
   return sample.t >= best_.t - level && distance_at(sample).squaredNorm() < distance_at(best_).squaredNorm();
 }
 
@@ -197,10 +198,10 @@ bool EntrySearch::add_point(const Vector3& d) {
   return portal_.add(d);
 }
 
-// From the boundary point to the point where its plane meets the line.
+// The vector from the boundary point to the point where its plane meets the line.
 Vector3 EntrySearch::distance_at(const Sample& sample) const { return sample.jet.d + sample.t * v_; }
 
-// What the model says is still to come, and by how much it promised more the step before.
+// The error that remains by the model, from the promised gain and its ratio to the gain promised one step before.
 double EntrySearch::expected_error(const Step& step) const {
   if (!gap_.has_hessian() || !std::isfinite(step.gain)) return kInfinity;
   const bool has_history = std::isfinite(promised_gain_) && promised_gain_ > 0 && step.length < kAsymptoticStep;
@@ -214,7 +215,7 @@ double EntrySearch::boundary_error() const {
   return std::max(error, 0.0) + gap_.rounding();
 }
 
-// A point within the tolerance of the body may still be one that the line passes it at.
+// The line may pass the body although a point of it is within the tolerance, so a good point does not end the search by itself.
 //
 // And the point may be good long before the normal is. Boundary point and normal belong together, so that either is good enough:
 // the first on a sharp edge, the second on a flat face.
@@ -268,8 +269,8 @@ bool EntrySearch::choose_by_portal(Vector3& normal) {
   return is_usable;
 }
 
-// All points that are remembered are in the body, and so is their hull: the direction in which it is farthest from the best point
-// on the line. That the portal may miss when the line passes through one of its edges.
+// All remembered points are in the body, and so is their hull: this is the direction in which the hull is farthest from the best
+// point on the line. The portal may miss it when the line passes through one of its edges.
 bool EntrySearch::choose_by_points(Vector3& normal) {
   CuttingPlanes cuts;
   for (int k = 0; k < std::min(point_count_, CuttingPlanes::kCapacity); ++k) {
@@ -284,22 +285,23 @@ bool EntrySearch::choose_by_points(Vector3& normal) {
 
 EntrySearch::Result EntrySearch::found(Status status) const {
   const double error = boundary_error();
-  // The line enters between the best plane and the portal. Where it only grazes the body, the plane may be behind by rounding.
+  // The line enters between the best plane and the portal. If it only grazes the body, the plane may be behind by rounding.
   const double t = std::fmin(best_.t, portal_.upper_bound());
   const double length = portal_.upper_bound() - t;
-  // The portal is in the body, and no point of the body is beyond a plane beside the line: so near to it, the line grazes the body
-  // at the portal.
+  // The portal is in the body, and no point of the body is beyond a plane beside the line: so near to it, the line grazes the
+  // body at the portal.
   const double grazing_error = -nearest_ + gap_.rounding();
   if (error > tolerance_ && portal_.is_pierced() && grazing_error <= tolerance_) {
     return {Kind::Found, Status::Converged, portal_.upper_bound(), grazing_error, length, nearest_normal_};
   }
   if (has_best_) {
-    // Where the line only grazes the body, it becomes no steeper from the plane on: what is left sideways says little.
+    // If the line only grazes the body, it becomes no steeper from the plane on, and the remaining sideways error says little
+    // about t.
     const double steep_length = is_deep_ ? error / -best_.slope : kInfinity;
     const double t_error = std::fmin(steep_length, length + gap_.rounding() / -best_.slope);
     return {Kind::Found, status, t, error, t_error, best_.jet.n};
   }
-  // No evaluations are left.
+  // The evaluations are exhausted.
   if (portal_.is_pierced()) return {Kind::Found, status, portal_.upper_bound(), kInfinity, kInfinity, nearest_normal_};
   return {Kind::Miss, status, 0, kInfinity, kInfinity, nearest_normal_};
 }

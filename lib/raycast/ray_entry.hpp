@@ -1,4 +1,4 @@
-// Where a line enters a body.
+// The search for the point where a line enters a body.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ namespace supernormal {
 /// plane between both, perpendicular to v.
 Vector3 first_entry_normal(const Vector3& half_extents, const Vector3& c, const Vector3& v);
 
-/// The entry of the line c + t v, where c = gap.offset(): body 1 of the gap function is the body, body 2 a point.
+/// Finds the entry of the line c + t v, where c = gap.offset(): body 1 of the gap function is the body, body 2 a point.
 ///
 /// A plane with normal n against v (n.v < 0) supports the body and meets the line at t(n) = (n.c - h(n)) / -n.v; in front of it
 /// there is no body, so the line enters at the largest t(n). With n = w - v, w perpendicular to v, t(w) = (w - v).c - h(w - v) is
-/// concave: one maximum, and none, but w with w.c > h(w), when the line passes the body. Each step
+/// concave: it has one maximum, or, if the line passes the body, none, but a w with w.c > h(w). Each step
 ///   1. meets the line with the osculating paraboloid at the best normal so far and goes to the normal there (which is the Newton
 ///      step of t(n) near the maximum and does not slow down where the line only grazes the body), unless
 ///   2. the last such step did not bring it much nearer, or the Portal rules it out: then to the normal of the portal, or, as long
@@ -39,11 +39,11 @@ class EntrySearch {
     Status status = Status::InvalidInput;
     double t = 0;                       ///< m
     double error = 0;                   ///< m; bound on the distance of c + t v from the boundary
-    double t_error = 0;                 ///< m; about how far t may be off
+    double t_error = 0;                 ///< m; estimate of the error of t
     Vector3 normal = Vector3::UnitX();  ///< unit, outward
   };
 
-  /// Keeps references. `tolerance` in m.
+  /// Keeps references to its arguments. `tolerance` in m.
   EntrySearch(GapFunction& gap, const Vector3& direction, const Settings& settings, double tolerance);
 
   Result run(const Vector3& first_normal, double limit);
@@ -56,10 +56,10 @@ class EntrySearch {
   };
   struct Step {
     Vector3 normal = Vector3::Zero();
-    double length = std::numeric_limits<double>::infinity();  // about the angle, radians
-    double gain = std::numeric_limits<double>::infinity();    // m; about how far the boundary is from the plane
+    double length = std::numeric_limits<double>::infinity();  // estimate of the angle, radians
+    double gain = std::numeric_limits<double>::infinity();    // m; estimate of the distance from the plane to the boundary
     bool is_usable = false;
-    bool is_deep = false;  // the line dips into the paraboloid by more than an error
+    bool is_deep = false;  // the line enters the paraboloid by more than an error
   };
 
   void evaluate(const Vector3& normal);
@@ -85,7 +85,7 @@ class EntrySearch {
   BfgsHessian secant_;
   std::array<Vector3, CuttingPlanes::kCapacity> points_;  // c - r of the last evaluations
   int point_count_ = 0;
-  Sample best_;                                                // the largest t
+  Sample best_;                                                // the sample with the largest t
   Sample beside_;                                              // the last plane along the line
   double nearest_ = -std::numeric_limits<double>::infinity();  // m; the largest s of a plane along the line
   Vector3 nearest_normal_ = Vector3::UnitX();
@@ -93,13 +93,13 @@ class EntrySearch {
   bool is_beside_latest_ = false;
   bool misses_ = false;
   bool is_finite_ = true;
-  bool is_deep_ = false;                                            // the line dips into the paraboloid at best_
-  bool was_tried_ = false;                                          // the step of that paraboloid
+  bool is_deep_ = false;                                            // the line enters the paraboloid at best_ by more than an error
+  bool was_tried_ = false;                                          // the step of that paraboloid was taken
   double model_error_ = std::numeric_limits<double>::infinity();    // m; expected_error() at best_
-  double point_error_ = std::numeric_limits<double>::infinity();    // m; the distance of the remembered points' hull from best_
-  double promised_gain_ = std::numeric_limits<double>::infinity();  // m; of the last step, if it was one of the paraboloid
-  int slow_steps_ = 0;                                              // that did not halve the sector of separating directions
-  int idle_steps_ = 0;                                              // that changed neither best_ nor the portal
+  double point_error_ = std::numeric_limits<double>::infinity();    // m; distance of the remembered points' hull from best_
+  double promised_gain_ = std::numeric_limits<double>::infinity();  // m; that of the last step, if it was one of the paraboloid
+  int slow_steps_ = 0;                                              // steps that did not halve the sector of separating directions
+  int idle_steps_ = 0;                                              // steps that changed neither best_ nor the portal
   int fruitless_steps_ = 0;
   int polishing_steps_ = 0;
   bool tries_edge_ = true;

@@ -17,7 +17,7 @@
 namespace supernormal {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // of the size; what a single-precision callback can keep
+constexpr double kTolerance = 1e-6;  // relative to the size; the precision that a single-precision callback can keep
 constexpr int kDirections = 26;
 
 struct Trial {
@@ -49,7 +49,8 @@ std::string to_text(const Vector3& v) {
   throw std::invalid_argument(what + " in the direction n = " + to_text(n));
 }
 
-/// Finite values, n.r = h; returns the size, the largest distance of a boundary point from the origin.
+/// Refuses values that are not finite or violate n.r = h; returns the size, the largest distance of a boundary point from the
+/// origin.
 double check_points(const std::array<Trial, kDirections>& trials) {
   double size = 0;
   for (const Trial& trial : trials) {
@@ -68,7 +69,7 @@ double check_points(const std::array<Trial, kDirections>& trials) {
   return size;
 }
 
-/// A width that is a length as other shapes have it, and every boundary point behind every supporting plane.
+/// Refuses a width outside the lengths of other shapes, and a boundary point in front of a supporting plane.
 void check_convex(const std::array<Trial, kDirections>& trials, double size) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const Trial& trial = trials[i];
@@ -90,7 +91,7 @@ void check_convex(const std::array<Trial, kDirections>& trials, double size) {
 void check_hessian(const Matrix3& hessian, const Vector3& n) {
   if (!all_finite(hessian)) refuse("hessian is not finite", n);
   const double largest = hessian.cwiseAbs().maxCoeff();
-  if (largest == 0) return;  // a vertex
+  if (largest == 0) return;  // the boundary point is a vertex
   const Matrix3 H = hessian / largest;
   const double asymmetry = (H - H.transpose()).cwiseAbs().maxCoeff();
   if (asymmetry > kTolerance) {
@@ -100,27 +101,27 @@ void check_hessian(const Matrix3& hessian, const Vector3& n) {
   if (radial > kTolerance) {
     refuse("hessian times n is not zero but " + supernormal::to_text(radial) + " of the largest entry", n);
   }
-  // With one eigenvalue zero these are the sum and the product of the two principal radii.
+  // With one eigenvalue zero, these are the sum and the product of the two principal radii.
   const double product = 0.5 * (H.trace() * H.trace() - H.squaredNorm());
   if (H.trace() < 0 || product < -kTolerance) refuse("hessian has a negative principal radius", n);
 }
 
-/// A way along the boundary, from the point of one normal to that of another.
+/// An arc of the boundary, from the point of one normal to that of another.
 struct Bend {
   Vector3 n1, r1, n2, r2;
 
-  /// m; mean radius of curvature
+  /// m; the mean radius of curvature
   double radius() const { return (n2 - n1).dot(r2 - r1) / (n2 - n1).squaredNorm(); }
 };
 
 const Bend& sharper(const Bend& one, const Bend& other) { return other.radius() < one.radius() ? other : one; }
 
-/// The least radius of curvature (m) with normals around the axis, where the arcs between samples of them are sharpest: 0 if the
-/// whole arc there has one point. That arc is halved again and again, for at a vertex the radius vanishes like a power of the
-/// distance from its normal.
+/// The least radius of curvature (m) with normals around the axis, at the arcs between samples that are sharpest: 0 if a whole
+/// arc has one point. Such an arc is halved again and again, for at a vertex the radius vanishes like a power of the distance
+/// from its normal.
 double sharpest_bend(const Vector3& axis, const CallbackShape::Point& point) {
   constexpr int kArcs = 72;
-  constexpr int kHalvings = 8;  // down to 3e-4, where the points' rounding is still a small share of their distance
+  constexpr int kHalvings = 8;  // down to 3e-4, where the points' rounding error is still a small share of their distance
   const Vector3 across = axis.unitOrthogonal();
   const Vector3 along = axis.cross(across);
   const auto bend_to = [&](const Vector3& n1, const Vector3& r1, int arc) -> Bend {
@@ -142,11 +143,11 @@ double sharpest_bend(const Vector3& axis, const CallbackShape::Point& point) {
   return std::max(sharpest.radius(), 0.0);
 }
 
-/// Around the nine axes through faces and edges of a cube.
-double find_sharpest_radius(const CallbackShape::Point& point) {
+/// Searches around the nine axes through faces and edges of a cube.
+double estimate_min_curvature_radius(const CallbackShape::Point& point) {
   double radius = std::numeric_limits<double>::infinity();
   const std::array<Trial, kDirections> trials = trial_directions();
-  for (std::size_t i = 0; i < trials.size() / 2; ++i) {  // one of two opposite ones
+  for (std::size_t i = 0; i < trials.size() / 2; ++i) {  // opposite axes have the same circle
     if (trials[i].n.cwiseAbs().minCoeff() == 0) radius = std::min(radius, sharpest_bend(trials[i].n, point));
   }
   return radius;
@@ -165,7 +166,7 @@ CallbackShape::CallbackShape(Support support, Point point, Hessian hessian)
   }
   check_convex(trials, check_points(trials));
   half_extents_ = Shape::half_extents();
-  sharpest_radius_ = find_sharpest_radius(point_);
+  min_curvature_radius_ = estimate_min_curvature_radius(point_);
   if (!hessian_) return;
   for (const Trial& trial : trials) check_hessian(hessian_(trial.n), trial.n);
 }

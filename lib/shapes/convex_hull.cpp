@@ -34,7 +34,7 @@ void ConvexHull::build(std::span<const LatticePoint> points) {
   }
 }
 
-// A tetrahedron of points that are far apart. False when there is none: then faces_ is the hull.
+// Builds a tetrahedron of points that are far apart. Returns false when there is none: then faces_ is the hull.
 bool ConvexHull::start() {
   const auto farthest = [&](auto&& measure) {
     std::size_t best = 0;
@@ -65,7 +65,7 @@ bool ConvexHull::start() {
   }
   const std::size_t left = height_of_d > 0 ? c : b;
   const std::size_t right = height_of_d > 0 ? b : c;
-  add_face(0, left, right);  // d is behind it
+  add_face(0, left, right);  // d is behind this face
   add_face(0, d, left);
   add_face(left, d, right);
   add_face(right, d, 0);
@@ -91,7 +91,7 @@ std::int64_t ConvexHull::height(const Face& face, std::size_t point) const {
   return dot(face.normal, difference(points_[point], points_[face.vertices[0]]));
 }
 
-// To the first of the faces from `first_face` on that the point is in front of; a point that is in front of none is done with.
+// Gives the point to the first of the faces from `first_face` on that it is in front of; a point in front of none is inside.
 void ConvexHull::hand_over(std::size_t point, std::size_t first_face) {
   for (std::size_t k = first_face; k < faces_.size(); ++k) {
     if (height(faces_[k], point) <= 0) continue;
@@ -113,7 +113,7 @@ std::size_t ConvexHull::farthest_outside(const Face& face) const {
   return farthest;
 }
 
-// The faces that are seen from the point, beginning with one of them, and the edges around them.
+// Collects the faces that are visible from the point, beginning with one of them, and the edges around them.
 void ConvexHull::collect_visible(std::size_t face, std::size_t point) {
   visible_.assign(1, face);
   horizon_.clear();
@@ -135,7 +135,7 @@ void ConvexHull::collect_visible(std::size_t face, std::size_t point) {
   }
 }
 
-// Takes in the farthest point in front of a face: new faces from it to the horizon instead of those that it sees.
+// Adds the farthest point in front of a face: new faces from it to the horizon replace those that are visible from it.
 void ConvexHull::grow(std::size_t face) {
   const std::size_t apex = farthest_outside(faces_[face]);
   collect_visible(face, apex);

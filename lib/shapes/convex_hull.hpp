@@ -11,12 +11,12 @@
 
 namespace supernormal {
 
-/// A point of a lattice. On it the side of a plane that a point is on is decided exactly, so that coplanar, collinear and repeated
-/// points are no special cases for the hull.
+/// A point of a lattice. There the side of a plane that a point is on is decided exactly, so that coplanar, collinear and
+/// repeated points are no special cases for the hull.
 using LatticePoint = std::array<std::int64_t, 3>;
 
-/// Coordinates are in [-kLatticeHalfWidth, kLatticeHalfWidth]: the largest for which three differences and a sum of three products
-/// of them stay within 64 bits.
+/// Coordinates are in [-kLatticeHalfWidth, kLatticeHalfWidth], the largest range for which three differences and a sum of three
+/// products of them stay within 64 bits.
 inline constexpr std::int64_t kLatticeHalfWidth = std::int64_t{1} << 19;
 
 /// Quickhull (Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls", ACM Trans. Math. Softw. 22, 1996) with
@@ -24,20 +24,20 @@ inline constexpr std::int64_t kLatticeHalfWidth = std::int64_t{1} << 19;
 class ConvexHull {
  public:
   struct Face {
-    std::array<std::size_t, 3> vertices;    ///< of points(), counter-clockwise seen from outside
+    std::array<std::size_t, 3> vertices;    ///< indices into points(), counter-clockwise seen from outside
     std::array<std::size_t, 3> neighbours;  ///< neighbours[k] lies across the edge from vertices[k] to vertices[k + 1]
-    LatticePoint normal;                    ///< outward, twice as long as the area is large
-    std::size_t first_outside;              ///< a list of the points in front of it while the hull grows
+    LatticePoint normal;                    ///< outward; its length is twice the area
+    std::size_t first_outside;              ///< first of a list of the points in front of the face while the hull grows
     bool is_removed;
   };
 
-  /// Replaces the hull. The order of the points makes no difference.
+  /// Builds the hull of other points. Their order makes no difference.
   void build(std::span<const LatticePoint> points);
 
-  /// Sorted, each once; those inside the hull as well.
+  /// The points sorted, each once, including those inside the hull.
   std::span<const LatticePoint> points() const { return points_; }
 
-  /// Calls `visit(face)` for every triangle of the surface. Points in a plane have both sides of a triangle, points on a line
+  /// Calls `visit(face)` for every triangle of the surface. Points in a plane give both sides of each triangle, points on a line
   /// nothing.
   template <typename Visit>
   void for_each_face(Visit&& visit) const {
@@ -58,13 +58,13 @@ class ConvexHull {
   void hand_over(std::size_t point, std::size_t first_face);
 
   struct Edge {
-    std::size_t from, to;      // as the visible face has it
-    std::size_t beyond, side;  // the face that stays, and which of its edges it is
+    std::size_t from, to;      // in the direction that the visible face has
+    std::size_t beyond, side;  // the face that stays, and the number of its edge
   };
 
   std::vector<LatticePoint> points_;
   std::vector<Face> faces_;
-  std::vector<std::size_t> next_outside_;  // for each point
+  std::vector<std::size_t> next_outside_;  // the lists of first_outside: one entry for each point
   std::vector<std::size_t> face_from_;     // for each point: the new face whose edge of the horizon starts there
   std::vector<std::size_t> visible_;
   std::vector<Edge> horizon_;

@@ -1,4 +1,4 @@
-// Questions about numbers that may be infinite or none, asked without a floating-point exception.
+// Tests for numbers that may be infinite or NaN, without floating-point exceptions.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,7 @@
 
 namespace supernormal {
 
-/// Eigen's allFinite() subtracts every entry from itself, which raises FE_INVALID where it is infinite.
+/// Replaces Eigen's allFinite(), which subtracts every entry from itself and so raises FE_INVALID where it is infinite.
 template <typename Derived>
 bool all_finite(const Eigen::MatrixBase<Derived>& matrix) {
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
@@ -28,7 +28,7 @@ bool all_within(const Eigen::MatrixBase<Derived>& matrix, double limit) {
   return true;
 }
 
-/// Whether |numerator / denominator| is less than `limit`, without the division, which might overflow; not where both are zero.
+/// Whether |numerator / denominator| is less than `limit`, without the division, which might overflow; false if both are zero.
 inline bool is_quotient_within(double numerator, double denominator, double limit) {
   return std::abs(numerator) < limit * std::abs(denominator);
 }

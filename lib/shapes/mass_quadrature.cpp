@@ -1,12 +1,13 @@
-// Volume integrals of any convex body, from its potential alone.
+// Volume integrals of any convex body, from its support function alone.
 //
-// The normal with solid angle dw sits on the surface element D dw, D = the product of the two principal radii. With the divergence
-// theorem V = 1/3 int h D dw, first moments 1/4 int h r D dw, second moments 1/5 int h r r^T D dw: functions on the unit sphere,
-// for which Gauss-Legendre nodes in z times equidistant ones around it converge exponentially when h is smooth.
+// A normal with solid angle dw sits on the surface element D dw, with D the product of the two principal radii. By the divergence
+// theorem V = 1/3 int h D dw, the first moments are 1/4 int h r D dw and the second moments 1/5 int h r r^T D dw: integrals over
+// the unit sphere, for which Gauss-Legendre nodes in z times equidistant ones around it converge exponentially when h is smooth.
 //
-// What has no smooth D escapes: a flat face is one normal, a straight edge an arc of them. The surface that escapes is known,
-// because the area is also 1/2 int h T dw (T = the sum of the radii) and int T dw = 2 int h dw, where fewer derivatives are needed
-// (mixed volumes; Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 5.3). It goes into the reported error.
+// Surfaces without a smooth D escape the quadrature: a flat face is one normal, a straight edge an arc of them. The area that
+// escapes is known, because the area is also 1/2 int h T dw (T is the sum of the radii) and int T dw = 2 int h dw, where fewer
+// derivatives are needed (mixed volumes; Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 5.3). It is part of the
+// reported error.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -24,7 +25,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 1e-11;  // relative change between two rules that ends the refinement
-constexpr int kMinRule = 8;           // nodes in z
+constexpr int kMinRule = 8;           // number of nodes in z
 constexpr int kMaxRule = 256;
 
 using Tangents = Eigen::Matrix<double, 3, 2>;
@@ -40,8 +41,7 @@ Tangents tangents(const Vector3& m) {
   return t;
 }
 
-/// The shape in other coordinates y, x = centre + scale y, in which it is about as long as wide. A needle is as easy as a ball
-/// there.
+/// The shape in coordinates y, x = centre + scale y, in which it is about as long as wide, so that a needle is as easy as a ball.
 class AffineView {
  public:
   explicit AffineView(const Shape& shape) : shape_(shape) { set(Vector3::Zero(), shape.half_extents().asDiagonal()); }
@@ -55,10 +55,10 @@ class AffineView {
   const Vector3& centre() const { return centre_; }
   const Matrix3& scale() const { return scale_; }
 
-  /// Boundary point whose normal is the unit vector m.
+  /// The boundary point whose normal is the unit vector m.
   Vector3 point(const Vector3& m) const { return inverse_ * (shape_.point((inverse_.transpose() * m).normalized()) - centre_); }
 
-  /// Potential and, if `hessian`, the tangential part of its Hessian.
+  /// The support function and, if `hessian`, the tangential part of its Hessian.
   Jet jet(const Vector3& m, bool hessian) const {
     const Vector3 covector = inverse_.transpose() * m;
     const double length = covector.norm();
@@ -99,7 +99,8 @@ std::vector<std::pair<double, double>> gauss_legendre(int count) {
   return rule;
 }
 
-/// `count` nodes in z times twice as many around. Half a step off the coordinate planes, where bodies like to be singular.
+/// A rule of `count` nodes in z times twice as many around, half a step off the coordinate planes, where bodies tend to be
+/// singular.
 std::vector<Node> sphere_rule(int count) {
   std::vector<Node> nodes;
   for (const auto& [z, weight] : gauss_legendre(count)) {
@@ -127,7 +128,7 @@ void balance(AffineView& view) {
     const Matrix3 scatter = view.scale() * (3 * (square - mean * mean.transpose())) * view.scale().transpose();
     const double largest = scatter.diagonal().maxCoeff();
     if (!std::isfinite(largest)) throw std::domain_error("mass properties: the shape delivers points that are not finite");
-    if (!(largest > 0)) return;  // a point
+    if (!(largest > 0)) return;  // the body is a point
     const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(scatter / largest);
     constexpr double kThinnest = 1e-12;  // length ratio; thinner bodies have no volume
     const Vector3 lengths = std::sqrt(largest) * eigen.eigenvalues().cwiseMax(kThinnest * kThinnest).cwiseSqrt();
@@ -135,7 +136,7 @@ void balance(AffineView& view) {
   }
 }
 
-/// The tangential Hessian, dr/dm, by central differences along great circles; steps in the ratio 1 : 2 : 4 remove two error terms
+/// The tangential Hessian, dr/dm, by central differences along great circles; steps in the ratio 1 : 2 : 4 cancel two error terms
 /// (Richardson). `step`, rad, is the smallest of the three.
 Eigen::Matrix2d differences(const AffineView& view, const Vector3& m, const Tangents& t, double step) {
   Eigen::Matrix2d D;
@@ -155,7 +156,7 @@ struct Sums {
   double volume = 0;
   Vector3 first = Vector3::Zero();
   Matrix3 second = Matrix3::Zero();
-  double escaped = 0;  // bound on the volume under surface that has no smooth curvature
+  double escaped = 0;  // bound on the volume under surface without a smooth D
 
   bool is_finite() const { return std::isfinite(volume + escaped) && first.allFinite() && second.allFinite(); }
 };
@@ -163,7 +164,7 @@ struct Sums {
 Sums integrate(const AffineView& view, bool has_hessian, int rule) {
   Sums sums;
   double width = 0, sum_of_radii = 0, area = 0, mixed_area = 0, reach = 0;
-  const double step = 0.25 / rule;  // in proportion to the nodes' distance: refinement shows the error of both
+  const double step = 0.25 / rule;  // in proportion to the distance of nodes: refinement shows the error of both
   for (const Node& node : sphere_rule(rule)) {
     const Jet jet = view.jet(node.m, has_hessian);
     const Tangents t = tangents(node.m);
@@ -184,14 +185,14 @@ Sums integrate(const AffineView& view, bool has_hessian, int rule) {
   return sums;
 }
 
-/// Change from one rule to the next, relative to the body (which is of size 1 in these coordinates).
+/// The change from one rule to the next, relative to the body (which has size 1 in these coordinates).
 double change(const Sums& a, const Sums& b) {
   const double difference = std::max(
       {std::abs(a.volume - b.volume), (a.first - b.first).cwiseAbs().maxCoeff(), (a.second - b.second).cwiseAbs().maxCoeff()});
   return difference / (b.volume + b.escaped);
 }
 
-/// Back from the coordinates of the view to those of the body.
+/// Transforms the sums from the coordinates of the view to those of the body.
 MassProperties to_body(const AffineView& view, const Sums& sums) {
   MassProperties mass;
   const double dilation = view.scale().determinant();
@@ -209,7 +210,7 @@ MassProperties to_body(const AffineView& view, const Sums& sums) {
 MassProperties quadrature_mass_properties(const Shape& shape) {
   const Vector3 extents = shape.half_extents();
   if (!extents.allFinite()) throw std::domain_error("mass properties: the shape delivers values that are not finite");
-  if (extents.minCoeff() <= 0) return {};  // a point, or flat along an axis
+  if (extents.minCoeff() <= 0) return {};  // the body is a point, or flat along an axis
   AffineView view(shape);
   balance(view);
 
@@ -222,7 +223,7 @@ MassProperties quadrature_mass_properties(const Shape& shape) {
     before_last = std::exchange(last, change(sums, finer));
     sums = finer;
   }
-  // Where convergence is slow it is erratic too, and one small change proves little.
+  // If convergence is slow it is erratic too, and one small change proves little.
   const double unresolved = last > kTolerance ? 2 * std::max(last, before_last) : last;
   MassProperties mass = to_body(view, sums);
   mass.relative_error = unresolved + sums.escaped / (sums.volume + sums.escaped);

@@ -8,7 +8,7 @@
 namespace supernormal {
 namespace {
 
-/// Both parts have kinks: their corners in pairs, the highest along n.
+/// If both parts have kinks, their corners are added in pairs, the highest along n first.
 void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const ActiveVertices& second, ActiveVertices& corners) {
   struct Pair {
     double height;
@@ -46,7 +46,7 @@ void MinkowskiSum::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H += other.H;
 }
 
-// The flatter part knows best which normal its moved point has; the other one's point follows the normal.
+// The flatter part decides which normal its moved point has; the other part's point follows the normal.
 Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
   if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
   const Jet jet1 = first_->jet(n);
@@ -60,8 +60,8 @@ Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vec
   return second_->advance_normal(n, second_->jet(n), dn);
 }
 
-// The corners of a part without kinks are its boundary point. A list that names only some of the corners counts as all of them,
-// because those of the sum need not be the same points for every normal.
+// A part without kinks contributes its boundary point. A list that names only some of the corners counts as complete, because
+// those of the sum need not be the same points for every normal.
 void MinkowskiSum::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
   std::array<ActiveVertices, 2> parts;
   const std::array<const Shape*, 2> shapes = {first_.get(), second_.get()};

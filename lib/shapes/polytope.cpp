@@ -35,7 +35,7 @@ void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H.setZero();
 }
 
-// The highest along n: the first that can take over.
+// The vertices that are highest along n come first, as they are the first that can take over.
 void Polytope::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& corners) const {
   struct Height {
     double height;
@@ -55,7 +55,7 @@ void Polytope::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, 
   if (points_.size() > count) corners.set_partial();
 }
 
-// Its faces and edges are not the same from both sides.
+// The radius of curvature is 0 at vertices and edges.
 double Polytope::min_curvature_radius_estimate() const { return 0; }
 
 }  // namespace supernormal

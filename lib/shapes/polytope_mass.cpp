@@ -1,4 +1,4 @@
-// Volume integrals of a hull: sums over the tetrahedra between its middle and the triangles of its surface.
+// Volume integrals of a hull, as sums over the tetrahedra between its middle and the triangles of its surface.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 /// The corners of a triangle, counter-clockwise seen from outside, relative to the middle.
 using Triangle = std::array<Vector3, 3>;
 
-/// The points' bounding box. (half_extents() does not tell where it is.)
+/// The bounding box of the points. (half_extents() does not tell where it is.)
 struct Bounds {
   Vector3 middle, half;
 
@@ -31,8 +31,8 @@ struct Bounds {
   }
 };
 
-/// The hull decides on a lattice which points span a triangle of the surface; the triangles are those of the points themselves, so
-/// that corners and coplanar faces keep their digits. The lattice is stretched with the body, which does not change its hull.
+/// The hull decides on a lattice which points span a triangle of the surface; the triangles are those of the points themselves,
+/// so that corners and coplanar faces keep their digits. The lattice is stretched with the body, which does not change its hull.
 std::vector<Triangle> surface(std::span<const Vector3> points, const Bounds& bounds) {
   std::map<LatticePoint, Vector3> places;
   std::vector<LatticePoint> lattice;
@@ -57,7 +57,7 @@ std::vector<Triangle> surface(std::span<const Vector3> points, const Bounds& bou
 /// Twice the area, along the outward normal.
 Vector3 area_vector(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
-/// The volume that the points outside the surface may add to it.
+/// A bound on the volume that points outside of the surface may add to it.
 double volume_outside(std::span<const Vector3> points, const Vector3& middle, std::span<const Triangle> triangles) {
   double sum = 0;
   for (const Triangle& triangle : triangles) {
@@ -73,7 +73,7 @@ double volume_outside(std::span<const Vector3> points, const Vector3& middle, st
 
 MassProperties Polytope::mass_properties() const {
   const Bounds bounds(points_);
-  if (!(bounds.half.minCoeff() > 0)) return {};  // flat along an axis
+  if (!(bounds.half.minCoeff() > 0)) return {};  // the hull is flat along an axis
   const std::vector<Triangle> triangles = surface(points_, bounds);
   double volume = 0;
   Vector3 first = Vector3::Zero();  // moments about the middle

@@ -13,10 +13,10 @@ namespace {
 constexpr double kSmallRatio = 1e-140;
 
 // For p < 2 the second derivative grows without bound as k -> 0 (a flat face). It is held at its value for this ratio, which
-// is beyond any curvature that matters and leaves room for products of two such numbers.
+// exceeds any radius of curvature that matters and leaves room for products of two such numbers.
 constexpr double kFlatRatio = 1e-60;
 
-// With some room to that, whichever of the three numbers the ratio is taken of.
+// A ratio of plain numbers keeps some distance from kFlatRatio, whichever of the three numbers it is taken of.
 constexpr double kPlainRatio = 1e-50;
 
 }  // namespace
@@ -92,7 +92,7 @@ void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, kCount>& request
       const double power_1 = powers[i][a] / k[i][a];
       slope[a] = steepest * power_1;
       if (order == Order::Point) continue;
-      // What the others are of the sum, without a difference.
+      // The part of the two other numbers in the sum is found without a difference, which would cancel.
       const double others = powers[i][(a + 1) % 3] + powers[i][(a + 2) % 3];
       bend[a] = norm->p_minus_1_ * steepest * steepest * others * (power_1 / k[i][a]);
     }
@@ -110,7 +110,7 @@ void PowerNorm::differentiate(const Ratio& f, PowerNormJet& jet) const {
 }
 
 void PowerNorm::differentiate_twice(const Ratio& f, PowerNormJet& jet) const {
-  // In the order (larger, smaller) first: k^(p-1) and k^(p-2).
+  // The derivatives are in the order (larger, smaller); the powers are k^(p-1) and k^(p-2).
   const double d_larger = f.root / f.sum;
   const double power_1 = f.k > kSmallRatio ? f.power / f.k : std::pow(f.k, p_minus_1_);
   const double power_2 = f.k > kFlatRatio ? power_1 / f.k : std::pow(kFlatRatio, p_minus_1_ - 1);

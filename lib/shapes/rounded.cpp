@@ -31,8 +31,8 @@ Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3&
   return core_->advance_normal(n, core_jet, dn);
 }
 
-// As of a Capsule, the sphere's share is the same for all corners. It turns with the normal, so that a list that names only some of
-// the core's corners has to count as all of them.
+// The sphere's share is the same for all corners, as in a Capsule. It turns with the normal, so that a list that names only some
+// of the core's corners has to count as complete.
 void Rounded::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
   ActiveVertices of_core;
   core_->add_active_vertices(n, toward - radius_ * n, of_core);

@@ -18,7 +18,7 @@ Vector3 Shape::half_extents() const {
 }
 
 double Shape::min_curvature_radius_estimate() const {
-  // The ellipsoid with half-axes of which c is the smallest and a the largest is sharpest at the ends of a: c^2/a.
+  // An ellipsoid with c the smallest and a the largest half-axis is sharpest at the ends of a, with the radius c^2/a.
   const Vector3 half = half_extents();
   return half.minCoeff() * (half.minCoeff() / half.maxCoeff());
 }

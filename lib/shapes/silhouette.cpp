@@ -8,13 +8,13 @@ namespace supernormal {
 namespace {
 
 constexpr int kPoints = 48;
-constexpr int kRows = 20;  // directions of surface_area on the upper half: kRows x kRows / 2
+constexpr int kRows = 20;  // surface_area() takes kRows x kRows / 2 directions on the upper half
 constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
-// In the coordinates in which the body is as long as wide the normals m are equidistant, n = D^-1 m: an ellipsoid's points D m then
-// form the image of a regular polygon, whose share of the circle is known.
+// The normals m are equidistant in the coordinates in which the body is as long as wide, n = D^-1 m: an ellipsoid's points D m
+// then form the image of a regular polygon, whose share of the circle is known.
 double projected_area(const Shape& shape, const Vector3& direction) {
   const Vector3 extents = shape.half_extents();
   const Vector3 axis = direction.cwiseQuotient(extents).normalized();
@@ -37,7 +37,7 @@ double projected_area(const Shape& shape, const Vector3& direction) {
 }
 
 double surface_area(const Shape& shape) {
-  // The midpoint rule in z and around it; opposite directions show the same.
+  // The midpoint rule in z and around it; opposite directions have the same projection.
   double sum = 0;
   for (int row = 0; row < kRows / 2; ++row) {
     const double z = 2 * (row + 0.5) / kRows;

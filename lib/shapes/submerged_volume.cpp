@@ -9,7 +9,7 @@
 namespace supernormal {
 namespace {
 
-constexpr int kSubdivisions = 3;  // of an octahedron: 8 x 4^3 triangles
+constexpr int kSubdivisions = 3;  // subdivisions of an octahedron: 8 x 4^3 triangles
 
 using Triangle = std::array<int, 3>;
 
@@ -37,7 +37,7 @@ struct SphereMesh {
   }
 };
 
-/// Sums up tetrahedra with one corner in common, the origin of the points.
+/// Sums tetrahedra with one corner in common, the origin of the points.
 struct Tetrahedra {
   double six_volumes = 0;
   Vector3 moment = Vector3::Zero();
@@ -49,7 +49,7 @@ struct Tetrahedra {
   }
 };
 
-/// The part of a triangle with up.x <= 0, up to four corners.
+/// Adds the part of a triangle with up.x <= 0, which has up to four corners.
 void add_part_below(const std::array<Vector3, 3>& corners, const Vector3& up, Tetrahedra& sum) {
   std::array<Vector3, 4> part;
   std::size_t count = 0;
@@ -73,7 +73,7 @@ SubmergedVolume::SubmergedVolume(const Shape& shape) {
   whole_ = {properties.volume, properties.centroid};
   SphereMesh mesh;
   for (int k = 0; k < kSubdivisions; ++k) mesh.subdivide();
-  // An ellipsoid's mesh is the image of the sphere's.
+  // The mesh of an ellipsoid is the image of the sphere's mesh.
   const Vector3 extents = shape.half_extents();
   for (const Vector3& m : mesh.points) points_.push_back(shape.point(m.cwiseQuotient(extents).normalized()));
   triangles_ = std::move(mesh.triangles);
@@ -86,7 +86,7 @@ Submerged SubmergedVolume::below(const Vector3& up, double level) const {
   const auto [lowest, highest] = std::ranges::minmax(points_, {}, [&](const Vector3& point) { return up.dot(point); });
   if (up.dot(lowest) >= level) return {};
   if (up.dot(highest) <= level) return whole_;
-  // Seen from a point in the plane of the cut, the cut itself adds nothing to the integrals.
+  // The origin is in the plane of the cut, so that the cut itself adds nothing to the integrals.
   const Vector3 origin = level * up;
   Tetrahedra sum;
   for (const auto& [a, b, c] : triangles_) add_part_below({corner(a) - origin, corner(b) - origin, corner(c) - origin}, up, sum);

@@ -12,20 +12,22 @@ namespace {
 // Below this exponent edges and vertices are so sharp that any overlap may have several local maxima.
 constexpr double kSharpExponent = 1.3;
 
-/// About the smallest radius of curvature of a superellipse with half-axes 1: at its corners, a superellipse of exponent e > 2 has
-/// 1/(e - 1) within a factor of 1.5; below 2 the vertices have radius 0 but rounded surroundings.
+/// An estimate of the smallest radius of curvature of a superellipse with half-axes 1: at its corners, a superellipse of exponent
+/// e > 2 has 1/(e - 1) within a factor of 1.5; below 2 the vertices have radius 0 but rounded surroundings.
 double relative_radius(double exponent) {
   if (exponent >= 2) return 1 / (exponent - 1);
   return std::max(0.0, (exponent - kSharpExponent) / (2 - kSharpExponent));
 }
 
-/// A ball of this radius rolls freely inside the superellipsoid with half-axes 1; 0 if there is none, as at the vertices and edges
-/// of an exponent below 2.
+/// The radius of a ball that rolls freely inside the superellipsoid with half-axes 1; 0 if there is none, as at the vertices and
+/// edges of an exponent below 2.
 ///
-/// Twice, the support function is a p-norm with dual exponent p in (1, 2]. Its radius of curvature (p-1) (c s)^(p-2) / (c^p + s^p)^
-/// (2 - 1/p), c and s the cosine and sine of the normal's angle, is least at 45 degrees: (p-1) 2^(1/p - 1/2), and its own value is
-/// between 1 and 2^(1/p - 1/2) there. Let t be the inner norm over a unit vector, and of a unit tangent vector let mu be the part
-/// along the meridian and gamma the part across. By the chain rule the second derivative along it is at least
+/// The support function is a p-norm with dual exponent p in (1, 2], twice. With c and s the cosine and sine of the normal's angle,
+/// the radius of curvature of a p-norm,
+///     (p-1) (c s)^(p-2) / (c^p + s^p)^(2 - 1/p),
+/// is least at 45 degrees, where it is (p-1) 2^(1/p - 1/2), and the norm itself is between 1 and 2^(1/p - 1/2). Let t be the inner
+/// norm over a unit vector, and let mu and gamma be the parts of a unit tangent vector along the meridian and across it. By the
+/// chain rule the second derivative along it is at least
 ///     along (mu - slope gamma)^2 + across gamma^2,    slope = |t'|/t <= 2 - p,
 /// (t'/t = (x^(p-1) - x)/(1 + x^p) for the tangent x <= 1 of the angle, convex in p and 0 for p = 2), which in turn is at least
 /// the smaller eigenvalue of that quadratic form.
@@ -41,7 +43,7 @@ double unit_rolling_radius(double delta, double epsilon) {
   return 2 * along * across / (along_both + across + discriminant);
 }
 
-/// The same of half-axes a, whose smallest and largest stretch the ball to an ellipsoid.
+/// The same for half-axes a, whose smallest and largest stretch the ball to an ellipsoid.
 double rolling_radius_of(const Vector3& half_axes, double delta, double epsilon) {
   const double smallest = half_axes.minCoeff();
   return smallest * (smallest / half_axes.maxCoeff()) * unit_rolling_radius(delta, epsilon);
@@ -53,14 +55,14 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
     : half_axes_(require_half_axes(half_axes)),
       delta_(require_in("delta", delta, kMinExponent, kMaxExponent)),
       epsilon_(require_in("epsilon", epsilon, kMinExponent, kMaxExponent)),
-      inner_potential_(PowerNorm::dual_to_exponent(delta)),
-      outer_potential_(PowerNorm::dual_to_exponent(epsilon)),
+      inner_support_(PowerNorm::dual_to_exponent(delta)),
+      outer_support_(PowerNorm::dual_to_exponent(epsilon)),
       inner_gauge_(PowerNorm::of_exponent(delta)),
       outer_gauge_(PowerNorm::of_exponent(epsilon)),
       rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)) {}
 
-// With one exponent the two norms are a single one of three numbers. Not of a sharp body, whose high powers p make much of the
-// rounding of the ratios.
+// With equal exponents the two norms are a single one of three numbers. This is not used for a sharp body, whose high powers p
+// amplify the rounding of the ratios.
 bool Superellipsoid::is_one_norm_at(const Vector3& n) const {
   const Vector3 scaled = half_axes_.cwiseProduct(n).cwiseAbs();
   return delta_ == epsilon_ && delta_ >= 2 && PowerNorm::is_plain(scaled.x(), scaled.y(), scaled.z());
@@ -72,7 +74,7 @@ void Superellipsoid::evaluate_by_one_norm(const std::array<EvalRequest, kCount>&
   for (std::size_t i = 0; i < kCount; ++i) {
     const Superellipsoid& body = *requests[i].body;
     const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
-    norms[i] = {&body.inner_potential_, {scaled.x(), scaled.y(), scaled.z()}};
+    norms[i] = {&body.inner_support_, {scaled.x(), scaled.y(), scaled.z()}};
   }
   PowerNorm::evaluate_requests(norms, order);
   for (std::size_t i = 0; i < kCount; ++i) requests[i].body->assemble(norms[i], *requests[i].n, order, *requests[i].jet);
@@ -91,15 +93,15 @@ void Superellipsoid::assemble(const PowerNorm3Request& norm, const Vector3& n, O
   }
 }
 
-// The inner norms of x and y; with them ("x") and z ("y") the outer ones.
+// Evaluates the inner norms of x and y, and then with them ("x") and z ("y") the outer ones.
 template <std::size_t kCount>
 void Superellipsoid::evaluate_by_two_norms(const std::array<EvalRequest, kCount>& requests, Order order) {
   std::array<PowerNormRequest, kCount> inner, outer;
   for (std::size_t i = 0; i < kCount; ++i) {
     const Superellipsoid& body = *requests[i].body;
     const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
-    inner[i] = {&body.inner_potential_, scaled.x(), scaled.y(), {}};
-    outer[i] = {&body.outer_potential_, 0, scaled.z(), {}};
+    inner[i] = {&body.inner_support_, scaled.x(), scaled.y(), {}};
+    outer[i] = {&body.outer_support_, 0, scaled.z(), {}};
   }
   PowerNorm::evaluate_requests(inner, order);
   for (std::size_t i = 0; i < kCount; ++i) outer[i].x = inner[i].jet.value;
@@ -117,7 +119,7 @@ void Superellipsoid::evaluate_requests(const std::array<EvalRequest, kCount>& re
     evaluate_by_one_norm(requests, order);
   } else if (one_norms == 0) {
     evaluate_by_two_norms(requests, order);
-  } else {  // a body gives the same digits in any company
+  } else {  // a body has the same digits in any company
     for (const EvalRequest& request : requests) evaluate_requests(std::array<EvalRequest, 1>{request}, order);
   }
 }
@@ -140,7 +142,7 @@ void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet&
   jet.r = signed_axes.cwiseProduct(Vector3(outer.dx * inner.dx, outer.dx * inner.dy, outer.dy));
   if (order == Order::Point) return;
 
-  // Chain rule; inner second derivatives are inner.xx / t, and outer.dx / t stays finite at the pole t = 0.
+  // The chain rule: inner second derivatives are inner.xx / t, and outer.dx / t stays finite at the pole t = 0.
   const double tt = outer.xx / outer.value;
   const double tz = outer.xy / outer.value;
   const double slope = outer.dx_over_x / outer.value;
@@ -158,8 +160,8 @@ void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet&
 }
 
 Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
-  // Each of the two norms goes its own way: a flat one (exponent above 2) through the boundary point, a sharp one through the
-  // normal, unless the section's turns far.
+  // Each of the two norms moves separately: a flat one (exponent above 2) through the boundary point, a sharp one through the
+  // normal, unless the section's normal turns far.
   Vector3 moved = n + dn;
   const bool inner_is_flat = delta_ > 2;
   const bool outer_is_flat = epsilon_ > 2;
@@ -175,9 +177,9 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   outer_gauge_.gradient(inner.value, gauge_point.z(), outer);
   result.z() = outer.dy;
   if (!outer_is_flat) {
-    // But a flat inner norm turns the normal about the axis only: where that brings the point not as far, near the pole, this one
-    // goes through the point as well.
-    const double across = inner_potential_.value(scaled.x(), scaled.y());
+    // A flat inner norm turns the normal about the axis only: if that moves the point less far, near the pole, this norm goes
+    // through the point as well.
+    const double across = inner_support_.value(scaled.x(), scaled.y());
     if (across * outer.dy >= outer.dx * scaled.z()) {
       outer.dx = across;
       result.z() = scaled.z();
@@ -188,7 +190,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   if (goes_with_point) {
     result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);
   } else {
-    const double norm = inner_potential_.value(scaled.x(), scaled.y());
+    const double norm = inner_support_.value(scaled.x(), scaled.y());
     result.head<2>() = norm > 0 ? Eigen::Vector2d(scaled.head<2>() * (outer.dx / norm)) : Eigen::Vector2d(Eigen::Vector2d::Zero());
   }
   const Vector3& sign_xy = goes_with_point ? target : moved;
@@ -198,7 +200,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
       .cwiseQuotient(half_axes_);
 }
 
-// With one exponent the two norms are a single one of three numbers, whose gradient takes no root.
+// With equal exponents the two norms are a single one of three numbers, whose gradient takes no root.
 Vector3 Superellipsoid::along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const {
   const double largest = gauge_point.maxCoeff();
   Vector3 gradient;

@@ -1,4 +1,4 @@
-// Of the section at height s = z/c, in the direction (nx, ny), let N(s) = |(a X nx, b Y ny)|_p be the width before it is scaled by
+// Let N(s) = |(a X nx, b Y ny)|_p be the width of the section at height s = z/c in the direction (nx, ny), before it is scaled by
 // the meridian w(s) = (1 - |s|^epsilon)^(1/epsilon). Then
 //     h(n) = max over s of w(s) N(s) + c nz s,
 // a concave function. Its maximum is where the tangent of the meridian has the slope v/t with
@@ -19,17 +19,17 @@
 namespace supernormal {
 namespace {
 
-// Newton takes four to nine evaluations; where the curvature vanishes (at the limit of convexity) bisection takes over.
+// Newton takes four to nine evaluations; where the second derivative vanishes (at the limit of convexity) bisection takes over.
 constexpr int kMaxIterations = 200;
 
-// At the limit of convexity the curvature vanishes at one height, and rounding decides its sign: this share of its usual size is
-// left.
+// At the limit of convexity the second derivative vanishes at one height, and rounding decides its sign: it is kept above this
+// share of its usual size.
 constexpr double kLeastSlope = 1e-15;
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-constexpr double kDenormal = std::numeric_limits<double>::min();  // numbers below have no digits to lose
+constexpr double kDenormal = std::numeric_limits<double>::min();  // smaller numbers lose digits
 
-/// N and its derivatives by the height s.
+/// The width N and its derivatives with respect to the height s.
 class Width {
  public:
   Width(const Vector3& half_axes, double taper_x, double taper_y, const PowerNorm& norm, const Vector3& n)
@@ -53,7 +53,7 @@ class Width {
     }
   }
 
-  /// The norm's derivatives at the present height; until then `jet` may be empty.
+  /// Computes the norm's derivatives at the present height; until then `jet` may be empty.
   void complete(Order order) {
     if (order == Order::Value || !is_similar_) return;
     if (order == Order::Point) {
@@ -63,7 +63,7 @@ class Width {
     }
   }
 
-  /// Derivatives of N' by a|nx| and b|ny|.
+  /// The derivatives of N' with respect to a|nx| and b|ny|.
   Eigen::Vector2d slope_gradient() const {
     const double turn = difference() * jet.xy;
     return {taper_x_ * jet.dx - X * turn * share(full_y_ * Y), taper_y_ * jet.dy + Y * turn * share(full_x_ * X)};
@@ -95,14 +95,14 @@ struct Summit {
 
 class SummitSearch {
  public:
-  /// `rise`: c nz. `knee`: the height where t = v.
+  /// `rise` is c nz, `knee` the height where t = v.
   SummitSearch(const PowerNorm& norm, Width& width, double rise, double knee) : norm_(norm), width_(width), rise_(rise) {
     width_.move_to(knee);
     is_steep_ = width_.value - knee * width_.slope <= rise;
   }
 
   Summit find() {
-    // Of x, which is t near the poles and v elsewhere.
+    // `low` and `high` bracket x, which is t near the poles and v elsewhere.
     double low = is_steep_ ? 0 : -1, high = 1;
     double x = first_guess();
     for (int i = 0; i < kMaxIterations; ++i) {
@@ -110,7 +110,7 @@ class SummitSearch {
       const double scale = std::abs(summit_.v) * width_.value + summit_.t * (summit_.w * std::abs(width_.slope) + rise_);
       if (std::abs(value) <= kRounding * scale + kDenormal) break;
       (value < 0 ? low : high) = x;
-      // Where everything has underflowed there is no slope: bisected.
+      // If everything has underflowed there is no slope, and the interval is bisected.
       double next = summit_.slope > 0 ? x - value / summit_.slope : high;
       if (!(next > low && next < high)) next = 0.5 * (low + high);
       if (next == x || next == low || next == high) break;
@@ -126,7 +126,7 @@ class SummitSearch {
     return width_.value > 0 ? std::clamp((rise_ + width_.slope) / width_.value, -1.0, 1.0) : 0;
   }
 
-  /// F at x, or -F where it falls with x.
+  /// F at x, or -F where F falls with x.
   double evaluate(double x) {
     Summit& m = summit_;
     m.t = is_steep_ ? x : 1;
@@ -160,15 +160,15 @@ Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, d
       taper_x_(taper_x),
       taper_y_(taper_y),
       knee_(std::exp2(-1 / epsilon)),
-      inner_potential_(PowerNorm::dual_to_exponent(delta)),
-      outer_potential_(PowerNorm::dual_to_exponent(epsilon)),
+      inner_support_(PowerNorm::dual_to_exponent(delta)),
+      outer_support_(PowerNorm::dual_to_exponent(epsilon)),
       inner_gauge_(PowerNorm::of_exponent(delta)),
       outer_gauge_(PowerNorm::of_exponent(epsilon)) {
   require_convex_taper(delta, epsilon, taper_x, taper_y);
   half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};
-  // Where the section has shrunk to this share, the radius of its meridian has shrunk with its square.
+  // If the section has shrunk to this share, the radius of its meridian has shrunk with its square.
   const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
-  sharpest_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).min_curvature_radius_estimate() * narrowest * narrowest;
+  min_curvature_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).min_curvature_radius_estimate() * narrowest * narrowest;
 }
 
 double Superovoid::max_taper(double epsilon) {
@@ -178,8 +178,8 @@ double Superovoid::max_taper(double epsilon) {
 void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const double up = std::copysign(1.0, n.z());  // the body upside down has the opposite tapers
   const double rise = half_axes_.z() * std::abs(n.z());
-  Width width(half_axes_, up * taper_x_, up * taper_y_, inner_potential_, n);
-  const Summit m = SummitSearch(outer_potential_, width, rise, knee_).find();
+  Width width(half_axes_, up * taper_x_, up * taper_y_, inner_support_, n);
+  const Summit m = SummitSearch(outer_support_, width, rise, knee_).find();
   jet.h = m.w * width.value + rise * m.s;
   if (order == Order::Value) return;
 
@@ -190,7 +190,7 @@ void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.r = axes.cwiseProduct(Vector3(m.w * X * norm.dx, m.w * Y * norm.dy, m.s));
   if (order == Order::Point) return;
 
-  // The section's own curvature, w times the Hessian of N, and what the height adds to it when it follows the normal.
+  // The section's own part of the Hessian, w times the Hessian of N, and the part of the height that follows the normal.
   const bool is_steep = m.v == 1;
   const double per_width = m.meridian.dx_over_x / m.meridian.value / (is_steep ? m.climb : width.value);  // w/N
   const double follows = (is_steep ? m.meridian.xx : m.meridian.yy) / m.meridian.value / m.slope;
@@ -208,8 +208,8 @@ void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
 }
 
 Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
-  // Each of the two norms goes its own way, as in the Superellipsoid: a flat one (exponent above 2) through the boundary point, a
-  // sharp one through the normal, unless the point demands a longer way.
+  // Each of the two norms moves separately, as in the Superellipsoid: a flat one (exponent above 2) through the boundary point, a
+  // sharp one through the normal, unless the point demands a longer step.
   const Vector3 moved = n + dn;
   const bool inner_is_flat = delta_ > 2;
   const bool outer_is_flat = epsilon_ > 2;
@@ -225,7 +225,7 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   // The normal's part in the section, scaled to a dual norm of 1, and its signs.
   const Eigen::Vector2d axes(X * half_axes_.x(), Y * half_axes_.y());
   const Eigen::Vector2d scaled = axes.cwiseProduct(moved.head<2>());
-  const double width = inner_potential_.value(std::abs(scaled.x()), std::abs(scaled.y()));
+  const double width = inner_support_.value(std::abs(scaled.x()), std::abs(scaled.y()));
   const bool goes_with_point = inner_is_flat || turns_far(axes.cwiseProduct(n.head<2>()), scaled);
   Eigen::Vector2d across(section.dx, section.dy);
   if (!goes_with_point) across = width > 0 ? Eigen::Vector2d(scaled.cwiseAbs() / width) : Eigen::Vector2d(Eigen::Vector2d::Zero());
@@ -233,7 +233,7 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   const Vector3 direction(std::copysign(across.x(), sign.x()) / axes.x(), std::copysign(across.y(), sign.y()) / axes.y(), 0);
 
   outer_gauge_.gradient(section.value, std::abs(gauge_point.z()), meridian);
-  // Going up, the point comes nearer to the middle of its section, which has grown.
+  // A point that goes up comes nearer to the middle of its section, which has grown.
   const double growth = section.value > 0 ? (section.dx * std::abs(gauge_point.x()) * taper_x_ / (X * X) +
                                              section.dy * std::abs(gauge_point.y()) * taper_y_ / (Y * Y))
                                           : 0;

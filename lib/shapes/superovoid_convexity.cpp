@@ -1,7 +1,7 @@
 // The body is convex when the width of its section at the height s = z/c, g(s) = w(s) N(s), is concave in s for every direction
-// (A, B) in the section. Here w(s) = (1 - |s|^epsilon)^(1/epsilon) and N = |(A X, B Y)|_p with X = 1 + taper_x s, Y = 1 + taper_y
-// s. With the shares u = (A X)^p / N^p and v = 1 - u of the two sides, and their relative slopes rx = taper_x / X, ry = taper_y /
-// Y,
+// (A, B) in the section. Here w(s) = (1 - |s|^epsilon)^(1/epsilon) and
+//     N = |(A X, B Y)|_p,   X = 1 + taper_x s,   Y = 1 + taper_y s.
+// With the shares u = (A X)^p / N^p and v = 1 - u of the two sides, and their relative slopes rx = taper_x / X, ry = taper_y / Y,
 //     N'/N = u rx + v ry,   N''/N = (p - 1) u v (rx - ry)^2,
 // and -g'' >= 0, times (1 - |s|^epsilon)^2 |s|^(2 - epsilon) / g, reads
 //     (epsilon - 1) + 2 s (1 - |s|^epsilon) (u rx + v ry) - (p - 1) u v (rx - ry)^2 |s|^(2 - epsilon) (1 - |s|^epsilon)^2 >= 0
@@ -19,15 +19,15 @@
 namespace supernormal {
 namespace {
 
-constexpr int kSamples = 2048;  // heights
+constexpr int kSamples = 2048;  // number of heights
 
-/// The left side above at height s, for the worst direction in the section.
+/// The left side of the inequality above at height s, for the worst direction in the section.
 double margin_at(double s, double delta, double epsilon, double taper_x, double taper_y) {
   const double height = std::abs(s);
   const double room = 1 - std::pow(height, epsilon);
   const double rx = taper_x / (1 + taper_x * s);
   const double ry = taper_y / (1 + taper_y * s);
-  // (epsilon - 1) + slope (ry + u (rx - ry)) - bend u (1 - u): a parabola in u, open upwards.
+  // (epsilon - 1) + slope (ry + u (rx - ry)) - bend u (1 - u) is a parabola in u, open upwards.
   const double slope = 2 * s * room;
   const double bend = (rx - ry) * (rx - ry) / (delta - 1) * std::pow(height, 2 - epsilon) * room * room;
   const double tilt = slope * (rx - ry);
@@ -48,7 +48,7 @@ TaperedConvexity least_convex(double delta, double epsilon, double taper_x, doub
   for (int i = 1; i <= kSamples; ++i) {
     if (margin(height(i)) < margin(height(lowest))) lowest = i;
   }
-  // Golden section between the neighbours of the lowest sample.
+  // Golden-section search between the neighbours of the lowest sample.
   constexpr double kGolden = 0.6180339887498949;
   double low = height(std::max(lowest - 1, 0)), high = height(std::min(lowest + 1, kSamples));
   for (int i = 0; i < 50; ++i) {

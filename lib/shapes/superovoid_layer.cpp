@@ -20,7 +20,7 @@
 namespace supernormal {
 namespace {
 
-/// A power of cosine and sine of an angle and their derivatives by log tan of the angle.
+/// A power of cosine and sine of an angle and their derivatives with respect to log tan of the angle.
 struct Powers {
   double cos, sin, dcos, dsin;
 };
@@ -40,8 +40,8 @@ Powers powers(double exponent, double log_tan, double weight) {
   return {cos, sin, -slope * std::exp(log_sin2) * cos, slope * std::exp(log_cos2) * sin};
 }
 
-/// Nodes `step` apart in t, out to where the slowest power has decayed below rounding. `log_aspect`: how much later that is for
-/// normals of a body that much longer than wide.
+/// Nodes at a distance of `step` in t, out to where the slowest power has decayed below rounding. `log_aspect` is how much later
+/// that is for normals of a body that is longer than wide by this logarithm.
 std::vector<Node> make_rule(double exponent, double step, double log_aspect) {
   const double dual = exponent / (exponent - 1);
   const double end = std::asinh(std::max(exponent, dual) * (20 + 0.5 * log_aspect));
@@ -59,16 +59,17 @@ std::vector<Node> make_rule(double exponent, double step, double log_aspect) {
 /// Volume, diagonal of the second moment and first moment along z.
 using Moments = Eigen::Matrix<double, 5, 1>;
 
-/// A body with z >= 0 only, or the other half upside down.
+/// The half of a body with z >= 0, or its other half upside down.
 struct Half {
   Vector3 axes;
   double taper_x, taper_y;
 };
 
-/// A point of the surface, its normal and their derivatives by the two parameters, which carry the weights of the nodes.
+/// A point of the surface, its normal and their derivatives with respect to the two parameters, which carry the weights of the
+/// nodes.
 struct Surface {
   Vector3 r, r_w, r_e;
-  Vector3 n, n_w, n_e;  // n_w and n_e up to a part along n
+  Vector3 n, n_w, n_e;  // n_w and n_e are up to a part along n
 };
 
 Surface surface(const Half& half, const Node& w, const Node& e) {
@@ -97,13 +98,13 @@ Surface surface(const Half& half, const Node& w, const Node& e) {
   return out;
 }
 
-/// Of the layer over one surface element, spanned by the nodes `w` and `e`.
+/// The moments of the layer over one surface element, at the nodes `w` and `e`.
 Moments element(const Half& half, double radius, const Node& w, const Node& e) {
   const Surface f = surface(half, w, e);
   const double area = f.n.dot(f.r_w.cross(f.r_e));
   const double bend = f.n.dot(f.r_w.cross(f.n_e)) + f.n.dot(f.n_w.cross(f.r_e));
   const double angle = f.n.dot(f.n_w.cross(f.n_e));
-  // moment(k): integral of s^k (area + bend s + angle s^2) from 0 to radius.
+  // moment(k) is the integral of s^k (area + bend s + angle s^2) from 0 to radius.
   const auto moment = [&](int k) {
     return std::pow(radius, k + 1) * (area / (k + 1) + radius * (bend / (k + 2) + radius * (angle / (k + 3))));
   };
@@ -114,7 +115,7 @@ Moments element(const Half& half, double radius, const Node& w, const Node& e) {
   return sum;
 }
 
-/// Over half of the boundary: four times one octant.
+/// The moments over half of the boundary: four times one octant.
 Moments integrate(const Half& half, double radius, const std::vector<Node>& section, const std::vector<Node>& meridian) {
   Moments total = Moments::Zero();
   for (const Node& e : meridian) {
@@ -125,7 +126,7 @@ Moments integrate(const Half& half, double radius, const std::vector<Node>& sect
   return 4 * total;
 }
 
-/// Over the whole boundary.
+/// The moments over the whole boundary.
 Moments integrate(const Superovoid& core, double radius, double step) {
   const Vector3& axes = core.half_axes();
   const double log_aspect = std::log(axes.maxCoeff() / axes.minCoeff());

@@ -30,7 +30,7 @@ inline double require_in(const char* name, double value, double low, double high
                               to_text(high) + "]" + tail);
 }
 
-/// Returns the half-axes a, b, c; std::invalid_argument names the first one outside [kMinLength, kMaxLength].
+/// Returns the half-axes a, b, c; throws std::invalid_argument with the name of the first one outside [kMinLength, kMaxLength].
 inline Vector3 require_half_axes(const Vector3& half_axes) {
   const char* const names[] = {"half-axis a", "half-axis b", "half-axis c"};
   for (int axis = 0; axis < 3; ++axis) require_in(names[axis], half_axes[axis], kMinLength, kMaxLength, "m");

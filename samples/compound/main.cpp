@@ -25,7 +25,7 @@ std::vector<Part> make_dumbbell(dSpaceID space) {
           make_part(other, kSteel, 0, 0, -kBar - kDisc)};
 }
 
-/// A crown on two roots that grow thinner downwards and spread a little; ten times as large as life.
+/// A crown on two roots that grow thinner downwards and spread a little; ten times life size.
 std::vector<Part> make_molar(dSpaceID space) {
   constexpr double kEnamel = 2900, kDentine = 2100;
   constexpr double kCrown = 0.035, kRoot = 0.06, kSpread = 0.12;  // half-heights, m; rad
@@ -33,7 +33,7 @@ std::vector<Part> make_molar(dSpaceID space) {
   std::vector<Part> parts = {make_part(crown, kEnamel, 0, 0, 0)};
   for (const double side : {1.0, -1.0}) {
     const dGeomID root = snCreateSuperovoid(space, 0.02, 0.016, kRoot, 2, 3, 0.5, 0.5);
-    // As high as it touches the crown: both are in place for snGeomProximity, which tells how far it is off.
+    // The root is raised until it touches the crown: both are in place for snGeomProximity, which tells the distance left.
     double z = -kCrown - 1.05 * kRoot;
     Part part = make_part(root, kDentine, 0, side * 0.028, z, side * kSpread);
     dGeomSetRotation(root, part.rotation);

@@ -1,5 +1,5 @@
-// Drops real grains into a container (a box, a hopper, a terrain), or packs them in a periodic cell, and watches them: a scene file
-// in, trajectories and a summary out.
+// Drops real grains into a container (a box, a hopper, a terrain), or packs them in a periodic cell, and measures the result: it
+// reads a scene file and writes trajectories and a summary.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -74,9 +74,9 @@ ExitCode run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& error) {
-    // A misspelt --scene is the mistake, and not that there is none.
+    // A misspelt --scene is reported as unknown, and not as missing.
     std::vector<std::string> unknown = app.remaining();
-    std::ranges::reverse(unknown);  // as ExtrasError expects them
+    std::ranges::reverse(unknown);  // ExtrasError expects this order
     unknown.empty() ? app.exit(error) : app.exit(CLI::ExtrasError(unknown));
     return BadInput;
   } catch (const CLI::ParseError& error) {
@@ -85,10 +85,11 @@ ExitCode run_program(int argc, char** argv) {
   return simulate(options);
 }
 
-/// A file that is opened while stdin, stdout or stderr is closed would take its number, and get what is printed.
+/// Opens streams that are closed, because a file that is opened while stdin, stdout or stderr is closed would take its number,
+/// and get the printed text.
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);  // the lowest free number; to write fails
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);  // takes the lowest free number; writing to it fails
   }
 }
 

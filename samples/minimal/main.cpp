@@ -45,14 +45,14 @@ int main() {
   dWorldSetAutoDisableFlag(world, 1);
   dWorldSetAutoDisableAverageSamplesCount(world, 10);
   dWorldSetAutoDisableAngularThreshold(world, 0.01 / 0.008);  // rad/s: ODE's 0.01 m/s over the smallest half-axis
-  // A pebble touches the plane in one point, which does not resist rolling. Without these two lines it rolls for ever. The physical
-  // way is RollingResistance of <supernormal/effects.hpp>, which C++ programs have; the C interface has none.
+  // A pebble touches the plane in one point, which does not resist rolling. Without these two lines it rolls for ever. The
+  // physical model is RollingResistance of <supernormal/effects.hpp>, which C++ programs have; the C interface has none.
   dWorldSetAngularDamping(world, 0.01);
   dWorldSetAngularDampingThreshold(world, 0);
   dSpaceID space = dHashSpaceCreate(nullptr);
   dCreatePlane(space, 0, 0, 1, 0);
 
-  // Half-axes in m, exponents.
+  // The arguments are half-axes in m and exponents.
   dBodyID brick = drop(snCreateSuperellipsoid(space, 0.1, 0.07, 0.05, 8, 8), 0, 0, 0.5);
   std::vector<dBodyID> bodies{brick};
   for (int i = 0; i < kPebbles; ++i) {

@@ -10,7 +10,7 @@
  *   r(n), the boundary point, is the p that reaches so far. Its outward normal is n, and n.r(n) = h(n).
  *
  * If you have h as a formula, extend it to vectors of any length so that h(t n) = t h(n); then r is its gradient. If you have the
- * body as a formula, find the point with normal n first; then h = n.r. The egg goes the first way, the lens the second.
+ * body as a formula, find the point with normal n first; then h = n.r. The egg is made in the first way, the lens in the second.
  *
  * The functions are called with unit vectors in the body's frame, from whatever thread collides: they only read what `user` points
  * to. A Hessian (the gradient of r) would make queries a little cheaper. Without it the library takes differences of r. */
@@ -29,11 +29,11 @@ static void egg_point(const void* user, const dReal n[3], dReal point[3]) {
   point[2] += (dReal)(3 * egg->size * egg->bulge * n[2] * n[2]);
 }
 
-/* The upper cap belongs to the ball around (0, 0, -offset), and has the normals with nz > offset/R. The edge, a circle, has the
- * rest: all normals between those of the two caps there. */
+/* The upper cap belongs to the ball around (0, 0, -offset), and has the normals with nz > offset/R. The edge, a circle, has all
+ * normals between those of the two caps there. */
 static void lens_point(const void* user, const dReal n[3], dReal point[3]) {
   const Lens* lens = user;
-  const double edge = sqrt(lens->R * lens->R - lens->offset * lens->offset); /* its radius */
+  const double edge = sqrt(lens->R * lens->R - lens->offset * lens->offset); /* radius of the edge */
   const double across = sqrt(n[0] * n[0] + n[1] * n[1]);
   if (fabs(n[2]) * lens->R > lens->offset) {
     for (int i = 0; i < 3; ++i) point[i] = (dReal)(lens->R * n[i]);
@@ -51,14 +51,14 @@ static dReal lens_support(const void* user, const dReal n[3]) {
   return n[0] * r[0] + n[1] * r[1] + n[2] * r[2];
 }
 
-/* Slices across z: the integrands are polynomials of degree 4 on each half, for which three Gauss points are exact. */
+/* Integrates slices across z: the integrands are polynomials of degree 4 on each half, for which three Gauss points are exact. */
 void set_lens_mass(dMass* mass, double density, Lens lens) {
   const double node[3] = {-0.77459666924148338, 0, 0.77459666924148338}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-  const double height = lens.R - lens.offset; /* of a cap */
+  const double height = lens.R - lens.offset; /* height of a cap */
   double m = 0, along = 0, across = 0;
   for (int i = 0; i < 3; ++i) {
     const double z = 0.5 * height * (1 + node[i]);
-    const double r2 = lens.R * lens.R - (z + lens.offset) * (z + lens.offset); /* of the slice */
+    const double r2 = lens.R * lens.R - (z + lens.offset) * (z + lens.offset); /* squared radius of the slice */
     const double slice = density * M_PI * r2 * weight[i] * height;             /* both caps */
     m += slice;
     along += slice * r2 / 2;

@@ -49,7 +49,7 @@ static dGeomID below(dGeomID geom, double depth) {
   return geom;
 }
 
-/* From far below, through the origin, to 0.6 m above it: it ends inside the body. */
+/* The ray goes from far below, through the origin, to 0.6 m above it: it ends inside the body. */
 static dGeomID create_ray(void) {
   const dGeomID ray = dCreateRay(0, 3);
   dGeomRaySet(ray, 0, 0, (dReal)-2.4, 0, 0, 1);

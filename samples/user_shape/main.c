@@ -1,5 +1,5 @@
-/* An egg and a lens, given to the library only by their support functions (bodies.c), against every class of geom that ODE has:
- * and against bodies of this library, lowered onto the top of each collider by a little more than it takes to touch. Prints, for
+/* Collides an egg and a lens, given to the library only by their support functions (bodies.c), with every class of geom that ODE
+ * has and with bodies of this library, lowered onto the top of each collider by a little more than it takes to touch. Prints, for
  * each pair, the gap, the contacts and the normal, and the mass of the two bodies. */
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@ enum { MAX_CONTACTS = 8 };
 
 static const double kOverlap = 0.01; /* m */
 
-/* Whether the contacts are what ODE wants and what the gap promises: normals into the body, upwards. */
+/* Whether the contacts are as ODE requires and agree with the gap: their normals point into the body, upwards. */
 static int is_sound(const dContactGeom* contacts, int count, const snProximity* gap, int is_ray) {
   double deepest = 0;
   for (int i = 0; i < count; ++i) {
@@ -19,14 +19,14 @@ static int is_sound(const dContactGeom* contacts, int count, const snProximity* 
     if (fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) > 1e-6 || n[2] < 0.999) return 0;
     if (contacts[i].depth > deepest) deepest = contacts[i].depth;
   }
-  if (is_ray) return count == 1; /* its depth is the distance along it */
+  if (is_ray) return count == 1; /* the depth is the distance along the ray */
   return count > 0 && fabs(deepest + gap->gap) < 1e-6;
 }
 
-/* Prints as 0.000 and not -0.000. */
+/* Replaces small numbers, so that 0.000 is printed and not -0.000. */
 static double unsigned_zero(double x) { return fabs(x) < 5e-4 ? 0 : x; }
 
-/* One line of the table. Returns whether the pair touches and agrees. */
+/* Prints one line of the table. Returns whether the pair touches and agrees. */
 static int report(const char* name, dGeomID body, const Collider* collider) {
   dContactGeom contacts[MAX_CONTACTS];
   const int count = dCollide(body, collider->geom, MAX_CONTACTS, contacts, sizeof(dContactGeom));
@@ -45,7 +45,7 @@ static int report(const char* name, dGeomID body, const Collider* collider) {
   return is_sound(contacts, count, &gap, is_ray);
 }
 
-/* The body so high above the origin that its lowest point is kOverlap below it. */
+/* Raises the body so high above the origin that its lowest point is kOverlap below it. */
 static void lower_onto_origin(dGeomID body) {
   const dVector3 down = {0, 0, -1};
   dVector3 lowest;

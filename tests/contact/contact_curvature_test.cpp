@@ -12,7 +12,7 @@ using namespace supernormal;
 
 namespace {
 
-/// An ellipsoid that does not tell its curvature.
+/// An ellipsoid that does not deliver its Hessian.
 class Reticent : public Shape {
  public:
   explicit Reticent(const Vector3& half_axes) : body_(half_axes) {}

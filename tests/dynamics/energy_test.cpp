@@ -1,4 +1,4 @@
-// No energy out of nothing: bodies that tumble, slide, roll and rest for long.
+// Tests that no energy comes out of nothing: bodies tumble, slide, roll and rest for long.
 #include <doctest/doctest.h>
 
 #include "ode/ode_world.hpp"
@@ -13,12 +13,12 @@ TEST_CASE("tumbling bodies do not gain energy from a plane with friction in 1e5 
   world.surface.mu = dReal(0.5);
   struct Tumbler {
     double exponent;
-    double gain;  ///< allowed, of the energy at the start
+    double gain;  ///< allowed gain, relative to the energy at the start
     dBodyID body = nullptr;
     double start = 0, least = 0, risen = 0;
   };
-  // Whatever rolls gains and loses in proportion to the step, as ODE's integrator does (the ellipsoid 0.5 % here and 4 % with steps
-  // of 2 ms); the flat ones come to rest.
+  // A rolling body gains and loses energy in proportion to the step, as ODE's integrator does (the ellipsoid 0.5 % here and 4 %
+  // with steps of 2 ms); the flat ones come to rest.
   std::array<Tumbler, 5> tumblers = {{{1.5, 0.01}, {2, 0.01}, {3, 0.01}, {8, 2e-4}, {20, 2e-4}}};
   Random random(7);
   for (std::size_t i = 0; i < tumblers.size(); ++i) {
@@ -44,6 +44,6 @@ TEST_CASE("tumbling bodies do not gain energy from a plane with friction in 1e5 
   for (const Tumbler& tumbler : tumblers) {
     CAPTURE(tumbler.exponent);
     CHECK(tumbler.risen < tumbler.gain * tumbler.start);
-    CHECK(tumbler.least < 0.9 * tumbler.start);  // the impacts took some
+    CHECK(tumbler.least < 0.9 * tumbler.start);  // the impacts took some energy
   }
 }

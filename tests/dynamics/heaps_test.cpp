@@ -1,4 +1,4 @@
-// Many bodies on one another: a wall and a pile come to rest, and nothing sinks, creeps or gains energy.
+// Tests with many bodies on one another: a wall and a pile come to rest, and nothing sinks, creeps or gains energy.
 #include <doctest/doctest.h>
 
 #include "ode/ode_world.hpp"
@@ -7,7 +7,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// ODE's auto-disable as samples/studies/README.md advises it: thresholds of the bodies' size, over the mean of ten steps.
+/// Sets ODE's auto-disable as samples/studies/README.md recommends it: thresholds of the bodies' size, over the mean of ten steps.
 void let_sleep(const World& world, double size) {
   dWorldSetAutoDisableFlag(world.id(), 1);
   dWorldSetAutoDisableAverageSamplesCount(world.id(), 10);
@@ -24,7 +24,7 @@ struct Watch {
   bool asleep = false;
 };
 
-/// Steps until all sleep, at most for a time, s.
+/// Steps until all bodies sleep, at most for the time `patience`, s.
 Watch settle(World& world, const std::vector<dBodyID>& bodies, double dt, double patience) {
   const auto energy_of_all = [&] {
     double sum = 0;
@@ -78,7 +78,7 @@ TEST_CASE("a wall of 50 bricks stands and sleeps as soon as one of dBoxes") {
     CHECK(watch.gained < 1e-3 * watch.start);
     CHECK(watch.deepest < 0.005 * c);
     for (std::size_t i = 0; i < bricks.size(); ++i) {
-      // The gaps of 0.1 mm between the courses have closed, and that is all.
+      // The gaps of 0.1 mm between the courses have closed, and nothing else has moved.
       const auto course = static_cast<int>(i) / 5;
       const Vec moved = to_vec(dBodyGetPosition(bricks[i])) - start[i];
       CHECK(std::hypot(moved[0], moved[1]) < 0.01 * c);
@@ -123,7 +123,7 @@ TEST_CASE("60 needles side by side fall asleep") {
 }
 
 TEST_CASE("a pile of mixed grains comes to rest") {
-  // samples/scenes/pile.toml is the long run: 1000 grains, 1e5 steps.
+  // The long run is samples/scenes/pile.toml: 1000 grains, 1e5 steps.
   OdeSession session;
   World world;
   dHashSpaceSetLevels(world.space(), -8, -6);  // cells of 4…16 mm
@@ -154,8 +154,8 @@ TEST_CASE("a pile of mixed grains comes to rest") {
   const Watch watch = settle(world, grains, 5e-4, 3);
   CHECK(watch.asleep);
   CHECK(watch.gained < 1e-4 * watch.start);
-  CHECK(watch.deepest < 0.5 * 2.5e-3);  // in flight: 1.6 m/s in a step
-  CHECK(world.depth < 0.01 * 2.5e-3);   // at rest
+  CHECK(watch.deepest < 0.5 * 2.5e-3);  // the depth of an impact at 1.6 m/s in one step
+  CHECK(world.depth < 0.01 * 2.5e-3);   // the depth at rest
   for (const dBodyID grain : grains) {
     const Vec p = to_vec(dBodyGetPosition(grain));
     CHECK(std::max(std::abs(p[0]), std::abs(p[1])) < wall);

@@ -13,8 +13,8 @@ void make_elastic(World& world) {
   world.surface.bounce = 1;
   dWorldSetGravity(world.id(), 0, 0, 0);
   dWorldSetCFM(world.id(), 0);
-  dWorldSetQuickStepNumIterations(world.id(), 60);  // to rounding
-  dWorldSetERP(world.id(), 0);                      // the bounce alone: no push out of the overlap on top of it
+  dWorldSetQuickStepNumIterations(world.id(), 60);  // converges to rounding
+  dWorldSetERP(world.id(), 0);                      // only the bounce: no push out of the overlap in addition
 }
 
 struct Totals {
@@ -22,7 +22,8 @@ struct Totals {
   double energy = 0;        ///< J
 };
 
-/// The poses are arguments, for a step changes velocities first and moves with them then: its impulse is at the poses before it.
+/// The poses are arguments, because a step changes velocities first and then moves the bodies: its impulse is at the poses before
+/// it.
 Totals totals(const std::array<dBodyID, 2>& bodies) {
   Totals sum;
   for (const dBodyID body : bodies) {
@@ -51,20 +52,20 @@ void set_pose(dBodyID body, const Pose& pose) {
   dBodySetQuaternion(body, pose.quaternion.data());
 }
 
-/// Body 2 is put where it overlaps body 1 by a thousandth, and both move towards one another.
+/// Places body 2 where it overlaps body 1 by a thousandth, and lets both move towards one another.
 void bring_together(Random& random, dGeomID geom1, dGeomID geom2) {
   for (const dGeomID geom : {geom1, geom2}) {
     random.turn(geom);
     const dBodyID body = dGeomGetBody(geom);
     const Vec w = random.uniform(0, 3) * random.direction();
     dBodySetAngularVel(body, dReal(w[0]), dReal(w[1]), dReal(w[2]));
-    dBodySetGyroscopicMode(body, 0);  // the impulse alone
+    dBodySetGyroscopicMode(body, 0);  // only the impulse acts
   }
   const Vec direction = random.direction();
   place(geom1, {0, 0, 0});
   place(geom2, 4.0 * direction);
   snProximity proximity;
-  for (int i = 0; i < 20; ++i) {  // Newton's method for the distance
+  for (int i = 0; i < 20; ++i) {  // finds the distance by Newton's method
     REQUIRE(snGeomProximity(geom1, geom2, &proximity) == 1);
     move(geom2, -(proximity.gap + 1e-3) / dot(to_vec(proximity.normal), direction) * direction);
   }
@@ -75,8 +76,9 @@ void bring_together(Random& random, dGeomID geom1, dGeomID geom2) {
 }  // namespace
 
 TEST_CASE("frictionless elastic drop on a plane at 1 m/s") {
-  // "tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z after 0.3620502923 m/s, |omega| 3.7286342504 rad/s; (0.5,0.3,0.25; 4,4) at
-  // 15 deg: -0.0222325084, 3.4155393160." Without gravity nothing turns in flight, so this holds for any time step and depth.
+  // tests/data/README.md: "tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z after 0.3620502923 m/s, |omega| 3.7286342504
+  // rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160." Without gravity nothing turns in flight, so this holds
+  // for any time step and depth.
   struct Case {
     double exponent;
     double v_z, spin;
@@ -126,7 +128,7 @@ TEST_CASE("two bodies that collide without friction keep momentum, angular momen
     const Vec velocity = to_vec(dBodyGetLinearVel(bodies[1]));
     world.quick_step(1e-3);
     CHECK(world.contacts >= 1);
-    CHECK(norm(to_vec(dBodyGetLinearVel(bodies[1])) - velocity) > 0.01);  // they did collide
+    CHECK(norm(to_vec(dBodyGetLinearVel(bodies[1])) - velocity) > 0.01);  // the bodies did collide
     for (std::size_t i = 0; i < 2; ++i) set_pose(bodies[i], poses[i]);
     const Totals after = totals(bodies);
     const double scale = norm(before.linear);

@@ -1,5 +1,5 @@
-// Round bodies do not stop by themselves: a body that rocks on a plane keeps its period and its amplitude, whatever its contact
-// point does under it.
+// Tests that round bodies do not stop by themselves: a body that rocks on a plane keeps its period and its amplitude, however its
+// contact point moves under it.
 #include <doctest/doctest.h>
 
 #include "ode/ode_world.hpp"
@@ -9,15 +9,16 @@ using namespace supernormal::test;
 
 namespace {
 
-/// (0.3, 0.2, 0.1) m with delta = epsilon = exponent, let go from a tilt (rad) about y.
+/// A body of half-axes (0.3, 0.2, 0.1) m with delta = epsilon = exponent, let go from a tilt (rad) about y.
 struct Rocking {
   double exponent;
   double tilt;
-  bool rolls;  ///< without slip; else without friction
+  bool rolls;  ///< without slip; otherwise without friction
 
   static constexpr double kA = 0.3, kB = 0.2, kC = 0.1;  // m
 
-  /// The height of the centre over the plane at a tilt, and its derivative: the support function of the section, the dual norm.
+  /// The height of the centre over the plane at a tilt, and its derivative: the support function of the section, which is the
+  /// dual norm.
   std::array<double, 2> height(double theta) const {
     const double q = exponent / (exponent - 1);
     const double s = kA * std::abs(std::sin(theta));
@@ -27,7 +28,7 @@ struct Rocking {
     return {h, std::copysign(slope, theta)};
   }
 
-  /// Of the inertia about y, per mass: <x^2> + <z^2>, shared/reference/README.md.
+  /// The moment of inertia about y, per mass: <x^2> + <z^2> of tests/data/README.md.
   double inertia() const {
     const auto gamma = [](double x) { return std::tgamma(x); };
     const double e = exponent;
@@ -37,9 +38,9 @@ struct Rocking {
     return kA * kA * xx + kC * kC * zz;
   }
 
-  /// By conservation of energy: g h(theta) + m(theta) theta'^2 / 2 = g h(tilt), where the centre moves up and down with h', and
-  /// along with h if it rolls. theta = tilt sin(u) takes the singularities out of the ends; u = v^2 the cusp of h'' out of the
-  /// middle.
+  /// The period by conservation of energy: g h(theta) + m(theta) theta'^2 / 2 = g h(tilt), where the centre moves up and down
+  /// with h', and along with h if it rolls. theta = tilt sin(u) takes the singularities out of the ends; u = v^2 the cusp of h''
+  /// out of the middle.
   double period() const {
     const int intervals = 2000;
     const double length = std::sqrt(std::numbers::pi / 2);
@@ -65,7 +66,7 @@ Motion rock(const Rocking& rocking, double dt) {
   OdeSession session;
   World world;
   world.add_plane();
-  // ERP: the constraint is on velocities at the beginning of a step, so the centre stays behind the rising h by h'' theta'^2 dt^2 /
+  // The constraint acts on velocities at the beginning of a step, so the centre stays behind the rising h by h'' theta'^2 dt^2 /
   // 2 in each step. Without ERP this adds up (tilt 0.3, dt 1e-4: 1.4 mm and 3 % of the amplitude over ten periods).
   dWorldSetERP(world.id(), dReal(0.8));
   world.surface.mu = rocking.rolls ? dInfinity : 0;
@@ -91,7 +92,7 @@ Motion rock(const Rocking& rocking, double dt) {
     if (theta * before < 0) {
       const double time = dt * (step - theta / (theta - before));
       if (passages == 0) first = time;
-      motion = {(time - first) / periods, extreme};  // in the end: the mean, and the last
+      motion = {(time - first) / periods, extreme};  // the mean period and the last swing
       extreme = 0;
       ++passages;
     }
@@ -104,9 +105,9 @@ Motion rock(const Rocking& rocking, double dt) {
 
 }  // namespace
 
-TEST_CASE("the reference for rocking agrees with shared/reference/README.md") {
-  // "(0.3, 0.2, 0.1), g = 9.81: exponent 2, theta0 = 0.01: 0.317495960 / 0.388773991 s (frictionless / rolling); theta0 = 0.3
-  // frictionless: 0.489837517. Exponent 3, theta0 = 0.1: 0.309433488 / 0.351081324 s."
+TEST_CASE("the reference for rocking agrees with tests/data/README.md") {
+  // tests/data/README.md: "(0.3, 0.2, 0.1), g = 9.81: exponent 2, theta0 = 0.01: 0.317495960 / 0.388773991 s (frictionless
+  // / rolling); theta0 = 0.3 frictionless: 0.489837517. Exponent 3, theta0 = 0.1: 0.309433488 / 0.351081324 s."
   CHECK(Rocking{2, 0.01, false}.period() == relative(0.317495960).epsilon(1e-6));
   CHECK(Rocking{2, 0.01, true}.period() == relative(0.388773991).epsilon(1e-6));
   CHECK(Rocking{2, 0.3, false}.period() == relative(0.489837517).epsilon(1e-6));
@@ -125,9 +126,9 @@ TEST_CASE("an ellipsoid rocks for ten periods without friction and without slip"
 }
 
 TEST_CASE("a superellipsoid of exponent 3 rocks for ten periods without friction and without slip") {
-  // The middle of its face is flat: the contact point passes there with infinite speed (as the inverse root of the tilt), which is
-  // where ODE's first-order steps lose what they lose. With half the step it is half as much, so it is theirs and not the contact
-  // point's: extrapolated to no step, the amplitude stays.
+  // The middle of its face is flat: the contact point passes there with infinite speed (as the inverse root of the tilt), and
+  // there ODE's first-order steps lose amplitude. With half the step it is half as much, so the loss is ODE's and not the contact
+  // point's: extrapolated to a step of zero, the amplitude stays.
   for (const Rocking& rocking : {Rocking{3, 0.1, false}, Rocking{3, 0.1, true}}) {
     CAPTURE(rocking.rolls);
     const Motion coarse = rock(rocking, 4e-5);

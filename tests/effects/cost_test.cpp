@@ -1,4 +1,4 @@
-// What is not named costs nothing: rows, visits and digits.
+// Tests that an effect that is not listed costs nothing: rows, visits and digits.
 #include <doctest/doctest.h>
 
 #include <Eigen/QR>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep = 1e-3;
 
-/// Wrenches of a contact about its point, one a column, from many states of motion: as many dimensions as it has live rows.
+/// The rank of the wrenches of a contact about its point, from many states of motion: as many dimensions as it has live rows.
 int live_rows(const std::vector<fx::Effect>& list) {
   OdeSession session;
   std::vector<fx::Effect> with_gravity = list;
@@ -23,7 +23,7 @@ int live_rows(const std::vector<fx::Effect>& list) {
   Eigen::MatrixXd wrenches(6, 60);
   for (int i = 0; i < wrenches.cols(); ++i) {
     dBodySetPosition(ball, 0, 0, dReal(0.0499));
-    turn(ball, {0, 0, 1}, 0);  // and with it what is fixed to the body
+    turn(ball, {0, 0, 1}, 0);  // a direction that is fixed to the body turns with it
     const Vec v = random.direction();
     const Vec w = 20.0 * random.direction();
     dBodySetLinearVel(ball, dReal(v[0]), dReal(v[1]), dReal(-0.1));
@@ -45,7 +45,7 @@ unsigned long long rows_of(const fx::Effects& effects) {
   return rows;
 }
 
-/// A few bodies that fall on one another; their velocities at the end.
+/// Lets a few bodies fall on one another and returns their velocities at the end.
 std::vector<double> tumble(const std::vector<fx::Effect>& list, const std::function<fx::Material(dGeomID)>& material_of) {
   OdeSession session;
   EffectsWorld scene(list, kStep);
@@ -106,7 +106,7 @@ TEST_CASE("a list without forces visits no body and keeps nothing of it") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kStep);
   CHECK_FALSE(scene.effects.visits_bodies());
-  scene.effects.add_body(nullptr);  // not even looked at
+  scene.effects.add_body(nullptr);  // it is not even read
   for (const fx::Cost& cost : scene.effects.costs()) CHECK(cost.bodies == 0);
   EffectsWorld dragged({fx::QuadraticDrag{1.2, 0.5}}, kStep);
   CHECK(dragged.effects.visits_bodies());

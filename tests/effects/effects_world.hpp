@@ -1,4 +1,4 @@
-// A world with effects, stepped as a program would.
+// A world with effects, stepped as a program would do it.
 #pragma once
 
 #include <deque>
@@ -13,7 +13,7 @@ namespace supernormal::test {
 
 namespace fx = supernormal::effects;
 
-/// What a joint did to the first of its bodies.
+/// The force and torque of a joint on the first of its bodies.
 struct Load {
   Vec force;   ///< N
   Vec torque;  ///< N m, about the contact point
@@ -25,7 +25,7 @@ class EffectsWorld {
   static constexpr int kRoom = 8;
 
   EffectsWorld(const std::vector<fx::Effect>& list, double step) : effects(list, step), step_(step), joints_(dJointGroupCreate(0)) {
-    dWorldSetGravity(id(), 0, 0, 0);  // none unless it is listed
+    dWorldSetGravity(id(), 0, 0, 0);  // no gravity unless it is listed
     effects.set_up(id());
   }
   ~EffectsWorld() { dJointGroupDestroy(joints_); }
@@ -36,7 +36,7 @@ class EffectsWorld {
 
   dWorldID id() const { return world.id(); }
 
-  /// A body of the density in kg/m^3 at a place.
+  /// Adds a body of a density (kg/m^3) at a place.
   dBodyID add(dGeomID geom, double density, const Vec& at) {
     const dBodyID body = world.add(geom, density);
     dBodySetPosition(body, dReal(at[0]), dReal(at[1]), dReal(at[2]));
@@ -58,7 +58,7 @@ class EffectsWorld {
     dJointGroupEmpty(joints_);
   }
 
-  /// Until something holds, or for a time at most (s); returns the time.
+  /// Steps until a condition holds, or for a time at most (s); returns the time.
   double run_until(
       double longest, const std::function<bool()>& is_over = [] { return false; }) {
     int steps = 0;
@@ -72,8 +72,8 @@ class EffectsWorld {
   World world;
   fx::Effects effects;
   std::function<fx::Material(dGeomID)> material_of = [](dGeomID) { return 0; };
-  std::vector<Load> loads;  ///< of the last step
-  double depth = 0;         ///< m, of its deepest contact
+  std::vector<Load> loads;  ///< loads in the last step
+  double depth = 0;         ///< m, of the deepest contact in the last step
 
  private:
   struct Attached {
@@ -108,7 +108,7 @@ class EffectsWorld {
     depth = std::max(depth, double{contact.geom.depth});
   }
 
-  // ODE writes the force on the body that is there into f1, also when only the second is.
+  // ODE writes the force on the only body into f1, also when that is the second.
   void read(std::size_t i) {
     const Attached& joint = feedback_[i];
     const Vec force = to_vec(joint.feedback.f1);

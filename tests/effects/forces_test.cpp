@@ -52,10 +52,11 @@ TEST_CASE("terminal velocity under Stokes drag, and that a thick fluid does not 
 }
 
 TEST_CASE("Stokes drag of spheroids is near to Oberbeck's: 4 % at aspect ratio 2, 10 % at 4") {
-  // Clift, Grace and Weber, Bubbles, Drops, and Particles (1978), table 4.1: drag over that of the sphere of the equatorial radius.
+  // Clift, Grace and Weber, Bubbles, Drops, and Particles (1978), table 4.1: drag over that of the sphere of the equatorial
+  // radius.
   struct Spheroid {
     double aspect;  ///< polar over equatorial half-axis
-    bool along;     ///< the polar axis
+    bool along;     ///< whether it moves along the polar axis
     double ratio;
   };
   const auto prolate_along = [](double e) {
@@ -103,7 +104,7 @@ TEST_CASE("an ellipsoid floats at the depth of its density") {
     EffectsWorld scene({earth(), fx::Buoyancy{1000, level}, fx::Damping{5, 5}}, 2e-3);
     const dBodyID body =
         scene.add(snCreateEllipsoid(scene.world.space(), dReal(0.06), dReal(0.05), dReal(c)), 1000 * ratio, {0, 0, level + 0.05});
-    turn(body, {1, 1, 0}, 20 * kDegree);  // rights itself
+    turn(body, {1, 1, 0}, 20 * kDegree);  // it rights itself
     scene.run_until(6);
     const double draught = level - (dBodyGetPosition(body)[2] - c);
     CHECK(draught == relative(2 * c * low).epsilon(0.01));
@@ -139,12 +140,12 @@ TEST_CASE("a pull below the pull-off force holds, one above lets go") {
   const double pull_off = 5;
   struct Sticky {
     bool flat;
-    fx::Effect contact;  ///< what else the contact has
+    fx::Effect contact;  ///< another effect of the contact
   };
   for (const Sticky& sticky :
        {Sticky{false, fx::Friction{0.5, {}}}, Sticky{true, fx::Friction{0.5, {}}}, Sticky{false, fx::Compliance{1e4, 60, {}}}}) {
-    // A flat body that is pulled almost off tilts by what rounding makes of its corners: started a nanometre higher or lower, one
-    // in five lets go at 0.9 of the force, and none of 120 at 0.87.
+    // The rounding of the corners decides how far a flat body that is pulled almost off tilts: of those that start a nanometre
+    // higher or lower, one in five lets go at 0.9 of the force, and none of 120 at 0.87.
     const double held = sticky.flat ? 0.85 : 0.97;
     for (const double part : {held, 1.03}) {
       CAPTURE(sticky.flat);
@@ -156,7 +157,7 @@ TEST_CASE("a pull below the pull-off force holds, one above lets go") {
       const dBodyID body =
           scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), e, e), 1000, {0, 0, 0.02});
       scene.run_until(0.5);
-      double pull = 0;  // slowly: a spring that is let go at once jumps off
+      double pull = 0;  // the pull grows slowly, because a spring that is let go at once jumps off
       scene.run_until(1, [&] {
         pull = std::min(pull + 0.01 * part * pull_off, mass_of(body) * kGravity + part * pull_off);
         dBodyAddForce(body, 0, 0, dReal(pull));
@@ -168,7 +169,7 @@ TEST_CASE("a pull below the pull-off force holds, one above lets go") {
 }
 
 TEST_CASE("adhesion counts as normal force for friction") {
-  // On a wall: the weight hangs on mu times the adhesion.
+  // The body is on a wall: its weight hangs on mu times the adhesion.
   for (const double part : {0.95, 1.05}) {
     OdeSession session;
     EffectsWorld scene({fx::Friction{0.5, {}}, fx::Adhesion{4, {}}}, kStep);

@@ -1,4 +1,4 @@
-// Coulomb's cone: how far bodies slide, when they start to, and that the force stays in the cone.
+// Tests of Coulomb's cone: how far bodies slide, when they start to, and that the force stays in the cone.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -12,13 +12,13 @@ constexpr double kStep = 5e-4;
 constexpr double kSpeed = 1;  // m/s
 constexpr double kHeight = 0.02;
 
-/// A puck that slides flat: it neither tips nor rolls.
+/// Adds a puck that slides flat: it neither tips nor rolls.
 dBodyID add_puck(EffectsWorld& scene) {
   return scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(kHeight), 20, 20), 1000,
                    {0, 0, kHeight});
 }
 
-/// Lets the puck lie, then pushes it off in a direction; where it is when it has stopped.
+/// Lets the puck lie, then pushes it in a direction, and returns its position when it has stopped.
 Vec slide(EffectsWorld& scene, dBodyID puck, double angle) {
   for (int i = 0; i < 100; ++i) scene.step();
   const Vec start = to_vec(dBodyGetPosition(puck));
@@ -64,7 +64,7 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
       CAPTURE(beyond);
       OdeSession session;
       const double angle = limit + beyond;
-      // Gravity leans instead of the plane, and so in any direction.
+      // Gravity leans instead of the plane, so that it can lean in any direction.
       const double across = kGravity * std::sin(angle);
       const fx::Gravity leaning{{across * std::cos(turn), across * std::sin(turn), -kGravity * std::cos(angle)}};
       EffectsWorld scene({leaning, fx::Friction{coefficient, {}}}, kStep);
@@ -83,11 +83,12 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
 }
 
 TEST_CASE("no contact ever exceeds the cone") {
-  // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. How five contacts of one face
-  // share its load is not determined, and it converges more slowly than with one, whatever the number of iterations.
+  // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. The distribution of a
+  // face's load over five contacts is not determined, and it converges more slowly than with one, whatever the number of
+  // iterations.
   struct Case {
     double exponent;
-    double tolerance;  // of the largest load
+    double tolerance;  // relative to the largest load
   };
   for (const Case& c : {Case{4, 1e-6}, Case{8, 1e-5}}) {
     CAPTURE(c.exponent);
@@ -147,14 +148,14 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
   const double along = 0.1;
   const double across = 0.4;
   const fx::AnisotropicFriction grain{along, across, {1, 1, 0}, {}};
-  for (const double turn : {0.0, 0.7}) {  // of the puck, and the grain with it
+  for (const double turn : {0.0, 0.7}) {  // angle of the puck and of its axes of friction
     CAPTURE(turn);
     OdeSession session;
     EffectsWorld scene({earth(), grain}, kStep);
     dWorldSetQuickStepNumIterations(scene.id(), 200);  // the loads of five contacts of one face are redundant
     scene.world.add_plane();
     const dBodyID puck = add_puck(scene);
-    const double grain_angle = 45 * kDegree + turn;
+    const double axes_angle = 45 * kDegree + turn;
     const auto decelerate = [&](double angle) {
       dBodySetPosition(puck, 0, 0, dReal(kHeight));
       dBodySetAngularVel(puck, 0, 0, 0);
@@ -166,13 +167,13 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
       for (int i = 0; i < 40; ++i) scene.step();
       return (-1 / (40 * kStep * kGravity)) * (to_vec(dBodyGetLinearVel(puck)) - before);
     };
-    // 0.5 % less than the ellipse on its axes: the rectangle keeps a tenth of the other.
-    CHECK(norm(decelerate(grain_angle)) == relative(along).epsilon(0.01));
-    CHECK(norm(decelerate(grain_angle + 90 * kDegree)) == relative(across).epsilon(0.01));
-    const Vec force = decelerate(grain_angle + 45 * kDegree);
+    // The force is 0.5 % less than the ellipse on its axes: the rectangle keeps a tenth of the other side.
+    CHECK(norm(decelerate(axes_angle)) == relative(along).epsilon(0.01));
+    CHECK(norm(decelerate(axes_angle + 90 * kDegree)) == relative(across).epsilon(0.01));
+    const Vec force = decelerate(axes_angle + 45 * kDegree);
     const double root = std::hypot(along, across);
-    const Vec axis = {std::cos(grain_angle), std::sin(grain_angle), 0};
-    const Vec normal = {-std::sin(grain_angle), std::cos(grain_angle), 0};
+    const Vec axis = {std::cos(axes_angle), std::sin(axes_angle), 0};
+    const Vec normal = {-std::sin(axes_angle), std::cos(axes_angle), 0};
     CHECK(dot(force, axis) == relative(along * along / root).epsilon(0.05));
     CHECK(dot(force, normal) == relative(across * across / root).epsilon(0.01));
   }

@@ -17,7 +17,7 @@ struct Impact {
   double out = 0;      ///< m/s
 };
 
-/// A body without gravity flies down onto the plane z = 0 and off again.
+/// Lets a body fly without gravity down onto the plane z = 0 and off again.
 Impact impact(EffectsWorld& scene, dBodyID body, double speed, double step) {
   dBodySetLinearVel(body, 0, 0, dReal(-speed));
   Impact found;
@@ -34,7 +34,7 @@ Impact impact(EffectsWorld& scene, dBodyID body, double speed, double step) {
   return found;
 }
 
-/// The force law F = k depth^(3/2) of a mass m that hits with v (Johnson, section 11.4).
+/// The largest overlap under the force law F = k depth^(3/2) of a mass m that hits with velocity v (Johnson, section 11.4).
 double hertz_overlap(double m, double k, double v) { return std::pow(1.25 * m * v * v / k, 0.4); }
 double hertz_time(double m, double k, double v) { return 2.9432675 * hertz_overlap(m, k, v) / v; }
 
@@ -70,7 +70,7 @@ TEST_CASE("below the threshold nothing bounces") {
   const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius});
   dBodySetLinearVel(ball, 0, 0, dReal(-0.19));
   scene.run_until(0.01);
-  CHECK(dBodyGetLinearVel(ball)[2] < 0.05);  // what pushes the overlap of a step out
+  CHECK(dBodyGetLinearVel(ball)[2] < 0.05);  // the velocity with which the overlap of a step is pushed out
   dBodySetPosition(ball, 0, 0, dReal(kRadius));
   dBodySetLinearVel(ball, 0, 0, dReal(-0.21));
   scene.run_until(0.01);
@@ -78,8 +78,8 @@ TEST_CASE("below the threshold nothing bounces") {
 }
 
 TEST_CASE("energy never grows at restitution up to 1") {
-  // In free flight ODE's steps keep v^2/2 + g z to a term that is the same at the same velocity, so it is compared after whole
-  // bounces.
+  // In free flight ODE's steps keep v^2/2 + g z up to a term that is the same at the same velocity, so energies are compared
+  // after whole bounces.
   for (const double e : {0.7, 1.0}) {
     OdeSession session;
     EffectsWorld scene({earth(), fx::Restitution{e, 0, {}}}, 5e-4);
@@ -104,14 +104,14 @@ TEST_CASE("spring and damper: contact time, overlap and rebound") {
   const double v = 0.4;
   const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
   const double w = std::sqrt(k / mass);
-  for (const double ratio : {0.0, 0.1, 0.3}) {  // of the critical damping
+  for (const double ratio : {0.0, 0.1, 0.3}) {  // relative to the critical damping
     CAPTURE(ratio);
     const double step = std::numbers::pi / w / 100;
     OdeSession session;
     EffectsWorld scene({fx::Compliance{k, 2 * ratio * mass * w, {}}}, step);
     scene.world.add_plane();
     const Impact found = impact(scene, scene.add_ball(kRadius, kDensity, {0, 0, kRadius + 1e-5}), v, step);
-    // Until the force vanishes (Schwager and Poeschel, Granular Matter 9, 2007).
+    // The contact lasts until the force vanishes (Schwager and Poeschel, Granular Matter 9, 2007).
     const double beta = ratio * w;
     const double damped = std::sqrt(w * w - beta * beta);
     const double end = (std::numbers::pi - std::atan2(2 * beta * damped, damped * damped - beta * beta)) / damped;
@@ -158,7 +158,7 @@ TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
   const double v = 0.5;
   const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
   const double k = 4.0 / 3 * kStar * std::sqrt(kRadius);
-  for (const double steps : {200.0, 25.0}) {  // a contact
+  for (const double steps : {200.0, 25.0}) {  // steps of a contact
     CAPTURE(steps);
     const double step = hertz_time(mass, k, v) / steps;
     OdeSession session;
@@ -174,7 +174,7 @@ TEST_CASE("Hertz: contact time and overlap of a ball on a plane") {
 }
 
 TEST_CASE("Hertz: an ellipsoid on a plane, and two balls") {
-  // With the exact solution for the ellipse k = b/a = 0.5: R'/R'' = 2.842753308671, F2 = 0.985172455666.
+  // The exact solution for the ellipse k = b/a = 0.5: R'/R'' = 2.842753308671, F2 = 0.985172455666.
   const double ratio = 2.8427533086709977;
   const double correction = 0.9851724556662358;
   const double c = 0.01;
@@ -249,7 +249,7 @@ TEST_CASE("a flat body rests on springs at the depth that its weight asks for") 
   turn(body, {1, 0.5, 0}, 2 * kDegree);
   scene.run_until(3);
   CHECK(scene.depth == relative(mass_of(body) * kGravity / k).epsilon(0.02));
-  // No more unrest than rigid contacts leave, half of g times the step (samples/studies/README.md).
+  // The unrest is no more than rigid contacts leave, half of g times the step (samples/studies/README.md).
   CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.5 * kGravity * 5e-4);
   CHECK(norm(to_vec(dBodyGetAngularVel(body))) < 0.5 * kGravity * 5e-4 / 0.05);
 }

@@ -1,4 +1,4 @@
-// Resistance to rolling and spinning, as lengths.
+// Tests of resistance to rolling and spinning, which are lengths.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -14,7 +14,7 @@ constexpr double kRadius = 0.05;
 }  // namespace
 
 TEST_CASE("a ball rolls (7/10) v^2 R / (g rho) far in every direction") {
-  // Torque rho N against rolling: the deceleration is (5/7) g rho / R.
+  // The torque against rolling is rho N, so the deceleration is (5/7) g rho / R.
   const double rho = 2e-3;
   const double speed = 0.5;
   for (const double angle : {0.0, 0.3, 45 * kDegree, 1.2}) {

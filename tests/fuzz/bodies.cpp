@@ -13,10 +13,10 @@ namespace {
 constexpr double kLeastLength = 1e-30, kLargestLength = 1e30;  // m
 constexpr double kLeastExponent = 1.01, kLargestExponent = 1000;
 
-// Where the bound on the tapers is computed in another order than the library does it.
+// Tolerance of the bound on the tapers, which is computed in another order than in the library.
 constexpr double kRounding = 1e-12;
 
-// A library that is asked for a million evaluations may take them; the fuzzer has other things to do.
+// Limit of evaluations, because a library that may take a million evaluations would take the fuzzer's time.
 constexpr int kPatience = 10000;
 
 bool is_length(double value) { return value >= kLeastLength && value <= kLargestLength; }
@@ -31,7 +31,7 @@ struct Superellipsoid {
   }
 };
 
-/// Half of them valid, so that there is something to ask.
+/// Draws parameters half of which are valid, so that there are bodies to query.
 Superellipsoid draw_superellipsoid(ByteReader& bytes, bool is_ellipsoid) {
   const bool is_wild = bytes.flag();
   Superellipsoid result{};
@@ -41,7 +41,7 @@ Superellipsoid draw_superellipsoid(ByteReader& bytes, bool is_ellipsoid) {
   return result;
 }
 
-/// 2^(1/epsilon) (epsilon - 1)/epsilon
+/// The largest taper is 2^(1/epsilon) (epsilon - 1)/epsilon.
 double largest_taper(double epsilon) { return std::exp2(1 / epsilon) * (epsilon - 1) / epsilon; }
 
 const UserShape& shape_of(const void* user) { return *static_cast<const UserShape*>(user); }
@@ -50,7 +50,7 @@ double error_at(const UserShape& shape, int part, const dReal* n) {
   return shape.wrong_part == part && n[shape.axis] > shape.above ? shape.wrong : 0;
 }
 
-// The length of (a nx, b ny, c nz), its largest component taken out: the ellipsoid's h.
+// The ellipsoid's h is the length of (a nx, b ny, c nz), computed with its largest component factored out.
 double support_of_ellipsoid(const UserShape& shape, const dReal* n) {
   double scaled[3];
   double largest = 0;
@@ -91,7 +91,7 @@ void hessian(const void* user, const dReal* n, dReal* H) {
 
 void release(void* user) { ++static_cast<UserShape*>(user)->releases; }
 
-// A rotation from any four numbers: ODE's clients have rotations or, after an accident, something that is not finite.
+// Draws a rotation from any four numbers: ODE's clients have rotations or, after an accident, matrices that are not finite.
 void draw_rotation(ByteReader& bytes, dMatrix3 R) {
   dQuaternion q;
   double sum = 0;

@@ -1,4 +1,4 @@
-// Bodies and colliders for the fuzzer of the C interface, made from bytes, and what must hold for making them.
+// Bodies and colliders for the fuzzer of the C interface, made from bytes, and the expectations on making them.
 #pragma once
 
 #include <memory>
@@ -8,25 +8,26 @@
 
 namespace supernormal::fuzz {
 
-/// Has the text of the last error be one that no function under test writes.
+/// Replaces the text of the last error by one that no function under test writes.
 void forget_last_error();
 
-/// A call has been refused: since forget_last_error() its text has become that of `function`, and says more than the name.
+/// Expects that a call was refused: since forget_last_error() the text has become that of `function`, and says more than the
+/// name.
 void expect_refusal(const char* function);
 
-/// What a user-defined body of the fuzzer is: an ellipsoid that gives wrong answers for some of the directions.
+/// A user-defined body of the fuzzer: an ellipsoid that gives wrong answers for some of the directions.
 struct UserShape {
   double half_axes[3] = {1, 1, 1};
   int wrong_part = 0;  ///< 0 none, 1 h, 2 r, 3 H
-  int axis = 0;        ///< of the directions with a component above `above`
-  double above = 0;    ///< along the axis
-  double wrong = 0;    ///< is added
-  int releases = 0;    ///< how often the library has let go of it
+  int axis = 0;        ///< axis of the directions that have a component larger than `above`
+  double above = 0;    ///< bound on the component along the axis
+  double wrong = 0;    ///< is added to the answer
+  int releases = 0;    ///< how often the library has released it
 
   bool is_sound() const { return wrong_part == 0; }
 };
 
-/// A body of ours or nothing, and what it was made from.
+/// A body of ours or none, and the parameters that it was made from.
 class FuzzedBody {
  public:
   FuzzedBody() = default;
@@ -36,7 +37,7 @@ class FuzzedBody {
   FuzzedBody& operator=(const FuzzedBody&) = delete;
   FuzzedBody& operator=(FuzzedBody&&) = delete;
 
-  /// Another body in the place of this one; a unit sphere where the library refuses, as it must outside of the documented ranges.
+  /// Replaces the body by another one; a unit sphere if the library refuses, as it must outside of the documented ranges.
   void create(ByteReader& bytes);
   void destroy();
 
@@ -46,7 +47,7 @@ class FuzzedBody {
 
   dGeomID geom() const { return geom_; }
 
-  /// Whether its support function is one: everything but a user-defined body that gives wrong answers.
+  /// Whether it is a convex body: everything but a user-defined body that gives wrong answers.
   bool is_sound() const { return user_ == nullptr || user_->is_sound(); }
 
  private:
@@ -58,10 +59,10 @@ class FuzzedBody {
   std::unique_ptr<UserShape> user_;
 };
 
-/// One of ODE's own: sphere, plane, box, capsule, cylinder or ray; only with what ODE's own assertions let pass.
+/// Creates one of ODE's own geoms: sphere, plane, box, capsule, cylinder or ray, with parameters that ODE's assertions accept.
 dGeomID create_collider(ByteReader& bytes);
 
-/// A pose of numbers of all kinds; the rotation is one, or holds something that is not finite.
+/// Sets a pose of numbers of all kinds; the rotation is valid, or holds a number that is not finite.
 void place(dGeomID geom, ByteReader& bytes);
 
 }  // namespace supernormal::fuzz

@@ -1,4 +1,4 @@
-// What a fuzzer's bytes mean: numbers, from the front, zeros once they are used up. Same bytes, same numbers, on every machine.
+// Reads numbers from a fuzzer's bytes: from the front, zeros once they are used up. Same bytes, same numbers, on every machine.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ class ByteReader {
 
   unsigned byte() { return is_empty() ? 0U : *next_++; }
 
-  /// 0 … count - 1
+  /// A number in 0 ... count - 1.
   unsigned choice(unsigned count) { return byte() % count; }
 
   bool flag() { return (byte() & 1U) != 0; }
@@ -29,7 +29,7 @@ class ByteReader {
     return static_cast<std::int32_t>(bits);
   }
 
-  /// Any double: eight bytes as they are, one of the values at which something changes, or an everyday one.
+  /// Any double: eight bytes as they are, one of the values at which something changes, or an ordinary one.
   double number() {
     const unsigned kind = byte();
     if (kind < 64) return kEdges[kind % std::size(kEdges)];
@@ -38,10 +38,10 @@ class ByteReader {
     return kind < 96 ? -size : size;
   }
 
-  /// About even in its logarithm, 1/16 … 16.
+  /// A number in 1/16 ... 16, about uniform in its logarithm.
   double everyday() { return std::exp2(8 * share() - 4); }
 
-  /// In 0 … 1.
+  /// A number in 0 ... 1.
   double share() {
     const unsigned high = byte();
     return (high * 256U + byte()) / 65535.0;

@@ -1,5 +1,6 @@
-// The C interface with numbers of every kind: two bodies of ours and one of ODE's are made, changed, moved and asked as the bytes
-// say. Whatever an ODE program may legally do, nothing crashes, a refusal has a message, and an answer is finite with unit normals.
+// The C interface with numbers of every kind: two bodies of ours and one of ODE's are made, changed, moved and queried as the
+// bytes say. Whatever an ODE program may legally do, nothing crashes, a refusal has a message, and an answer is finite with unit
+// normals.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -27,14 +28,14 @@ bool is_unit(const dReal* v) { return std::abs(v[0] * v[0] + v[1] * v[1] + v[2] 
 
 double largest(const dReal* v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
-/// Padding included: what has not been written has not changed in any byte.
+/// Compares with padding included: memory that has not been written has not changed in any byte.
 template <typename T>
 bool is_same(const T& a, const T& b) {
   const auto* const bytes = reinterpret_cast<const unsigned char*>(&a);
   return std::equal(bytes, bytes + sizeof(T), reinterpret_cast<const unsigned char*>(&b));
 }
 
-/// Whether its pose is finite, as far as it has one: a plane has none, a sphere no rotation, a ray a direction only.
+/// Whether the pose is finite, as far as the geom has one: a plane has none, a sphere no rotation, a ray a direction only.
 bool is_placed(dGeomID geom) {
   const int geom_class = dGeomGetClass(geom);
   if (geom_class == dPlaneClass) return true;
@@ -45,7 +46,7 @@ bool is_placed(dGeomID geom) {
   return is_finite(z) && (geom_class == dRayClass || (is_finite(R) && is_finite(R + 4) && is_finite(R + 8)));
 }
 
-/// The pair is asked for its contacts; nothing is written beyond those that are counted.
+/// The contacts of a pair; nothing must be written beyond those that are counted.
 struct Contacts {
   dContactGeom all[kRoom + 1];
   int count;
@@ -143,7 +144,7 @@ class Session {
   }
 
   void ask_mass(dGeomID geom) {
-    if (has_asked_mass_) return;  // of a user's very slender body it takes a second
+    if (has_asked_mass_) return;  // the mass of a user's very slender body takes a second
     has_asked_mass_ = true;
     const double value = bytes_.number();
     dMass mass;
@@ -191,7 +192,7 @@ class Session {
     }
   }
 
-  /// Is the gap of a pair told? Where it is not there must be a reason.
+  /// Whether the gap of a pair is answered. If not, there must be a reason.
   bool ask_gap(dGeomID g1, dGeomID g2, snProximity& answer) {
     forget_last_error();
     if (snGeomProximity(g1, g2, &answer) == 0) {
@@ -200,7 +201,7 @@ class Session {
     }
     expect(is_placed(g1) && is_placed(g2), "what is not finite is refused");
     expect(std::isfinite(answer.gap), "the gap is finite");
-    // Infinite: nothing is known, and then it has not converged.
+    // The error may be infinite if nothing is known, and then the query has not converged.
     expect(answer.error >= 0 && (std::isfinite(answer.error) || answer.converged == 0), "the error of the gap is a bound");
     expect(is_finite(answer.normal) && is_unit(answer.normal), "the normal is of unit length");
     expect(is_finite(answer.point1) && is_finite(answer.point2), "the witness points are finite");
@@ -236,7 +237,7 @@ class Session {
     if (!is_ray && is_sound(g1) && is_sound(g2) && answer.converged == 1) compare(answer, contacts);
   }
 
-  /// Contacts exist where the gap is negative, and are as deep.
+  /// Contacts exist where the gap is negative, and have its depth.
   void compare(const snProximity& answer, const Contacts& contacts) const {
     const double slack = 2 * answer.error + 1e-13 * std::max(largest(answer.point1), largest(answer.point2));
     if (answer.gap > slack) expect(contacts.count == 0, "separated bodies have no contacts");

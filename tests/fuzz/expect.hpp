@@ -1,4 +1,4 @@
-// How a fuzzer tells that something is wrong: by ending the process, which libFuzzer reports with the input.
+// Reports a failure of a fuzzer by ending the process, which libFuzzer reports with the input.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// A fuzzer without libFuzzer: runs it on the files and folders that are named, each once. So every compiler and every preset has
-// the corpora as regression tests.
+// A main function for fuzzers without libFuzzer: runs the fuzzer once on each of the files and folders that are named, so that
+// every compiler and every preset has the corpora as regression tests.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,6 +1,6 @@
-// Any text as a scene file of samples/falling_particles: it is loaded, and then what was loaded is within bounds, or refused with
-// the documented exception. What follows a line "#catalogue" is the grain catalogue "grains.toml" beside it; without one, the
-// samples' is.
+// Any text as a scene file of samples/falling_particles: it is loaded and the result is within bounds, or it is refused with the
+// documented exception. The text after a line "#catalogue" is the grain catalogue "grains.toml" beside it; without one, it is
+// that of the samples.
 #include <array>
 #include <cmath>
 #include <cstddef>

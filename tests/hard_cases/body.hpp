@@ -16,18 +16,18 @@ struct Body {
   Kind kind = Kind::Ellipsoid;
   Vector3 lengths = Vector3::Ones();  ///< m; half-axes, half-lengths, or radius (x and y) and half-length (z)
   double delta = 2, epsilon = 2;      ///< exponents of superellipsoids and superovoids
-  double taper_x = 0, taper_y = 0;    ///< of superovoids
-  std::vector<Vector3> points = {};   ///< m; of polytopes
+  double taper_x = 0, taper_y = 0;    ///< tapers of superovoids
+  std::vector<Vector3> points = {};   ///< m; points of polytopes
   double rounding = 0;                ///< m; radius of a sphere that sweeps the body
   bool is_callback = false;           ///< known by its support function and boundary point alone, without a Hessian
 
-  /// Like this one, swept by a sphere of that radius, m.
+  /// This body swept by a sphere of that radius, m.
   Body rounded(double radius) const;
 
-  /// The same body with lengths in units of `unit` m. A power of two changes no digit.
+  /// This body with lengths in units of `unit` m. A power of two changes no digit.
   Body scaled(double unit) const;
 
-  /// Like this one, known by functions alone.
+  /// This body known by functions alone.
   Body by_callbacks() const;
 };
 
@@ -39,19 +39,19 @@ Body capsule(double radius, double half_length);
 Body cylinder(double radius, double half_length);
 Body polytope(std::vector<Vector3> points);
 
-/// With equal half-axes and exponents.
+/// A superellipsoid with equal half-axes and exponents.
 Body superball(double radius, double exponent);
 
-/// std::invalid_argument when the shape refuses a parameter.
+/// Throws std::invalid_argument when the shape refuses a parameter.
 std::shared_ptr<const Shape> make_shape(const Body& body);
 
-/// Such as "superellipsoid (1, 0.8, 0.5) m; 20, 4".
+/// Describes the body, such as "superellipsoid (1, 0.8, 0.5) m; 20, 4".
 std::string describe(const Body& body);
 
-/// A number with as few digits as %g takes.
+/// Writes a number with as few digits as %g does.
 std::string text(double value);
 
-/// With all the digits that it takes to read the same number back.
+/// Writes a number with all the digits that it takes to read the same number back.
 std::string exact_text(double value);
 std::string exact_text(const Vector3& v);
 

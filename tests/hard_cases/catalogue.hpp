@@ -14,28 +14,28 @@ namespace supernormal::samples {
 
 /// Two bodies in their places.
 struct HardCase {
-  std::string name;    ///< unique, "theme: what"
+  std::string name;    ///< unique, "theme: case"
   std::string reason;  ///< why it is hard
   Body body1, body2;
   std::shared_ptr<const Shape> shape1, shape2;  ///< made of the bodies
   Pose pose1, pose2;
-  std::optional<double> gap = {};            ///< m; signed, in closed form where there is one; a reference has to find it otherwise
+  std::optional<double> gap = {};            ///< m; signed, in closed form where there is one; otherwise a reference has to find it
   std::optional<Vector3> first_normal = {};  ///< unit, body 1's frame; where the solver is to start
 };
 
-/// All of them, in the order of the themes. They live in cases/, one file a theme.
+/// All cases, in the order of the themes. They live in cases/, one file a theme.
 std::vector<HardCase> hard_cases();
 
-/// The bodies' names exchanged.
+/// The case with the bodies' names exchanged.
 HardCase swapped(const HardCase& original);
 
-/// As seen from another frame: x is now at motion.rotation x + motion.position.
+/// The case in another frame: x is now at motion.rotation x + motion.position.
 HardCase moved(const HardCase& original, const Pose& motion);
 
-/// In a unit of length of `unit` m. std::invalid_argument when a length leaves the range of its shape.
+/// The case with lengths in units of `unit` m. Throws std::invalid_argument when a length leaves the range of its shape.
 HardCase scaled(const HardCase& original, double unit);
 
-/// Something that must be refused with std::invalid_argument.
+/// An input that must be refused with std::invalid_argument.
 struct Refusal {
   std::string name;
   std::string reason;

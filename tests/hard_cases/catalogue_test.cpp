@@ -1,4 +1,4 @@
-// Every case of the catalogue: the hybrid's answers against the reference, and what holds without one.
+// Every case of the catalogue: the hybrid's answers against the reference, and conditions that hold without one.
 #include "catalogue.hpp"
 
 #include <doctest/doctest.h>
@@ -38,7 +38,7 @@ std::string describe(const HardCase& one) {
   return one.name + " (" + one.reason + ")\n  " + describe(one.body1) + "\n  " + describe(one.body2) + "\n  ";
 }
 
-/// One failure a case, with the settings.
+/// Reports one failure a case, with the settings.
 void report(const HardCase& one, const Settings& settings, const Violations& violations) {
   if (violations.empty()) return;
   std::string sentences;
@@ -125,7 +125,7 @@ TEST_CASE("hard cases: the reference lies in the interval of every answer, and i
 }
 
 TEST_CASE("hard cases: with proof, the depth is that of the reference") {
-  // Where every normal of a circle is a maximum, there is no end of directions to rule out.
+  // If every normal of a circle is a maximum, the number of directions to rule out has no bound.
   int unproved = 0;
   for (const ReferencedCase& referenced : referenced_cases()) {
     const HardCase& one = *referenced.one;

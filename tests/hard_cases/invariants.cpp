@@ -84,7 +84,8 @@ Proximity solve(const HardCase& one, const Settings& settings, Violations& viola
 
 double rounding_of(const HardCase& one) {
   // Points are computed in body 1's frame and moved: a few operations on coordinates of that size. Point 2 is point 1 and the
-  // gradient of s, each with the rounding of a sum of the terms of s; what is compared with it has that rounding once more.
+  // gradient of s, each with the rounding of a sum of the terms of s; the value that it is compared with has that rounding once
+  // more.
   const double coordinates = one.pose1.position.norm() + one.pose2.position.norm();
   return 4 * gap_of(one).rounding() + 4 * kEpsilon * coordinates;
 }
@@ -121,7 +122,7 @@ Violations check_answer(const HardCase& one, const Settings& settings, const Pro
   if (!(contact >= std::min(height1, height2) - rounding && contact <= std::max(height1, height2) + rounding)) {
     out.push_back("the contact point is not between the witness points along the normal");
   }
-  // Not farther from the witness points than they are apart and the smaller body is long.
+  // The contact point is not farther from the witness points than they are apart and the smaller body is long.
   const double reach = (answer.point2 - answer.point1).norm() +
                        2 * std::min(one.shape1->half_extents().norm(), one.shape2->half_extents().norm()) + rounding;
   const double off = std::max((answer.contact - answer.point1).norm(), (answer.contact - answer.point2).norm());

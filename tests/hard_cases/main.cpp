@@ -1,4 +1,4 @@
-// The catalogue of hard cases as a table: what each solver answers, what that costs, and how far it is from the reference.
+// The catalogue of hard cases as a table: the answer of each solver, its cost, and its distance from the reference.
 //
 //     hard_cases [--filter text] [--reasons] [--tolerance 1e-9] [--max-evaluations 1000] [--certify]
 #include <CLI/CLI.hpp>
@@ -32,7 +32,7 @@ struct NamedSolver {
 constexpr std::array kSolvers = {NamedSolver{Solver::Hybrid, "hybrid"}, NamedSolver{Solver::Newton, "Newton (I)"},
                                  NamedSolver{Solver::FixedPoint, "fixed point (II)"}};
 
-/// How an answer compares with the reference.
+/// The comparison of an answer with the reference.
 enum class Verdict {
   Right,       ///< converged, and within its error of the reference
   Local,       ///< converged, lower than the reference, and does not claim more than a local maximum
@@ -58,7 +58,7 @@ const char* name_of(Status status) {
   return "no answer";
 }
 
-/// Newton and fixed point are for smooth bodies; the library answers all other questions with the hybrid.
+/// Newton and fixed point are for smooth bodies; the library solves all other cases with the hybrid.
 bool is_answered(const HardCase& one, Solver solver) {
   if (solver == Solver::Hybrid) return true;
   if (one.shape1->has_kinks() || one.shape2->has_kinks()) return false;

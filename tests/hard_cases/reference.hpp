@@ -10,15 +10,15 @@ struct Reference {
   double lower = 0;  ///< m
   double upper = 0;  ///< m
 
-  /// How far outside the interval, m.
+  /// The distance of a gap from the interval, m; 0 inside.
   double distance(double gap) const;
 };
 
-/// The case's own gap where it has one; otherwise enclosed by branch and bound over all normals
+/// The case's own gap if it has one; otherwise enclosed by branch and bound over all normals
 /// (tests/proximity/collider_reference), to 1e-12 of the smallest half-extent or rounding.
 Reference find_reference(const HardCase& one);
 
-/// By branch and bound even if the gap is known. Gives up after `max_evaluations` with a wider interval.
+/// Encloses the gap by branch and bound even if it is known. Gives up after `max_evaluations` with a wider interval.
 Reference enclose_gap(const HardCase& one, int max_evaluations = 1000000);
 
 }  // namespace supernormal::samples

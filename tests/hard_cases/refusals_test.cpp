@@ -1,4 +1,4 @@
-// Parameters and poses with which nothing can be computed are refused: by a clear message, or by a status.
+// Tests that parameters and poses with which nothing can be computed are refused: by a clear message, or by a status.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -18,7 +18,7 @@ TEST_CASE("hard cases: bad parameters are refused, and the message says which") 
     } catch (const std::invalid_argument& error) {
       message = error.what();
     }
-    // A name, a value and a range do not fit into less.
+    // A name, a value and a range do not fit into fewer characters.
     if (message.size() < 20) FAIL_CHECK(refusal.name, " (", refusal.reason, "): \"", message, "\"");
   }
 }

@@ -1,4 +1,4 @@
-// The catalogue as a program runs it that has trapped floating-point exceptions: one that is raised ends it.
+// The catalogue in a program that has trapped floating-point exceptions: one that is raised ends it.
 #include "traps.hpp"
 
 #include <doctest/doctest.h>

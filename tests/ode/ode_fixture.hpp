@@ -1,4 +1,4 @@
-// What the tests of the ODE layer share: ODE for the time of a test case, poses, contacts.
+// Helpers that the tests of the ODE layer share: ODE for the time of a test case, poses, contacts.
 #pragma once
 
 #include <ode/ode.h>
@@ -60,7 +60,7 @@ inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b
 inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
 
-/// The same numbers in every run.
+/// Random numbers, the same in every run.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -91,7 +91,7 @@ inline void move(dGeomID geom, const Vec& by) { place(geom, to_vec(dGeomGetPosit
 
 inline constexpr bool kIsSinglePrecision = sizeof(dReal) == sizeof(float);
 
-/// A tolerance of double precision. With single precision, what rounding of dReal leaves of it: some units in the last place of
+/// A tolerance of double precision. With single precision it is larger by the rounding of dReal: some units in the last place of
 /// poses, normals and depths of about this size, which is all that ODE is told.
 inline double within_rounding(double tolerance, double size = 1) {
   constexpr double kEpsilon = std::numeric_limits<dReal>::epsilon();
@@ -106,7 +106,7 @@ inline std::vector<dContactGeom> collide(dGeomID g1, dGeomID g2, int room = 8) {
   return contacts;
 }
 
-/// An ellipsoid or a superellipsoid with half-axes in 0.5…1.5.
+/// Draws an ellipsoid or a superellipsoid with half-axes in 0.5...1.5.
 inline dGeomID random_body(Random& random, dSpaceID space = nullptr) {
   const auto a = dReal(random.uniform(0.5, 1.5));
   const auto b = dReal(random.uniform(0.5, 1.5));

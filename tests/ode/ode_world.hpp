@@ -1,4 +1,4 @@
-// What the tests of motion share: an ODE world that steps our bodies as a program does, and the energies of its bodies.
+// Helpers that the tests of motion share: an ODE world that steps our bodies as a program does, and the energies of its bodies.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -14,7 +14,8 @@ namespace supernormal::test {
 inline constexpr double kGravity = 9.81;  // m/s^2
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-/// A world, its space (destroyed with it) and the near callback of every ODE program. ODE's defaults unless a test says otherwise.
+/// A world, its space (destroyed with it) and the near callback of every ODE program, with ODE's defaults unless a test says
+/// otherwise.
 class World {
  public:
   explicit World(dSpaceID space = dHashSpaceCreate(nullptr)) : id_(dWorldCreate()), space_(space), joints_(dJointGroupCreate(0)) {
@@ -34,7 +35,7 @@ class World {
   dWorldID id() const { return id_; }
   dSpaceID space() const { return space_; }
 
-  /// A body of the geom's mass for a density in kg/m^3.
+  /// Adds a body with the mass of the geom for a density in kg/m^3.
   dBodyID add(dGeomID geom, double density) const {
     dMass mass;
     REQUIRE(snMassSet(&mass, dReal(density), geom) == 1);
@@ -47,7 +48,7 @@ class World {
     return body;
   }
 
-  /// The plane z = 0, rising along x at an angle (rad).
+  /// Adds the plane z = 0, rising along x at an angle (rad).
   void add_plane(double incline = 0) const { dCreatePlane(space_, dReal(-std::sin(incline)), 0, dReal(std::cos(incline)), 0); }
 
   void quick_step(double dt) {
@@ -55,7 +56,7 @@ class World {
     dWorldQuickStep(id_, dReal(dt));
     dJointGroupEmpty(joints_);
   }
-  /// With ODE's exact solver.
+  /// Steps with ODE's exact solver.
   void exact_step(double dt) {
     make_contacts();
     dWorldStep(id_, dReal(dt));
@@ -64,10 +65,10 @@ class World {
 
   static constexpr int kRoom = 8;
 
-  dSurfaceParameters surface{};  ///< of every contact; frictionless unless set
-  int room = kRoom;              ///< for the contacts of a pair, at most kRoom
-  int contacts = 0;              ///< in the last step
-  int most_of_a_pair = 0;        ///< contacts in any step
+  dSurfaceParameters surface{};  ///< parameters of every contact; frictionless unless set
+  int room = kRoom;              ///< room for the contacts of a pair, at most kRoom
+  int contacts = 0;              ///< contacts in the last step
+  int most_of_a_pair = 0;        ///< most contacts of a pair in any step
   double depth = 0;              ///< m, the deepest contact of the last step
 
  private:
@@ -96,7 +97,7 @@ class World {
   dJointGroupID joints_;
 };
 
-/// R I R^T w: the angular momentum about the body's centre of mass, world frame, kg m^2/s.
+/// The angular momentum R I R^T w about the body's centre of mass, world frame, kg m^2/s.
 inline Vec spin_momentum(dBodyID body) {
   dMass mass;
   dBodyGetMass(body, &mass);
@@ -116,16 +117,16 @@ inline double mass_of(dBodyID body) {
   return mass.mass;
 }
 
-/// J
+/// The kinetic energy, J.
 inline double kinetic_energy(dBodyID body) {
   const Vec v = to_vec(dBodyGetLinearVel(body));
   return 0.5 * (mass_of(body) * dot(v, v) + dot(to_vec(dBodyGetAngularVel(body)), spin_momentum(body)));
 }
 
-/// Kinetic and in the field of gravity, from z = 0; J
+/// The kinetic energy and that in the field of gravity, from z = 0; J.
 inline double energy(dBodyID body) { return kinetic_energy(body) + mass_of(body) * kGravity * dBodyGetPosition(body)[2]; }
 
-/// Turned by an angle (rad) about an axis.
+/// Sets the attitude to a turn by an angle (rad) about an axis.
 inline void turn(dBodyID body, const Vec& axis, double angle) {
   dMatrix3 R;
   dRFromAxisAndAngle(R, dReal(axis[0]), dReal(axis[1]), dReal(axis[2]), dReal(angle));

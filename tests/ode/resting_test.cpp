@@ -1,4 +1,4 @@
-// Flat bodies rest as well as ODE's own boxes: on a plane, on a box, on a mesh, and on one another (issue 4).
+// Tests that flat bodies rest as well as ODE's own boxes: on a plane, on a box, on a mesh, and on one another.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr int kSteps = 5000;       // 10 s
 constexpr int kHalfTime = kSteps / 2;
 constexpr std::array<double, 3> kHalfAxes = {0.1, 0.07, 0.05};
 
-/// What the same body is: ODE's box, or ours with an exponent.
+/// The form of a brick: ODE's box, or a body of ours with an exponent.
 struct Brick {
   double exponent = 0;  // 0: dBox
 
@@ -38,7 +38,7 @@ struct Brick {
 
 enum class Floor { Plane, Box, Mesh };
 
-/// ODE's defaults but for dContactApprox1 and mu = 0.5; eight contacts a pair.
+/// A world with ODE's defaults except for dContactApprox1 and mu = 0.5; eight contacts a pair.
 class Scene {
  public:
   explicit Scene(Floor floor) {
@@ -103,7 +103,7 @@ Tilt tilt_of_drop(int k) {
   return {{std::cos(2.4 * k), std::sin(2.4 * k), 0}, 0.02 + 0.004 * k};
 }
 
-/// Of a brick dropped from 0.15 m, s; the end of the run if it does not sleep.
+/// The time (s) in which a brick that is dropped from 0.15 m falls asleep; the end of the run if it does not.
 double time_to_sleep(const Brick& brick, Floor floor, const Tilt& tilt) {
   Scene scene(floor);
   scene.auto_disable();
@@ -130,10 +130,10 @@ Times times_to_sleep(const Brick& brick, Floor floor) {
   return {first, times[times.size() / 2], times.back()};
 }
 
-/// From 5 s to 10 s, without auto-disable.
+/// The motion that remains from 5 s to 10 s, without auto-disable.
 struct Residue {
   double energy = 0;  // mean kinetic energy, J
-  double drift = 0;   // of the body that moves most, m
+  double drift = 0;   // m, of the body that moves most
 };
 
 Residue residue(Scene& scene) {
@@ -177,7 +177,7 @@ TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
     for (const double exponent : kExponents) {
       const Times ours = times_to_sleep({exponent}, floor);
       MESSAGE("exponent ", exponent, ": ", ours.first, " s; median ", ours.median, " s, longest ", ours.longest, " s");
-      // One drop is a matter of luck: how the first corner hits.
+      // The time of one drop is a matter of luck: it depends on how the first corner hits.
       CHECK(ours.median <= 2 * box.median);
       CHECK(ours.longest <= 3 * box.longest);
       if (floor == Floor::Plane) CHECK(ours.first <= 2 * box.first);
@@ -223,7 +223,7 @@ TEST_CASE("a stack of five stands for ten seconds at steps of 10 to 20 ms") {
         add_stack({exponent}, 1e-5 * repetition, scene);
         for (double time = 0; time < 10; time += step) scene.step(step);
         const std::vector<Vec> positions = scene.positions();
-        // At rest the highest is 0.45 above the floor.
+        // At rest the highest body is 0.45 above the floor.
         CHECK(positions.back()[2] >= 0.43);
       }
     }

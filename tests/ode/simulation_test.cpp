@@ -1,4 +1,4 @@
-// Bodies in a world: they come to rest, gain no energy, and bounce as the closed form says.
+// Tests of bodies in a world: they come to rest, gain no energy, and bounce as the closed form says.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Without friction and gravity.
+/// Takes away friction and gravity.
 void make_elastic(World& world) {
   world.surface.mode = dContactApprox1 | dContactBounce;
   world.surface.bounce = 1;
@@ -55,14 +55,14 @@ TEST_CASE("superellipsoids dropped on a plane come to rest on it and lose energy
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     CAPTURE(i);
     CHECK(kinetic_energy(bodies[i]) < 1e-6 * mass_of(bodies[i]));
-    CHECK(dBodyGetPosition(bodies[i])[2] == relative(cases[i].c).epsilon(5e-3));  // lies flat
+    CHECK(dBodyGetPosition(bodies[i])[2] == relative(cases[i].c).epsilon(5e-3));  // the body lies flat
   }
   CHECK(world.depth < 0.02 * 0.05);
 }
 
-TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of shared/reference/README.md") {
-  // "Frictionless, elastic drop on a plane at 1 m/s, tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z after 0.3620502923 m/s,
-  // |omega| 3.7286342504 rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160."
+TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of tests/data/README.md") {
+  // tests/data/README.md: "Frictionless, elastic drop on a plane at 1 m/s, tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z
+  // after 0.3620502923 m/s, |omega| 3.7286342504 rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160."
   struct Case {
     dReal exponent;
     double v_z, spin;
@@ -73,19 +73,19 @@ TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of s
     World world;
     world.room = 1;
     make_elastic(world);
-    dWorldSetERP(world.id(), 0);  // no push out: the impulse alone
+    dWorldSetERP(world.id(), 0);  // no push out: only the impulse acts
     dWorldSetCFM(world.id(), 0);
     world.add_plane();
     const dGeomID geom = snCreateSuperellipsoid(world.space(), dReal(0.5), dReal(0.3), dReal(0.25), c.exponent, c.exponent);
     const dBodyID body = world.add(geom, 1000);
     turn(body, {0, 1, 0}, 15 * kDegree);
-    // Touching: the lowest point is 1e-9 m below the plane.
+    // The body touches: its lowest point is 1e-9 m below the plane.
     const dVector3 down = {0, 0, -1, 0};
     dVector3 lowest;
     REQUIRE(snGeomSupport(geom, down, lowest) == 1);
     dBodySetPosition(body, 0, 0, dReal(-lowest[2] - within_rounding(1e-9)));
     dBodySetLinearVel(body, 0, 0, -1);
-    world.exact_step(1e-7);  // the closed form is of an instant
+    world.exact_step(1e-7);  // the closed form is for an instant
     CHECK(dBodyGetLinearVel(body)[2] == relative(c.v_z).epsilon(within_rounding(1e-6, 50)));
     CHECK(norm(to_vec(dBodyGetAngularVel(body))) == relative(c.spin).epsilon(within_rounding(1e-6)));
   }

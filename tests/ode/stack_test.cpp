@@ -1,4 +1,4 @@
-// What was on the stack before does not decide what a program is told of a pair, in contacts or by snGeomProximity.
+// Tests that the former content of the stack does not decide what a program is told of a pair, in contacts or by snGeomProximity.
 #include <doctest/doctest.h>
 
 #include "ode/collider_fixture.hpp"
@@ -11,7 +11,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kPairs = 400;  // of each kind of collider
+constexpr int kPairs = 400;  // for each kind of collider
 
 struct Answer {
   bool is_told = false;
@@ -20,7 +20,7 @@ struct Answer {
   std::array<dContactGeom, 8> contacts{};
 };
 
-/// Found by is_same_on_every_stack().
+/// The numbers of an answer; is_same_on_every_stack() finds this function by its argument.
 Numbers numbers_of(const Answer& answer) {
   const snProximity& p = answer.proximity;
   Numbers numbers = {double(answer.is_told), p.gap, p.error, double(p.evaluations), double(p.converged), double(p.is_global)};
@@ -84,7 +84,7 @@ TEST_CASE("triangles and ground: the same digits over any stack, and nothing com
   }
 }
 
-// The normals of the two ends of the capsule are as high as each other, and both, but for rounding, lower than its support
+// The normals of the two ends of the capsule are as high as each other, and both are, but for rounding, lower than its support
 // function: the rotations are rounded by more than the coordinates.
 TEST_CASE("a body of micrometres within a short capsule") {
   OdeSession session;

@@ -1,4 +1,4 @@
-// Heightfields for tests, with their samples and triangles known.
+// Heightfields for tests, whose samples and triangles are known.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace supernormal::test {
 
 enum class Source { Callback, Byte, Short, Single, Double };
 
-/// Samples over a rectangle, and ODE's data made from them. Heights are what ODE makes of the samples.
+/// Samples over a rectangle, and ODE's data made from them. Heights are those that ODE makes of the samples.
 class Terrain {
  public:
   using Height = std::function<double(int i, int j)>;
@@ -32,7 +32,7 @@ class Terrain {
   Terrain& operator=(const Terrain&) = delete;
   Terrain& operator=(Terrain&&) = delete;
 
-  /// Anew, for the same dHeightfieldDataID.
+  /// Builds the data anew, for the same dHeightfieldDataID.
   void build(const Layout& layout, const Height& height) {
     layout_ = layout;
     const auto count = static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows);
@@ -69,7 +69,7 @@ class Terrain {
     }
   }
 
-  /// A sample in place: of Source::Double, and of Source::Callback.
+  /// Changes a sample in place; for Source::Double and Source::Callback.
   void set(int i, int j, double height) { doubles_[index(i, j)] = height; }
 
   dGeomID create(bool placeable = false, dSpaceID space = nullptr) const {
@@ -81,13 +81,13 @@ class Terrain {
   double spacing_x() const { return layout_.width / (layout_.columns - 1); }
   double spacing_z() const { return layout_.depth / (layout_.rows - 1); }
 
-  /// The vertex of a sample in the heightfield's frame; of one that repeats, i and j are any numbers.
+  /// The vertex of a sample in the heightfield's frame; if the heightfield repeats, i and j are any numbers.
   Vec vertex(std::int64_t i, std::int64_t j) const {
     return {static_cast<double>(i) * spacing_x() - layout_.width / 2, height(i, j),
             static_cast<double>(j) * spacing_z() - layout_.depth / 2};
   }
 
-  /// As ODE defines it, y at x and z in the heightfield's frame.
+  /// The surface as ODE defines it, y at x and z in the heightfield's frame.
   double surface(double x, double z) const {
     const double u = (x + layout_.width / 2) / spacing_x();
     const double v = (z + layout_.depth / 2) / spacing_z();
@@ -133,7 +133,7 @@ class Terrain {
   std::vector<unsigned char> bytes_;
 };
 
-/// Rough: every sample for itself, in 0 … height; the same for the same seed.
+/// A rough landscape: every sample is independent, in 0 ... height; the same seed gives the same samples.
 inline Terrain::Height rough(unsigned seed, double height) {
   return [seed, height](int i, int j) {
     std::mt19937_64 engine(seed * 7919U + static_cast<unsigned>(i) * 104729U + static_cast<unsigned>(j));
@@ -142,7 +142,7 @@ inline Terrain::Height rough(unsigned seed, double height) {
   };
 }
 
-/// Smooth hills.
+/// A landscape of smooth hills.
 inline Terrain::Height hills(double height, double wave) {
   return [height, wave](int i, int j) { return height * (std::sin(wave * i) + std::cos(0.8 * wave * j + 1)); };
 }

@@ -1,6 +1,6 @@
-// What ODE's demos draw with, without a window: runs the demo's loop for DEMO_FRAMES frames. And what they create boxes with: a
-// dBox, or with DEMO_EXPONENT a superellipsoid of that exponent. Prints every box: where its centre was at first, where it is in
-// the end, and the lowest that it has been, in m.
+// Replaces the drawing functions and dCreateBox of ODE's demos, without a window: runs the demo's loop for DEMO_FRAMES frames,
+// and creates each box as a dBox, or with DEMO_EXPONENT as a superellipsoid of that exponent. Prints for every box where its
+// centre was at first, where it is in the end, and its lowest position, in m.
 
 #include <drawstuff/drawstuff.h>
 #include <ode/ode.h>
@@ -14,7 +14,7 @@
 
 namespace {
 
-// Of simulated time in a frame, for demos that ask; s.
+// Simulated time of a frame, for demos that ask; s.
 constexpr double kFrame = 0.02;
 
 struct Box {

@@ -8,7 +8,7 @@
 namespace supernormal::test {
 namespace {
 
-/// Of {|coordinate| <= half-length}, from the excess of each coordinate.
+/// The signed distance from {|coordinate| <= half-length}, from the excess of each coordinate.
 template <typename Excess>
 double signed_distance(const Excess& excess) {
   return excess.cwiseMax(0).norm() + std::min(excess.maxCoeff(), 0.0);

@@ -11,12 +11,12 @@ double distance_from_box(const Vector3& half_lengths, const Vector3& x);
 double distance_from_capsule(double radius, double half_length, const Vector3& x);
 double distance_from_cylinder(double radius, double half_length, const Vector3& x);
 
-/// The hull of one, two or three points.
+/// The distance of x from the hull of one, two or three points.
 double distance_from_simplex(std::span<const Vector3> corners, const Vector3& x);
 
-/// How far the point x is from the part of the collider's boundary that has the outward normal n, or, of a box, a capsule or a
-/// cylinder, outside of it. The corners of a hull that are within `tolerance` of its highest along n span that part; no more than
-/// three are expected.
+/// The distance of the point x from the part of the collider's boundary that has the outward normal n; for a box, a capsule or a
+/// cylinder, only if it is outside. The corners of a hull that are within `tolerance` of its highest along n span that part; no
+/// more than three are expected.
 double distance_from_extreme_part(const Collider& collider, const Vector3& n, const Vector3& x, double tolerance);
 
 }  // namespace supernormal::test

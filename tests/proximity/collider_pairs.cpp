@@ -19,12 +19,12 @@ constexpr double kSharpest = 1.02, kFlattest = 200;  // exponents
 constexpr double kEllipsoidShare = 0.2, kExtremeShare = 0.3;
 constexpr int kMinHullPoints = 8, kMaxHullPoints = 100;
 
-// Of placing, relative to the unit: the gap is asked for this exactly, and the last step is no longer than that.
+// Tolerances of placing, relative to the unit: the gap is evaluated at this exactly, and the last step is no longer than that.
 constexpr double kPlacingWidth = 1e-4, kPlacingStep = 1e-3;
 constexpr int kMaxPlacings = 60;
 
-/// Moves the collider along `direction` until the gap is `gap`. The gap is a convex function of the way (the maximum of linear
-/// ones), with the share of the normal in the direction as its slope: Newton's method from afar.
+/// Moves the collider along `direction` until the gap is `gap`. The gap is a convex function of the distance (the maximum of
+/// linear ones), with the share of the normal in the direction as its slope: Newton's method converges from afar.
 void place(ColliderPair& pair, const Vector3& direction, double gap) {
   double way = 2 * pair.size;
   for (int k = 0; k < kMaxPlacings; ++k) {
@@ -34,7 +34,7 @@ void place(ColliderPair& pair, const Vector3& direction, double gap) {
     way += step;
     if (std::abs(step) <= kPlacingStep * pair.unit) break;
   }
-  // Once more, exactly: touching is to mean touching.
+  // The last placing is exact, so that touching pairs touch.
   pair.pose.position = way * direction;
   const GapBounds here = bound_gap(*pair.body, {}, *pair.shape, pair.pose, kReferenceWidth * pair.unit);
   pair.pose.position = (way + (gap - here.lower) / here.normal.dot(direction)) * direction;
@@ -86,7 +86,7 @@ int ColliderPairs::any(int low, int high) { return std::uniform_int_distribution
 
 double ColliderPairs::logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
 
-// Braces, here and below: evaluated in this order.
+// Braces, here and below, fix the order of evaluation.
 Vector3 ColliderPairs::half_axes() {
   return Vector3{logarithmic(kSmallest, kLargest), logarithmic(kSmallest, kLargest), logarithmic(kSmallest, kLargest)};
 }

@@ -23,9 +23,9 @@ const char* name_of(ColliderKind kind);
 struct Collider {
   ColliderKind kind;
   Vector3 lengths = Vector3::Zero();  ///< m; half-lengths of a box; radius and half-length of a capsule or cylinder
-  std::vector<Vector3> points;        ///< m; of a triangle or a hull, with their mean at the origin
+  std::vector<Vector3> points;        ///< m; points of a triangle or a hull, with their mean at the origin
 
-  std::unique_ptr<const Shape> make() const;  ///< must not outlive `points`
+  std::unique_ptr<const Shape> make() const;  ///< the shape must not outlive `points`
   Collider scaled(double factor) const;
 };
 
@@ -34,20 +34,20 @@ inline constexpr std::array<double, 7> kColliderGaps = {0.5, 0.05, 0, -0.01, -0.
 
 struct ColliderPair {
   std::string name;
-  double nominal = 0;  ///< of kColliderGaps
+  double nominal = 0;  ///< one of kColliderGaps
   Superellipsoid surface{Vector3::Ones(), 2, 2};
   std::shared_ptr<const Shape> body;  ///< surface, as a program would make it; at rest in the origin
   Collider collider;
-  std::unique_ptr<const Shape> shape;  ///< of the collider
-  Pose pose;                           ///< of the collider
-  double unit = 0;                     ///< m; smallest half-extent of the two; of a triangle, which is flat, the body's
-  double size = 0;                     ///< m; of the numbers that s is the difference of
+  std::unique_ptr<const Shape> shape;  ///< shape of the collider
+  Pose pose;                           ///< pose of the collider
+  double unit = 0;                     ///< m; smallest half-extent of the two; for a triangle, which is flat, the body's
+  double size = 0;                     ///< m; size of the numbers that s is the difference of
   GapBounds reference;                 ///< kReferenceWidth wide
 
   bool is_deep() const { return nominal < -0.2; }
 };
 
-/// Of the unit.
+/// The width of the reference interval, relative to the unit.
 inline constexpr double kReferenceWidth = 1e-12;
 
 /// Random pairs, the same in every run: half-axes and colliders with aspect ratios up to 20, exponents 1.02...200, any attitude and
@@ -74,7 +74,7 @@ class ColliderPairs {
   int drawn_ = 0;
 };
 
-/// 17 digits of everything that the pair is made of.
+/// Writes everything that the pair is made of with 17 digits.
 std::string describe(const ColliderPair& pair);
 
 }  // namespace supernormal::test

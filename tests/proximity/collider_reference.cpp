@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kCorners = 3;
-constexpr std::size_t kMaxCuts = 6;  // per triangle: of its corners and of the latest maxima of its linear programs
+constexpr std::size_t kMaxCuts = 6;  // cuts per triangle: those of its corners and of the latest maxima of its linear programs
 
 using Index = std::size_t;
 
@@ -23,18 +23,18 @@ struct Node {
   Vector3 d;  // m; point2 - point1: s(n) = n.d, and s(m) <= m.d for every other m
 };
 
-/// What is known about a triangle of directions.
+/// A triangle of directions with its cuts and bounds.
 struct Cell {
   std::array<Index, kCorners> corner;
-  std::array<Index, kMaxCuts> cut;  // the corners first
+  std::array<Index, kMaxCuts> cut;  // those of the corners come first
   std::size_t cut_count;
   double bound;  // m; s is not larger in this triangle
   Vector3 peak;  // where the bound is attained, not normalised
   bool operator<(const Cell& other) const { return bound < other.bound; }
 };
 
-/// max over w >= 0, sum(w) = 1 of min over k of cuts[k].w, by trying every point where as many cuts and sides meet as a maximum
-/// needs.
+/// Computes max over w >= 0, sum(w) = 1 of min over k of cuts[k].w, by trying every point where as many cuts and sides meet as a
+/// maximum needs.
 class SmallLinearProgram {
  public:
   explicit SmallLinearProgram(const std::vector<Vector3>& cuts) : cuts_(cuts) {
@@ -52,7 +52,7 @@ class SmallLinearProgram {
   const Vector3& weights() const { return weights_; }
 
  private:
-  /// Where two cuts meet on the sides.
+  /// Offers the points where two cuts meet on the sides.
   void offer_sides(const Vector3& difference) {
     for (int v = 0; v < 3; ++v) {
       const int next = (v + 1) % 3;
@@ -65,7 +65,7 @@ class SmallLinearProgram {
     }
   }
 
-  /// Where three cuts meet: both differences vanish along their cross product.
+  /// Offers the point where three cuts meet: both differences vanish along their cross product.
   void offer_interior(const Vector3& common) {
     const double sum = common.sum();
     if (sum != 0 && (common / sum).minCoeff() > 0) offer(common / sum);
@@ -102,7 +102,7 @@ class BranchAndBound {
       const double slack = cell.bound - best_.lower;
       add_cut(cell, evaluate(cell.peak));
       update_bound(cell);
-      // A cut that does little shows that the triangle is too large for bounds that are linear.
+      // A cut with little effect shows that the triangle is too large for bounds that are linear.
       if (cell.bound - best_.lower > 0.25 * slack) {
         split(cell);
       } else {
@@ -114,8 +114,8 @@ class BranchAndBound {
   }
 
  private:
-  // Along body 1's axes, so that its coordinate planes, on which the support functions of boxy bodies bend sharply, stay sides of
-  // triangles.
+  // The octahedron is along body 1's axes, so that its coordinate planes, on which the support functions of boxy bodies bend
+  // sharply, stay sides of triangles.
   void start_from_octahedron() {
     const auto axis = [&](int k, double sign) { return evaluate(sign * Vector3::Unit(k)); };
     const std::array<std::array<Index, 2>, 3> ends{
@@ -147,7 +147,7 @@ class BranchAndBound {
     return cell;
   }
 
-  /// In place of the oldest one if there is no room.
+  /// The cut replaces the oldest one if there is no room.
   static void add_cut(Cell& cell, Index node) {
     if (cell.cut_count == kMaxCuts) {
       std::copy(cell.cut.begin() + kCorners + 1, cell.cut.end(), cell.cut.begin() + kCorners);
@@ -178,7 +178,7 @@ class BranchAndBound {
     cells_.push(cell);
   }
 
-  /// Halves the longest side: the angles stay away from zero.
+  /// Halves the longest side, so that the angles stay away from zero.
   void split(const Cell& cell) {
     std::size_t longest = 0;
     double length = -1;

@@ -1,4 +1,4 @@
-// The reference for colliders is held to closed forms, to the 1600 pairs with known answers and to dense sampling.
+// Tests of the reference for colliders against closed forms, the 1600 pairs with known answers and dense sampling.
 #include "collider_reference.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ using namespace supernormal::test;
 namespace {
 
 constexpr double kWidth = 1e-13;
-constexpr double kRounding = 4e-15;  // of sizes up to 3
+constexpr double kRounding = 4e-15;  // for sizes up to 3
 constexpr double kRadius = 0.3;
 const Vector3 kLengths(1.2, 0.5, 0.8);
 const Matrix3 kAttitude = Eigen::Quaterniond(0.3, -0.7, 0.2, 0.6).normalized().toRotationMatrix();
@@ -38,7 +38,7 @@ std::vector<Vector3> corners_of_box() {
   return points;
 }
 
-/// Both ways round, at places in and outside of the collider, which stands askew.
+/// Checks in both orders, at places in and outside of the collider, which stands askew.
 template <typename Distance>
 void check_against_sphere(const Shape& collider, const Distance& distance) {
   const Pose pose{{0.4, -0.2, 0.1}, kAttitude};
@@ -80,7 +80,7 @@ TEST_CASE("reference: a sphere and a box, a capsule, a cylinder, a triangle, a h
 }
 
 TEST_CASE("reference: an octahedral, a round and a boxy body standing on the edge, face and corner of a box") {
-  // Faces: along the axes. The body's centre is above the middle of a face of the box; nothing else is nearer.
+  // The face normals are along the axes. The body's centre is above the middle of a face of the box; nothing else is nearer.
   for (const double exponent : {1.02, 2.0, 200.0}) {
     const Superellipsoid body(Vector3(0.2, 0.3, 0.1), exponent, exponent);
     for (int axis = 0; axis < 3; ++axis) {
@@ -91,7 +91,7 @@ TEST_CASE("reference: an octahedral, a round and a boxy body standing on the edg
         CHECK(std::abs(bounds.upper - gap) <= kWidth + kRounding);
       }
     }
-    // Edge and corner: along the normal of the body's point there, apart; by construction the nearest.
+    // Edge and corner are apart along the normal of the body's point there, which is the nearest by construction.
     for (const Vector3& n : {Vector3(1, 2, 0), Vector3(0, -1, 1), Vector3(1, 1, 1), Vector3(-0.3, 0.2, 0.5)}) {
       const Vector3 corner = n.cwiseSign().cwiseProduct(kLengths);
       const Vector3 normal = n.normalized();

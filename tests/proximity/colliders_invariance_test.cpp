@@ -1,4 +1,4 @@
-// A body and a collider with faces and edges: place, attitude and unit of length change the answer only by rounding.
+// Tests of a body and a collider with faces and edges: place, attitude and unit of length change the answer only by rounding.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -38,7 +38,7 @@ Proximity solve(const ColliderPair& pair, const Pose& body, const Pose& collider
   return find_proximity(*pair.body, body, *pair.shape, collider, settings);
 }
 
-/// In another unit of length, and the answer in the old one again.
+/// Solves in another unit of length, and returns the answer in the old one.
 Proximity solve_scaled(const ColliderPair& pair, double factor, const Settings& settings) {
   const Superellipsoid surface(factor * pair.surface.half_axes(), pair.surface.delta(), pair.surface.epsilon());
   const Collider collider = pair.collider.scaled(factor);
@@ -49,7 +49,7 @@ Proximity solve_scaled(const ColliderPair& pair, double factor, const Settings& 
   return out;
 }
 
-/// The same digits, but for coordinates so small that a unit of length makes them denormal numbers.
+/// Compares digits, except for coordinates so small that a unit of length makes them denormal numbers.
 bool identical(const Proximity& a, const Proximity& b) {
   const auto same = [](const Vector3& p, const Vector3& q) { return (p - q).cwiseAbs().maxCoeff() <= 1e-280; };
   return a.gap == b.gap && a.error == b.error && a.normal == b.normal && same(a.point1, b.point1) && same(a.point2, b.point2) &&
@@ -76,7 +76,7 @@ TEST_CASE("colliders: 10 km away, the answer is that of the rounded positions, b
   });
 }
 
-// Deep overlaps have maxima of nearly the same height, of which rounding may decide: here and below they are left out.
+// Deep overlaps have maxima of nearly the same height, among which rounding may decide: here and below they are left out.
 TEST_CASE("colliders: a rigid motion by 10 km changes the gap by the rounding of the positions") {
   const Matrix3 turn = Eigen::Quaterniond(0.3, -0.7, 0.2, 0.6).normalized().toRotationMatrix();
   for_each_pair([&](const ColliderPair& pair) {

@@ -1,5 +1,5 @@
-// Superovoids, compositions and bodies given by functions against every kind of collider and each other: the gap against bounds
-// that are proved for each pair.
+// Tests of superovoids, compositions and bodies given by functions against every kind of collider and each other: the gap against
+// bounds that are proved for each pair.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -35,12 +35,13 @@ using ShapePtr = std::shared_ptr<const Shape>;
 
 constexpr int kDraws = 30;  // bodies of each kind
 constexpr double kRounding = 1e-13;
-constexpr double kExact = 1e-9;            // of the unit, the smaller of the two smallest half-extents
-constexpr double kReferenceWidth = 1e-11;  // of the unit
-// Of overlapping pairs a better way out may be missed; of all pairs some end with a larger error bound, which holds.
+constexpr double kExact = 1e-9;            // relative to the unit, the smaller of the two smallest half-extents
+constexpr double kReferenceWidth = 1e-11;  // relative to the unit
+// For overlapping pairs a shorter separating translation may be missed; some pairs of all kinds end with a larger error bound,
+// which holds.
 constexpr double kStalledShare = 0.005;
 constexpr double kMissedShare = 0.005;
-constexpr double kMissedMost = 0.01;  // of the unit
+constexpr double kMissedMost = 0.01;  // relative to the unit
 
 struct Named {
   std::string name;
@@ -91,7 +92,7 @@ Named rounded_box(Draw& draw) {
   return {"rounded box", std::make_shared<Rounded>(std::make_shared<Box>(draw.lengths()), draw.uniform(0.05, 0.5))};
 }
 
-/// h = 1 + k nz^3 for unit normals: an egg, given by h and r only.
+/// An egg, h = 1 + k nz^3 for unit normals, given by h and r only.
 Named egg(Draw& draw) {
   const double k = draw.uniform(0.02, 0.13);
   const auto point = [k](const Vector3& n) -> Vector3 {
@@ -100,7 +101,7 @@ Named egg(Draw& draw) {
   return {"egg", std::make_shared<CallbackShape>([k](const Vector3& n) { return 1 + k * n.z() * n.z() * n.z(); }, point)};
 }
 
-/// What two unit balls have in common: with a sharp edge, given by h and r only.
+/// The intersection of two unit balls, which has a sharp edge, given by h and r only.
 Named lens(Draw& draw) {
   const double offset = draw.uniform(0.2, 0.7), edge = std::sqrt(1 - offset * offset);
   const auto point = [=](const Vector3& n) -> Vector3 {
@@ -132,10 +133,11 @@ std::vector<Named> colliders(Draw& draw, const std::vector<Vector3>& points) {
 
 struct Outcome {
   int pairs = 0, missed = 0, stalled = 0;
-  double worst = 0, worst_missed = 0;  // of the unit
+  double worst = 0, worst_missed = 0;  // relative to the unit
 };
 
-/// One pair, moved along the direction in which it was apart until the gap is `nominal` (of the unit) or, by another way out, less.
+/// Checks one pair, moved along the direction in which it was apart until the gap is `nominal` (relative to the unit) or, by
+/// another separating translation, less.
 void check(const Named& body, const Named& collider, double nominal, Draw& draw, Outcome& outcome) {
   const double extent1 = body.shape->half_extents().minCoeff(), extent2 = collider.shape->half_extents().minCoeff();
   const double unit = extent2 > 0 ? std::min(extent1, extent2) : extent1;

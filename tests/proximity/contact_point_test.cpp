@@ -1,4 +1,4 @@
-// Where a contact acts: halfway in depth, and at the sharper body's point.
+// Tests of the point at which a contact acts: halfway in depth, and at the sharper body's point.
 #include "proximity/contact_point.hpp"
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ Pose at(const Vector3& position) { return {position, Matrix3::Identity()}; }
 
 TEST_CASE("the contact does not depend on the order of the bodies") {
   for (const ReferencePair& pair : reference_pairs()) {
-    // One evaluation each, with the same normal: what differs is the choice of the point alone.
+    // Both have one evaluation with the same normal, so that only the choice of the point differs.
     GapFunction gap(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2),
         swapped(*pair.shape2, pair.pose2, *pair.shape1, pair.pose1);
     GapJet jet, swapped_jet;
@@ -31,7 +31,7 @@ TEST_CASE("the contact does not depend on the order of the bodies") {
     swapped.evaluate(-(pair.pose2.rotation.transpose() * n), Order::Hessian, swapped_jet);
     const Vector3 contact = contact_point(gap, jet);
     const Vector3 from_body2 = pair.pose2.position + pair.pose2.rotation * contact_point(swapped, swapped_jet);
-    // A boundary point of a flat face is known to no digit, but lies on the face: it weighs little.
+    // A boundary point of a flat face is known to no digit, but lies on the face: it has little weight.
     const double difference = (contact - from_body2).norm();
     if (pair.is_well && !(difference <= 1e-6 * pair.unit)) FAIL_CHECK(pair.name, " contacts differ by ", difference);
     const double height = std::abs(n.dot(contact - from_body2));
@@ -73,7 +73,7 @@ TEST_CASE("a flat face and a sharp corner: at the corner") {
   }
 }
 
-TEST_CASE("without curvature: the middle of the witness points") {
+TEST_CASE("without radii of curvature: the middle of the witness points") {
   const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(3, 2, 1));
   const CallbackShape plain([=](const Vector3& n) { return ellipsoid->support(n); },
                             [=](const Vector3& n) { return ellipsoid->point(n); });

@@ -1,4 +1,4 @@
-// The gap function: its value from the shapes' own, its derivatives from differences.
+// Tests of the gap function: its value from the shapes' own, its derivatives from differences.
 #include "supernormal/proximity/gap_function.hpp"
 
 #include <doctest/doctest.h>
@@ -81,7 +81,7 @@ TEST_CASE("the unit of length is the smallest half-extent of what is not a point
 }
 
 TEST_CASE("the stated rounding of s is one") {
-  // Against a closed form: the supporting planes of two ellipsoids, in long double.
+  // The closed form is the distance of the supporting planes of two ellipsoids, in long double.
   const Vector3 half1(3, 2, 1), half2(0.5, 4, 2);
   const Ellipsoid shape1(half1), shape2(half2);
   const Vector3 offset(5, 1, -3);
@@ -98,7 +98,7 @@ TEST_CASE("the stated rounding of s is one") {
   }
 }
 
-TEST_CASE("curvature needs both bodies'") {
+TEST_CASE("a Hessian needs those of both bodies") {
   const CallbackShape plain([](const Vector3& n) { return kShape1.support(n); }, [](const Vector3& n) { return kShape1.point(n); });
   CHECK(GapFunction(kShape1, {}, kShape2, {}).has_hessian());
   CHECK_FALSE(GapFunction(plain, {}, kShape2, {}).has_hessian());

@@ -1,4 +1,4 @@
-// What does not depend on the point of view: order, place, attitude and unit of length change results only by rounding.
+// Tests that order, place, attitude and unit of length change results only by rounding.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// To rounding: reported errors are then a few units of it.
+/// Settings that ask for rounding: reported errors are then a few units of it.
 Settings tight() {
   Settings settings;
   settings.tolerance = 1e-15;
   return settings;
 }
 
-/// Only where no other maximum comes near does rounding not decide which one is found.
+/// Only if no other maximum comes near is the answer independent of rounding.
 bool has_one_answer(const ReferencePair& pair) { return pair.is_unique; }
 
 Superellipsoid scaled(const Superellipsoid& shape, double factor) {

@@ -1,4 +1,4 @@
-// Pairs with published inputs or closed forms (shared/reference/README.md), to 1e-10 of the bodies' size.
+// Tests of pairs with published inputs or closed forms (tests/data/README.md), to 1e-10 of the bodies' size.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -25,7 +25,7 @@ Pose at(const Vector3& position, const Eigen::Quaterniond& attitude = Eigen::Qua
 
 Superellipsoid superball(double radius, double exponent) { return {Vector3::Constant(radius), exponent, exponent}; }
 
-/// Vectors given to 13 decimals.
+/// Compares with vectors that are given to 13 decimals.
 void check_near(const Vector3& value, const Vector3& expected, double tolerance) {
   CHECK_MESSAGE((value - expected).norm() <= tolerance, text(value), " instead of ", text(expected));
 }

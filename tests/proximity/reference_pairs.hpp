@@ -1,4 +1,4 @@
-// The 1600 pairs with known answers (tests/data/superellipsoid_pairs.csv; shared/reference/README.md says how they were made).
+// The 1600 pairs with known answers (tests/data/superellipsoid_pairs.csv; tests/data/README.md says how they were made).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 
 namespace supernormal::test {
 
-/// As the file's groups of 25 were made: gap / smallest half-axis. Where there are several ways to separate, the true depth is
+/// Nominal gaps / smallest half-axis of the file's groups of 25. If several translations separate the bodies, the true depth is
 /// less.
 inline constexpr std::array<double, 8> kNominalGaps = {0.5, 0.1, 1e-3, 0, -1e-3, -0.02, -0.1, -0.3};
 inline constexpr std::size_t kGroupSize = 25;
@@ -24,7 +24,7 @@ inline constexpr std::size_t kGroupSize = 25;
 struct ReferencePair {
   std::string name;    // class and line in the file
   std::string kind;    // class
-  double nominal = 0;  // of kNominalGaps
+  double nominal = 0;  // one of kNominalGaps
   std::shared_ptr<const Shape> shape1, shape2;
   Superellipsoid surface1{Vector3::Ones(), 2, 2}, surface2{Vector3::Ones(), 2, 2};  // the same bodies, for the implicit equation
   Pose pose1, pose2;
@@ -36,7 +36,7 @@ struct ReferencePair {
   bool is_apart_or_touching() const { return nominal >= -1e-3; }
 };
 
-/// An ellipsoid where it is one: the shape that a program would choose.
+/// An ellipsoid if it is one: the shape that a program would choose.
 inline std::shared_ptr<const Shape> make_shape(const Superellipsoid& shape) {
   if (shape.delta() == 2 && shape.epsilon() == 2) return std::make_shared<Ellipsoid>(shape.half_axes());
   return std::make_shared<Superellipsoid>(shape);
@@ -90,7 +90,7 @@ inline std::vector<ReferencePair> load_reference_pairs() {
   return pairs;
 }
 
-/// Read once.
+/// The pairs, which are read once.
 inline const std::vector<ReferencePair>& reference_pairs() {
   static const std::vector<ReferencePair> pairs = load_reference_pairs();
   return pairs;

@@ -1,4 +1,4 @@
-// The three solvers, every way a solve can end, and the special pairs.
+// Tests of the three solvers, every way in which they can end, and special pairs.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -35,14 +35,14 @@ Proximity solve(const ReferencePair& pair, const Settings& settings = {}, const 
   return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, first_normal);
 }
 
-/// A body whose functions return what is not a number.
+/// A body whose functions return NaN.
 class NotANumber final : public Shape {
  public:
   void evaluate(const Vector3&, Order, Jet& jet) const override { jet = {kNan, Vector3::Constant(kNan), Matrix3::Constant(kNan)}; }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 };
 
-/// A ball whose functions return what is not a number where the normal's z is above a limit.
+/// A ball whose functions return NaN if the normal's z is above a limit.
 class KnownBelow final : public Shape {
  public:
   explicit KnownBelow(double limit) : limit_(limit) {}
@@ -80,7 +80,7 @@ TEST_CASE("the three solvers agree on ellipsoids, and where they converge on oth
     if (!is_smooth(pair) || !pair.is_apart_or_touching()) continue;
     for (const Solver solver : {Solver::Newton, Solver::FixedPoint, Solver::Hybrid}) {
       const Proximity out = solve(pair, with(solver));
-      // Newton has no safeguard: of the moderate exponents it loses one pair.
+      // Newton has no safeguard: it loses one pair with moderate exponents.
       if (solver == Solver::Newton && pair.kind == "moderate" && out.status != Status::Converged) continue;
       ++compared;
       const bool good = out.status == Status::Converged && std::abs(out.gap - pair.gap) <= out.error + 1e-14;
@@ -98,7 +98,7 @@ TEST_CASE("bodies without a Hessian are solved to the tolerance") {
     if (!pair.is_apart_or_touching()) continue;
     const CallbackShape shape1 = without_hessian(pair.shape1), shape2 = without_hessian(pair.shape2);
     for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
-      if (solver == Solver::FixedPoint && !is_smooth(pair)) continue;  // without a safeguard it is not for edges
+      if (solver == Solver::FixedPoint && !is_smooth(pair)) continue;  // it has no safeguard and is not for edges
       const Proximity out = find_proximity(shape1, pair.pose1, shape2, pair.pose2, with(solver));
       const double error = std::abs(out.gap - pair.gap);
       // Where nothing is proved, in overlaps deeper than the ball that rolls inside, the reported error is an estimate.
@@ -131,8 +131,8 @@ TEST_CASE("an early out stops at the first normal that separates") {
         if (out.status == Status::Apart || out.gap > out.error) FAIL_CHECK(pair.name, " called apart by ", out.gap);
         continue;
       }
-      if (pair.nominal == 0) continue;  // either way
-      // A lower bound of the distance, and the witness points an upper one.
+      if (pair.nominal == 0) continue;  // a touching pair may be either
+      // The gap is a lower bound of the distance, and the witness points give an upper one.
       const bool bounds = out.status == Status::Apart && out.gap > 0 && out.gap <= pair.gap * (1 + 1e-12) + 1e-14 &&
                           (out.point2 - out.point1).norm() >= pair.gap * (1 - 1e-12) - 1e-14 &&
                           pair.gap - out.gap <= out.error + 1e-14;
@@ -170,7 +170,7 @@ TEST_CASE("a limit of evaluations is kept, and the answer so far is a valid one"
         const bool kept = out.evaluations <= limit && out.evaluations >= 1;
         const bool valid = std::isfinite(out.gap) && out.error >= 0 && out.point1.allFinite() && out.point2.allFinite() &&
                            out.contact.allFinite() && std::abs(out.normal.norm() - 1) <= 4e-16;
-        // s of any normal is a lower bound.
+        // The value of s for any normal is a lower bound.
         const bool bound = out.gap <= pair.gap + 1e-9 * pair.unit;
         if (!(kept && valid && bound)) {
           FAIL_CHECK(pair.name, " solver ", static_cast<int>(solver), " limit ", limit, " evaluations ", out.evaluations, " gap ",
@@ -269,7 +269,7 @@ TEST_CASE("two spheres: one evaluation, exact") {
 
 TEST_CASE("a point in and outside an ellipsoid: its true distance") {
   const Ellipsoid body(Vector3(3, 2, 1));
-  // The smallest radius of curvature is 1/3: no deeper than that the nearest point of the boundary is where the normal says.
+  // The smallest radius of curvature is 1/3: no deeper than that, the nearest point of the boundary is where the normal says.
   for (const Vector3& n : random_normals(50, 32)) {
     for (const double distance : {-0.3, -0.1, -1e-6, 0.0, 1e-6, 0.1, 5.0, 1e3}) {
       Settings settings;
@@ -281,7 +281,7 @@ TEST_CASE("a point in and outside an ellipsoid: its true distance") {
       if (!good) FAIL_CHECK("n ", text(n), " distance ", distance, " gap ", out.gap, " status ", static_cast<int>(out.status));
     }
   }
-  // At the centre: out through the thinnest side.
+  // From the centre, the shortest translation is through the thinnest side.
   const Proximity centre = find_proximity(body, {}, Sphere(0), {});
   CHECK(centre.status == Status::Converged);
   CHECK(std::abs(centre.gap + 1) <= 1e-9);
@@ -316,7 +316,7 @@ TEST_CASE("sweeping both bodies by spheres lowers the gap by the radii") {
     if (pair.nominal < 0) continue;
     const Rounded shape1(pair.shape1, 0.25), shape2(pair.shape2, 0.5);
     const Proximity out = find_proximity(shape1, pair.pose1, shape2, pair.pose2);
-    // One maximum still: the core is apart, and the sweep moves every supporting plane alike.
+    // There is still one maximum: the core is apart, and the sweep moves every supporting plane alike.
     const double error = std::abs(out.gap - (pair.gap - 0.75));
     const bool good = out.status == Status::Converged && error <= out.error + 1e-14;
     if (!good) FAIL_CHECK(pair.name, " status ", static_cast<int>(out.status), " error ", error, " reported ", out.error);

@@ -1,4 +1,5 @@
-// What was on the stack before does not decide an answer: the reference pairs, and bodies that do not tell all of their corners.
+// Tests that the former content of the stack does not decide an answer: the reference pairs, and bodies that do not name all of
+// their corners.
 #include <doctest/doctest.h>
 
 #include "painted_stack.hpp"

@@ -1,4 +1,4 @@
-// The classes of superellipsoids of the reference file (reference_pairs.hpp), to draw more of.
+// The classes of superellipsoids of the reference file (reference_pairs.hpp), from which more are drawn.
 #pragma once
 
 namespace supernormal::test {

@@ -1,4 +1,4 @@
-// Points around a line.
+// Tests of boundary points around a line.
 #include "raycast/portal.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ using namespace supernormal;
 
 namespace {
 
-// Looking down along -z: the line is the z axis, c the origin, d = -r.
+// The view is down along -z: the line is the z-axis, c the origin, d = -r.
 const Vector3 kDown = -Vector3::UnitZ();
 constexpr double kRounding = 1e-15;
 
@@ -27,7 +27,7 @@ TEST_CASE("points on one side leave a sector of directions that may separate") {
   portal.add(beside(0.3, 2));
   CHECK(portal.sector() == test::relative(M_PI));
   portal.add(beside(-0.4, 0.5));
-  portal.add(beside(0.1, 7));  // between the two: tells nothing
+  portal.add(beside(0.1, 7));  // it is between the two and tells nothing
   CHECK_FALSE(portal.is_pierced());
   CHECK(std::isinf(portal.upper_bound()));
   CHECK(portal.sector() == test::relative(M_PI - 0.7));
@@ -67,7 +67,7 @@ TEST_CASE("a point on the line is a portal") {
   CHECK((portal.normal().normalized() + kDown).norm() < 1e-15);
 }
 
-// The line through a corner of the triangle or through its middle: what the rounding of the points may take off is in the bound.
+// The line passes through a corner of the triangle or through its middle: the bound includes the rounding of the points.
 TEST_CASE("the bound holds for steep portals of rounded points") {
   constexpr double kCoarse = 1e-9;
   std::mt19937_64 engine(6);
@@ -97,7 +97,7 @@ TEST_CASE("each point in front of the portal raises it, and the bound holds") {
   std::normal_distribution<double> gauss;
   for (int k = 0; k < 200; ++k) {
     Portal portal(kDown, kRounding);
-    double highest = -std::numeric_limits<double>::infinity();  // of the portal so far
+    double highest = -std::numeric_limits<double>::infinity();  // height of the portal so far
     for (int i = 0; i < 60; ++i) {
       const Vector3 r = Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized();  // on the unit sphere
       portal.add(-r);

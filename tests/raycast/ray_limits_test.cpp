@@ -1,4 +1,4 @@
-// Rays where there is little to hold on to: at any scale and place, tangent, along axes, out of range.
+// Tests of badly conditioned rays: at any scale and place, tangent, along axes, out of range.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
-/// Bodies of every kind, points, segments and flat hulls among them; `points` holds those of a hull.
+/// Draws bodies of every kind, points, segments and flat hulls among them; `points` holds those of a hull.
 std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, std::vector<Vector3>& points) {
   const auto length = [&] { return size * random.uniform(0.05, 1); };
   switch (k % 7) {
@@ -79,7 +79,7 @@ TEST_CASE("scale, place and attitude make no difference") {
       CHECK(std::abs(other.distance - hit.distance) <= allowed);
       CHECK((R.transpose() * (other.point - pose.position) - hit.point).norm() <= allowed + input_error);
     }
-    // From 1e10 away, as a program asks that wants "any distance"; the direction is rounded to 1e-6 m there.
+    // The ray starts 1e10 away, as for a program that wants "any distance"; the direction is rounded to 1e-6 m there.
     const RayHit far = find_ray_hit(surface, {}, ray.at(-1e10), ray.direction, kInfinity);
     if (far.hit) CHECK(distance_to_boundary(surface, far) <= 1e-9 * unit + 1e-13);
   }
@@ -171,7 +171,7 @@ TEST_CASE("the proximity of a body and a ray") {
       const double t = std::clamp((centre - o).dot(v), 0.0, length);
       const double distance = (o + t * v - centre).norm() - radius;
       const bool is_through = t > radius && t < length - radius;
-      if (distance < 0 && !is_through) continue;  // the shortest way out may lead past the end
+      if (distance < 0 && !is_through) continue;  // the shortest separating translation may lead past the end
       const Proximity result = find_ray_proximity(Sphere(radius), {centre, Matrix3::Identity()}, o, v, length);
       CHECK(result.status == Status::Converged);
       CHECK(std::abs(result.gap - distance) <= 1e-9 * radius);

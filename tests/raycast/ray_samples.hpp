@@ -1,4 +1,4 @@
-// Rays against superellipsoids, and where they hit by the implicit equation alone.
+// Rays against superellipsoids, and their hits by the implicit equation alone.
 #pragma once
 
 #include <cmath>
@@ -51,7 +51,7 @@ class RandomRays {
     return {factor * shape.point(w) - start * v, v};
   }
 
-  /// A point, `factor` times as far out as the boundary.
+  /// A point `factor` times as far out as the boundary.
   Vector3 point(const Superellipsoid& shape, double factor) {
     const Vector3 x = direction();
     return x * (factor / gauge(shape, x));
@@ -74,7 +74,7 @@ class WithoutHessian final : public Shape {
   const Shape& shape_;
 };
 
-/// The gauge along a line is convex: its least value by trisection, the crossings of 1 by bisection.
+/// The gauge along a line is convex: its least value is found by trisection, the crossings of 1 by bisection.
 struct Crossings {
   double least = 0;            // the least value of the gauge
   double entry = 0, exit = 0;  // distances along the ray

@@ -1,4 +1,4 @@
-// Rays against the core's shapes.
+// Tests of rays against the core's shapes.
 #include "supernormal/raycast/ray.hpp"
 
 #include <doctest/doctest.h>
@@ -27,7 +27,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 constexpr int kRaysPerClass = 2000;
 
-/// What every hit of a superellipsoid must be, against the implicit equation.
+/// Checks the conditions on every hit of a superellipsoid, against the implicit equation.
 void check_hit(const Superellipsoid& shape, const Ray& ray, const RayHit& hit, double expected, double normal_tolerance,
                double boundary_tolerance = 1e-9) {
   const double unit = shape.half_axes().minCoeff();
@@ -40,14 +40,14 @@ void check_hit(const Superellipsoid& shape, const Ray& ray, const RayHit& hit, d
 
   CHECK(distance_to_boundary(shape, hit) <= 1e-9 * unit);
   CHECK(hit.boundary_error <= boundary_tolerance * unit);
-  // Where the implicit equation has it, with its own rounding.
+  // The distance is that of the implicit equation, with its own rounding.
   CHECK(std::abs(hit.distance - expected) <= hit.distance_error + 1e-14 * (size + hit.distance) / along);
-  // The normal is the one there; on a sharp edge, one whose boundary point is there.
+  // The normal is the one there; on a sharp edge, it is one whose boundary point is there.
   const double turned = (level_normal(shape, hit.point) - hit.normal).norm();
   CHECK(std::min(turned, (shape.point(hit.normal) - hit.point).norm() / unit) <= normal_tolerance);
 }
 
-/// No point of the body in front of the hit.
+/// Checks that no point of the body is in front of the hit.
 void check_nothing_before(const Superellipsoid& shape, const Ray& ray, const RayHit& hit) {
   double least = kInfinity;
   for (int halving = 1; halving < 24; ++halving)
@@ -70,7 +70,7 @@ TEST_CASE("spheres and ellipsoids: the closed form, from outside, inside and beh
     const double length = random.uniform(0, 10);
     const RayHit hit = is_sphere ? find_ray_hit(Sphere(a.x()), {}, o, v, length) : find_ray_hit(Ellipsoid(axes), {}, o, v, length);
 
-    // |(o + t v) / axes|^2 = 1
+    // The hit is at |(o + t v) / axes|^2 = 1.
     const Vector3 p = o.cwiseQuotient(axes), q = v.cwiseQuotient(axes);
     const double A = q.squaredNorm(), B = p.dot(q), C = p.squaredNorm() - 1;
     const double discriminant = B * B - A * C;

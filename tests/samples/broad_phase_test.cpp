@@ -54,13 +54,13 @@ Pairs all_pairs(const World& world) {
 
 Scene scene_of_peas(int count) { return scene_of(replaced(kSceneText, "count = 5", "count = " + std::to_string(count))); }
 
-/// The same grains in the same places.
+/// A world with the same grains in the same places.
 World make_world(const Scene& scene) {
   Random random(1);
   return World(scene, place(scene, random));
 }
 
-/// Grains anywhere in a box of these sides above the floor, close enough to meet.
+/// Scatters grains in a box of these sides above the floor, close enough to meet.
 void scatter(const World& world, const Point& sides) {
   Random random(2);
   for (const Body& body : world.bodies()) {

@@ -1,4 +1,4 @@
-// What the program says about a mistake in its input.
+// The messages of the program about mistakes in its input.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
-/// What loading the scene says, with the temporary folder's name taken out; "" when it is accepted.
+/// The message from loading the scene, without the temporary folder's name; "" when it is accepted.
 inline std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText) {
   const TemporaryFolder folder;
   folder.write("grains.toml", catalogue);

@@ -1,4 +1,4 @@
-// samples/compound: the mass and inertia of bodies made of several geoms.
+// Tests of samples/compound: the mass and inertia of bodies made of several geoms.
 #include "compound.hpp"
 
 #include <doctest/doctest.h>
@@ -55,8 +55,8 @@ struct Sums {
   }
 };
 
-/// The cells of a cubic lattice over the bounding box of a geom that stands in its place, each with the share of it that the
-/// distance of its middle from the boundary tells.
+/// Adds the cells of a cubic lattice over the bounding box of a geom in its place, each with the share of it that follows from
+/// the distance of its middle from the boundary.
 void add_cells(const Part& part, double edge, double weight, Sums& sums) {
   std::array<dReal, 6> box{};
   dGeomGetAABB(part.geom, box.data());
@@ -109,13 +109,14 @@ TEST_CASE("compound: tapered, turned and moved parts against sums over a lattice
   CHECK(least_gap(parts) > 0);
 
   Sums sums;
-  // What the linear share gets wrong goes with the square of the edge (Steiner's formula): Richardson's extrapolation.
+  // The error of the linear share is proportional to the square of the edge (Steiner's formula), so Richardson's extrapolation
+  // applies.
   for (const Part& part : parts) {
     add_cells(part, 0.02, 4.0 / 3, sums);
     add_cells(part, 0.04, -1.0 / 3, sums);
   }
   const auto& [xx, yy, zz, xy, xz, yz] = sums.second;
-  constexpr double kTolerance = 5e-4;  // twice what the lattice leaves
+  constexpr double kTolerance = 5e-4;  // twice the error of the lattice
   const double size = kTolerance * (xx + yy + zz);
   CHECK(mass.mass == supernormal::test::relative(sums.mass).epsilon(kTolerance));
   for (const double moment : sums.first) CHECK(std::abs(moment) < kTolerance * sums.mass);  // the centre of mass is the origin

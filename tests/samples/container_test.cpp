@@ -105,7 +105,7 @@ TEST_CASE("grains start within their container, clear of its walls") {
       const double radius = scene.grains[p.kind].grain.bounding_radius() * (1 - 1e-12);
       constexpr int kDirections = 200;
       for (int i = 0; i < kDirections; ++i) {
-        // Points all over the bounding sphere, by the golden angle.
+        // The points cover the bounding sphere, by the golden angle.
         const double z = 1 - (2 * i + 1.0) / kDirections;
         const double around = 2.39996322972865332 * i;
         const double r = std::sqrt(1 - z * z);

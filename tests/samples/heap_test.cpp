@@ -18,12 +18,12 @@ using namespace falling_particles;
 
 namespace {
 
-constexpr double kRadius = 0.03;  // m, of the base
+constexpr double kRadius = 0.03;  // m, radius of the base
 constexpr double kBase = 0.01;    // m, its height
 
 Grain pea() { return {"pea", {2e-3, 2e-3, 2e-3}, 2, 2, 0, 1200, "test"}; }
 
-/// Centres of balls on a cone: their envelope is a parallel cone but for the grid's ripples.
+/// The centres of balls on a cone: their envelope is a parallel cone except for the grid's ripples.
 std::vector<Placement> on_a_cone(double degrees) {
   constexpr double kSpacing = 1e-3;
   const double slope = std::tan(degrees * std::numbers::pi / 180);
@@ -53,7 +53,7 @@ TEST_CASE("the angle of a constructed cone of grains") {
     CHECK(heap.standard_error < 0.2);
     CHECK(heap.grains == placements.size());
     const double tangent = std::tan(degrees * std::numbers::pi / 180);
-    const double top = 1e-3 + tangent * kRadius + 2e-3 * std::hypot(1, tangent);  // of the parallel cone
+    const double top = 1e-3 + tangent * kRadius + 2e-3 * std::hypot(1, tangent);  // height of the parallel cone
     CHECK(heap.height == supernormal::test::relative(top).epsilon(0.02));
   }
 }
@@ -94,7 +94,7 @@ TEST_CASE("a dish is closed but for its foot, and holds a grain within its rim")
                       .opens_at = 1,
                       .dish = dish};
   const Scene scene = scene_of(hopper, {{pea(), 2}});
-  // One rolls towards the rim, one lies in the tray.
+  // One grain rolls towards the rim, one lies in the tray.
   World world(scene, {{0, {0, 0, 0.0225}, {1, 0, 0, 0}}, {0, {0.05, 0.05, 0.003}, {1, 0, 0, 0}}});
   world.open_outlet();  // the lid is solid all the way down
   dBodySetLinearVel(world.bodies()[0].body, 0.1, 0, 0);

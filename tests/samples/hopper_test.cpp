@@ -30,7 +30,7 @@ constexpr Hopper kHopper{.outlet = 0.036,
                          .clearance = 0.06,
                          .tray_width = 0.12,
                          .opens_at = 0.3};
-constexpr double kFloat = 1e-7;  // of single precision, relative
+constexpr double kFloat = 1e-7;  // rounding of single precision, relative
 
 Point corner(const Mesh& mesh, std::size_t triangle, std::size_t k) {
   const auto& v = mesh.vertices[mesh.triangles[triangle][k]];
@@ -83,7 +83,7 @@ TEST_CASE("the hopper's triangles face the axis, at the angle and the distances 
     const Point twice_area = cross(minus(corner(mesh, i, 1), a), minus(corner(mesh, i, 2), a));
     const double length = std::hypot(twice_area[0], twice_area[1], twice_area[2]);
     area += length / 2;
-    // The distance of the plane from the axis at height z, towards the side's middle: the inscribed circle's radius.
+    // The distance of the plane from the axis at height z, towards the side's middle, is the inscribed circle's radius.
     const double horizontal = std::hypot(twice_area[0], twice_area[1]);
     const double to_axis = -(twice_area[0] * a[0] + twice_area[1] * a[1]) / horizontal;
     CHECK(to_axis == supernormal::test::relative(kHopper.radius_at(a[2])).epsilon(1e-6));
@@ -91,7 +91,8 @@ TEST_CASE("the hopper's triangles face the axis, at the angle and the distances 
     const double slope = std::asin(twice_area[2] / length) * 180 / std::numbers::pi;
     CHECK(std::abs(slope - (in_cone ? kHopper.wall_angle : 0)) < 1e-3);
   }
-  // Sides of a pyramid's frustum and of a prism with the inscribed circles' radii: half the perimeter times the height of a side.
+  // The sides are those of a pyramid's frustum and of a prism with the inscribed circles' radii: half the perimeter times the
+  // height of a side.
   const double per_radius = 2 * 48 * std::tan(std::numbers::pi / 48);
   const double cone = per_radius * (0.018 + 0.036) / 2 * std::hypot(0.018, kHopper.cone_height());
   CHECK(area == supernormal::test::relative(cone + per_radius * 0.036 * 0.1).epsilon(1e-6));
@@ -127,7 +128,7 @@ TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {
 }
 
 TEST_CASE("a hopper holds what is in it or in the tray") {
-  const double middle = kHopper.clearance + kHopper.cone_height() / 2;  // where the radius is 0.027
+  const double middle = kHopper.clearance + kHopper.cone_height() / 2;  // the radius is 0.027 there
   CHECK(kHopper.contains({0.0269, 0, middle}));
   CHECK_FALSE(kHopper.contains({0.0271, 0, middle}));
   CHECK(kHopper.contains({0.0359, 0, kHopper.top()}));
@@ -144,7 +145,7 @@ TEST_CASE("a hopper holds what is in it or in the tray") {
 }
 
 TEST_CASE("the mean height of a level filling") {
-  // In a frustum of radii r and R: h (r^2 + 2 r R + 3 R^2) / (4 (r^2 + r R + R^2)) above the smaller end.
+  // In a frustum of radii r and R it is h (r^2 + 2 r R + 3 R^2) / (4 (r^2 + r R + R^2)) above the smaller end.
   const double r = 0.018;
   const double rr = 0.036;
   const double h = kHopper.cone_height();
@@ -159,7 +160,7 @@ TEST_CASE("the mean height of a level filling") {
 }
 
 TEST_CASE("Beverloo's law") {
-  // By hand: 0.58 * 750 * sqrt(9.81) * (0.036 - 1.4 * 0.005)^2.5 = 0.58 * 750 * 3.13209 * 0.029^2.5.
+  // The number by hand: 0.58 * 750 * sqrt(9.81) * (0.036 - 1.4 * 0.005)^2.5 = 0.58 * 750 * 3.13209 * 0.029^2.5.
   CHECK(beverloo_mass_flow(0.036, 0.005, 750, 9.81) == supernormal::test::relative(0.195124).epsilon(1e-3));
   CHECK(beverloo_mass_flow(0.007, 0.005, 750, 9.81) == doctest::Approx(0).epsilon(1e-12));
   CHECK(beverloo_mass_flow(0.003, 0.005, 750, 9.81) == 0);
@@ -191,7 +192,7 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
         supernormal::test::relative(2 * std::cbrt(3.36e-3 * 3.36e-3 * 1.29e-3)).epsilon(1e-9));
   CHECK(world.walls().geoms().size() == walls - 1);
   drop(0, 0);
-  drop(1, 0.03);  // beside
+  drop(1, 0.03);  // beside the outlet
   discharge.after_step(0.4);
   discharge.after_step(0.5);
   CHECK(discharge.count() == 1);
@@ -203,13 +204,13 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
   CHECK(discharge.count() == 3);
   CHECK(discharge.mass() == supernormal::test::relative(3 * grain_mass));
   CHECK(discharge.last_passage() == 0.8);
-  // 20 % of the charge with the first grain at 0.4 s, 60 % with the third at 0.8 s.
+  // 20 % of the charge is reached with the first grain at 0.4 s, 60 % with the third at 0.8 s.
   REQUIRE(discharge.mass_flow());
   CHECK(*discharge.mass_flow() == supernormal::test::relative(2 * grain_mass / 0.4));
 }
 
 TEST_CASE("the bed in a hopper: one lying column of known volume") {
-  // Boxes, but for their edges, side by side from wall to wall: 0.6 of the section's square.
+  // The grains are nearly boxes, side by side from wall to wall: 0.6 of the section's square.
   Hopper hopper = kHopper;
   hopper.outlet = 0.0719;  // the cone is a rim
   hopper.wall_angle = 80;

@@ -49,7 +49,7 @@ TEST_CASE("a scene file is read as it is written") {
 }
 
 TEST_CASE("every effect of the library has a section") {
-  // Each is refused or read, but known: its own name is not an unknown key.
+  // Each section is refused or read, but known: its name is not an unknown key.
   for (const fx::Description& description : fx::descriptions()) {
     const std::string name = description.name;
     CAPTURE(name);

@@ -52,7 +52,7 @@ TEST_CASE("the energy that grains gain and lose is watched over all steps") {
   const World world(scene, {upright(0.05, 0.05, 0.05), upright(0.15, 0.15, 0.05)});
   const Body& body = world.bodies().back();
   EnergyWatch watch(world, scene);
-  // Heights of one of the two: down by 20 mm, up by 5, down by 10, up by 8.
+  // One of the two grains moves down by 20 mm, up by 5, down by 10, up by 8.
   for (const double height : {0.03, 0.035, 0.025, 0.033}) {
     dBodySetPosition(body.body, 0.15, 0.15, height);
     watch.after_step();
@@ -66,7 +66,7 @@ TEST_CASE("the energy that grains gain and lose is watched over all steps") {
 
 TEST_CASE("the deepest overlap is found, between grains and with walls") {
   const Scene scene = scene_of(ellipsoid(), 3);
-  // Half-axis 0.02 along x: the first two overlap by 1 mm, the third is 3 mm deep in the wall x = 0.2.
+  // The half-axis along x is 0.02: the first two overlap by 1 mm, the third is 3 mm deep in the wall x = 0.2.
   const World world(scene, {upright(0.05, 0.1, 0.1), upright(0.089, 0.1, 0.1), upright(0.183, 0.1, 0.1)});
   const Overlap overlap = measure_overlap(world);
   CHECK(overlap.pairs == 2);
@@ -86,7 +86,7 @@ TEST_CASE("nothing overlaps when all are apart") {
 }
 
 TEST_CASE("the volume fraction is that of a known bed") {
-  // One layer of four bodies that are boxes but for their edges: from z = 0.02 to 0.08 it fills 4 * 0.08^2 / 0.2^2 of the area.
+  // One layer of four bodies that are nearly boxes: from z = 0.02 to 0.08 it fills 4 * 0.08^2 / 0.2^2 of the area.
   const Grain box{"box", {0.04, 0.04, 0.04}, 200, 200, 0, 1000, "typical"};
   const Scene scene = scene_of(box, 4);
   const World world(scene,
@@ -115,10 +115,10 @@ TEST_CASE("a dropped grain falls freely, comes to rest on the floor and touches 
   const World world(scene, {upright(0.1, 0.1, 0.06)});
   Stepper stepper(world, scene);
   const dReal* position = dBodyGetPosition(world.bodies()[0].body);
-  constexpr int kFree = 90;  // of the 100 ms that 0.05 m take
+  constexpr int kFree = 90;  // steps, of the 100 ms that 0.05 m take
   for (int i = 0; i < kFree; ++i) stepper.step();
   CHECK(stepper.contacts() == 0);
-  // Semi-implicit Euler: z = -g dt^2 n (n + 1) / 2.
+  // The semi-implicit Euler method gives z = -g dt^2 n (n + 1) / 2.
   CHECK(position[2] == supernormal::test::relative(0.06 - 10 * 1e-6 * kFree * (kFree + 1) / 2).epsilon(1e-9));
   for (int i = 0; i < 1000; ++i) stepper.step();
   CHECK(stepper.contacts() == 1);
@@ -138,7 +138,7 @@ TEST_CASE("friction stops a sliding grain and without friction it slides on") {
     for (int i = 0; i < 200; ++i) stepper.step();
     const double x = dBodyGetPosition(world.bodies()[0].body)[0];
     if (rough) {
-      CHECK(x - 0.06 < 0.2 * 0.2);  // stopped; v^2 / (2 mu g) is 4 mm without rocking
+      CHECK(x - 0.06 < 0.2 * 0.2);  // it has stopped; v^2 / (2 mu g) is 4 mm without rocking
     } else {
       CHECK(x - 0.06 == supernormal::test::relative(0.2 * 0.2).epsilon(1e-6));
     }

@@ -41,7 +41,7 @@ Motion motion_of(const Body& body) {
   return {body.position(), {v[0], v[1], v[2]}, {w[0], w[1], w[2]}};
 }
 
-/// Two beans meet off-centre, `offset` away from where the cell's boundary does not matter.
+/// Lets two beans meet off-centre, `offset` away from where the cell's boundary does not matter.
 std::vector<Motion> collide_at(double offset, bool rough) {
   Scene scene = weightless(kSide, bean(), 2);
   if (rough) scene.effects = {supernormal::effects::Friction{0.3, {}}};

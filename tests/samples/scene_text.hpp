@@ -1,9 +1,10 @@
+// A valid catalogue and a valid scene as text.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
-// A valid catalogue and a valid scene, to be spoilt one line at a time.
+// Tests spoil these texts one line at a time.
 
 inline constexpr const char* kCatalogueText = R"([pea]
 half_axes = [3e-3, 3e-3, 3e-3]
@@ -71,7 +72,7 @@ ridge_height = 0.002
 samples = 21
 seed = 3)";
 
-/// `text` with the only occurrence of `from` replaced.
+/// Returns `text` with the only occurrence of `from` replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {

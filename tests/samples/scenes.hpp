@@ -12,7 +12,7 @@
 
 namespace falling_particles {
 
-/// Of the grains of kCatalogueText.
+/// A scene with the grains of kCatalogueText.
 inline Scene scene_of(const std::string& text) {
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);

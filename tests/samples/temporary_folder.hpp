@@ -1,3 +1,4 @@
+// Temporary folders for tests.
 #pragma once
 
 #include <cstdlib>

@@ -39,7 +39,7 @@ TEST_CASE("a landscape without ridges is smooth, of the size and the length aske
     const double z = landscape.height(x, y);
     highest = std::max(highest, z);
     lowest = std::min(lowest, z);
-    // The steepest slope of a wave: 2 pi amplitude / length; 4^-k over 2^-k is 2^-k.
+    // The steepest slope of a wave is 2 pi amplitude / length; 4^-k over 2^-k is 2^-k.
     const double slope = std::hypot(landscape.height(x + 1e-6, y) - z, landscape.height(x, y + 1e-6) - z) / 1e-6;
     CHECK(slope < 2 * 3.1416 * 0.008 / 0.06 * 1.75 * 1.001);
   }
@@ -66,7 +66,7 @@ TEST_CASE("ridges are parallel, sharp and as far apart as asked for") {
     if (z > 0.005) ++high;
   }
   CHECK(highest > 0.0099);
-  // Half-way up, a ridge is half of the wavelength / 2 wide that it covers.
+  // Half-way up, the width of a ridge is half of the wavelength / 2 that it covers.
   CHECK(static_cast<double>(high) / kPoints == supernormal::test::relative(0.25).epsilon(0.03));
 }
 

@@ -1,4 +1,4 @@
-// advance_normal(): the normal where the boundary point has moved by H dn.
+// Tests of advance_normal(): the normal where the boundary point has moved by H dn.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,13 +15,13 @@ using namespace supernormal::test;
 
 namespace {
 
-/// How far advance_normal() ends from n + dn, rad (for small angles).
+/// The angle between advance_normal() and n + dn, rad (for small angles).
 double deviation(const Shape& shape, const Vector3& n, const Vector3& dn) {
   const Vector3 advanced = shape.advance_normal(n, shape.jet(n), dn).normalized();
   return (advanced - (n + dn).normalized()).norm();
 }
 
-/// Far enough from the coordinate planes that a step of 1e-3 is a small one.
+/// Normals far enough from the coordinate planes that a step of 1e-3 is a small one.
 std::vector<Vector3> smooth_normals(int count, unsigned seed) {
   std::vector<Vector3> normals = random_normals(count, seed);
   normals.erase(std::remove_if(normals.begin(), normals.end(), [](const Vector3& n) { return n.cwiseAbs().minCoeff() < 0.1; }),
@@ -89,7 +89,7 @@ TEST_CASE("flat superellipsoid: the advanced normal is that of the moved point")
     for (std::size_t i = 0; i < normals.size(); ++i) {
       const Vector3& n = normals[i];
       const Jet jet = shape.jet(n);
-      // A step that moves the point by up to the size of the body: across planes of symmetry, along faces.
+      // The step moves the point by up to the size of the body: across planes of symmetry, along faces.
       Vector3 dn = steps[i] - n * n.dot(steps[i]);
       const double move = (jet.H * dn).cwiseQuotient(shape.half_axes()).norm();
       dn *= std::pow(10.0, -static_cast<double>(i % 7)) / std::max(1.0, move);
@@ -134,12 +134,12 @@ TEST_CASE("a flat face with sharp sections: the point goes where it is to go, ho
       return (shape->point(shape->advance_normal(n, jet, way).normalized()) - target).norm();
     };
     const auto along_x = [&](const Vector3& n, double way) { return way / shape->jet(n).H(0, 0); };
-    // Off an edge, which does not hold the normal, by 10 000 times its part across the axis.
+    // The step leads off an edge, which does not hold the normal, by 10 000 times its part across the axis.
     const Vector3 beside(1e-15, 0, -1);
     for (const double turn : {1e-12, 1e-11, 1e-5}) CHECK(miss(beside, {along_x(beside, 0.13), turn, 0}) <= 1e-3);
-    // The same across the middle of the face.
+    // The step leads across the middle of the face.
     for (const double turn : {1e-12, 1e-11, 1e-5}) CHECK(miss(beside, {along_x(beside, -0.8), turn, 0}) <= 1e-3);
-    // To another side of the section.
+    // The step leads to another side of the section.
     const Vector3 oblique(4e-17, -1.6e-16, -1);
     const Jet jet = shape->jet(oblique);
     const Eigen::Vector2d way = jet.H.topLeftCorner<2, 2>().inverse() * Eigen::Vector2d(-0.3, -0.01);

@@ -1,4 +1,4 @@
-// The boundary point: on the surface, on its supporting plane, for every exponent and normal.
+// Tests of the boundary point: on the surface, on its supporting plane, for every exponent and normal.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Left side of the implicit equation, in extended precision: the test's own rounding does not count.
+/// The left side of the implicit equation in extended precision, so that the test's own rounding does not count.
 double implicit(const Superellipsoid& shape, const Vector3& point) {
   using Real = long double;
   const auto ratio = [&](int axis) {
@@ -99,7 +99,7 @@ TEST_CASE("superellipsoid with exponents 2 is an ellipsoid") {
       const Jet a = general.jet(n), b = special.jet(n);
       CHECK(std::abs(a.h - b.h) <= 8e-16 * b.h);  // two nested norms of four roundings each
       CHECK((a.r - b.r).cwiseQuotient(half_axes).cwiseAbs().maxCoeff() <= 1e-15);
-      const double largest = half_axes.cwiseAbs2().maxCoeff() / b.h;  // of the terms that make up H
+      const double largest = half_axes.cwiseAbs2().maxCoeff() / b.h;  // size of the terms that make up H
       CHECK((a.H - b.H).cwiseAbs().maxCoeff() <= 2e-15 * largest);
     }
   }
@@ -126,7 +126,7 @@ TEST_CASE("superellipsoid: the fast paths for exponents of 2 join the general on
   }
 }
 
-TEST_CASE("half extents are the half-axes, exactly, in closed form and by the potential") {
+TEST_CASE("half extents are the half-axes, exactly, in closed form and by the support function") {
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
     CHECK(shape.half_extents() == shape.half_axes());
     CHECK(shape.Shape::half_extents() == shape.half_axes());
@@ -136,7 +136,7 @@ TEST_CASE("half extents are the half-axes, exactly, in closed form and by the po
   CHECK(Sphere(2).half_extents() == Vector3(2, 2, 2));
 }
 
-TEST_CASE("sphere: potential, point and curvature; of radius 0, a point") {
+TEST_CASE("sphere: support function, point and Hessian; a point if the radius is 0") {
   for (const Vector3& n : random_normals(20, 6)) {
     const Jet jet = Sphere(2).jet(n);
     CHECK(jet.h == 2);

@@ -1,4 +1,4 @@
-// The bodies of ODE as shapes: support and points against brute force, corners, mass against other ways to it.
+// Tests of the bodies of ODE as shapes: support and points against brute force, corners, mass by independent methods.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// h, r and the corners against points that cover the boundary, the farthest of which is within `grain` of the true maximum.
+/// Checks h, r and the corners against points that cover the boundary, the farthest of which is within `grain` of the true
+/// maximum.
 void check_against(const Shape& shape, const std::vector<Vector3>& boundary, const std::vector<Vector3>& normals, double grain) {
   const double size = shape.half_extents().norm();
   for (const Vector3& n : normals) {
@@ -48,7 +49,7 @@ void check_against(const Shape& shape, const std::vector<Vector3>& boundary, con
 
 std::vector<Vector3> normals_of_test(unsigned seed) {
   std::vector<Vector3> normals = all_normals(100, seed);
-  // A hundred will do for comparisons of each with each.
+  // A hundred normals suffice for comparisons of each with each.
   std::vector<Vector3> few;
   for (std::size_t i = 0; i < normals.size(); i += 9) few.push_back(normals[i]);
   return few;
@@ -141,7 +142,7 @@ TEST_CASE("cylinder: support and points against its rims; mass by slices") {
   check_against(Cylinder(2, 0), cylinder_points(2, 0), normals_of_test(67), 2e-4);
 }
 
-TEST_CASE("cylinder: the corners of a cap have the point asked about between them, those of the side are its two ends") {
+TEST_CASE("cylinder: the corners of a cap have the given point between them, those of the side are its two ends") {
   const Cylinder cylinder(2, 1);
   for (const double sign : {1.0, -1.0}) {
     ActiveVertices cap;
@@ -204,7 +205,7 @@ TEST_CASE("polytope: mass of tetrahedron, octahedron, needles and a fine sphere"
   const MassProperties mass = Polytope(tetrahedron).mass_properties();
   CHECK(mass.volume == relative(1).epsilon(1e-15));
   CHECK((mass.centroid - Vector3(0.25, 0.5, 0.75)).norm() <= 1e-15);
-  // The integral of x^2 over it is V a^2/10, of x y V a b/20.
+  // For it the integral of x^2 is V a^2/10, that of x y is V a b/20.
   CHECK(mass.second_moment(0, 0) == relative(0.1).epsilon(1e-14));
   CHECK(mass.second_moment(1, 2) == relative(6.0 / 20).epsilon(1e-14));
   for (const double thinness : {1.0, 1e-3, 1e-9}) {
@@ -213,7 +214,7 @@ TEST_CASE("polytope: mass of tetrahedron, octahedron, needles and a fine sphere"
   }
   const std::vector<Vector3> fine = random_normals(2000, 72);
   const MassProperties ball = Polytope(fine).mass_properties();
-  CHECK(ball.relative_error <= 1e-4);  // no more than what the lattice can miss
+  CHECK(ball.relative_error <= 1e-4);  // no more than the lattice can miss
   CHECK(ball.volume < 4 * kPi / 3);
   CHECK(ball.volume == relative(4 * kPi / 3).epsilon(0.02));
 }

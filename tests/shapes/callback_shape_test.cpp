@@ -1,4 +1,5 @@
-// A body given by functions: passed on unchanged, and refused with a clear message when they cannot be a convex body's.
+// Tests of a body given by functions: passed on unchanged, and refused with a clear message if they cannot be those of a convex
+// body.
 #include "supernormal/shapes/callback_shape.hpp"
 
 #include <doctest/doctest.h>
@@ -104,7 +105,7 @@ TEST_CASE("a body without width is refused, one beside its origin is not") {
   check_contains(refusal(segment, end), "the width support(n) + support(-n) = 0 m is below 2e-30 m in the direction n = (");
   check_contains(refusal([](const Vector3&) { return 0.0; }, [](const Vector3&) { return Vector3(0, 0, 0); }),
                  "size of the body = 0 m is outside [1e-30, 1e+30] m");
-  // So thin that squares of its thickness underflow: found by tests/fuzz.
+  // This body is so thin that squares of its thickness underflow (found by tests/fuzz).
   const Vector3 axes(1, 1e-300, 2);
   check_contains(refusal([&](const Vector3& n) { return axes.cwiseProduct(n).norm(); },
                          [&](const Vector3& n) { return Vector3(axes.cwiseProduct(axes.cwiseProduct(n).normalized())); }),
@@ -140,7 +141,7 @@ TEST_CASE("a Hessian that cannot be one is refused") {
                  "hessian times n is not zero");
   check_contains(with([](const Vector3& n) { return Matrix3(-kGoodHessian(n)); }), "hessian has a negative principal radius");
   CHECK(with(kGoodHessian) == "accepted");
-  CHECK(with([](const Vector3&) { return Matrix3::Zero(); }) == "accepted");  // as on the vertices of a polytope
+  CHECK(with([](const Vector3&) { return Matrix3::Zero(); }) == "accepted");  // the vertices of a polytope have no other
 }
 
 TEST_CASE("where the body is sharpest is found from its points") {
@@ -151,12 +152,13 @@ TEST_CASE("where the body is sharpest is found from its points") {
   const CallbackShape copy([&](const Vector3& n) { return ellipsoid.support(n); },
                            [&](const Vector3& n) { return ellipsoid.point(n); });
   CHECK(copy.min_curvature_radius_estimate() == relative(1.0 / 3).epsilon(1e-6));
-  // A vertex is known by what is left of the radius near its normal: on five degrees still a hundredth of the body's size.
+  // A vertex is recognised by the radius of curvature near its normal: within five degrees it is still a hundredth of the body's
+  // size.
   const Superellipsoid octahedral(Vector3(1, 1, 1), 1.3, 1.3);
   const CallbackShape pointed([&](const Vector3& n) { return octahedral.support(n); },
                               [&](const Vector3& n) { return octahedral.point(n); });
   CHECK(pointed.min_curvature_radius_estimate() <= 1e-6);
-  // What two balls have in common: its edge, a circle around z, bends around the axes across z.
+  // The intersection of two balls: its edge, a circle around z, bends around the axes across z.
   const auto lens = [](const Vector3& n) -> Vector3 {
     if (std::abs(n.z()) > 0.5) return n - Vector3(0, 0, std::copysign(0.5, n.z()));
     return std::sqrt(0.75) * Vector3(n.x(), n.y(), 0).normalized();

@@ -1,4 +1,4 @@
-// The hull of lattice points against its definition.
+// Tests of the hull of lattice points against its definition.
 #include "shapes/convex_hull.hpp"
 
 #include <doctest/doctest.h>
@@ -27,7 +27,8 @@ std::int64_t height(const ConvexHull::Face& face, std::span<const LatticePoint> 
   return sum;
 }
 
-// Every point is behind every face, and every edge has its two faces: then the surface is closed and is that of the hull.
+// Checks that every point is behind every face, and that every edge has its two faces: then the surface is closed and is that of
+// the hull.
 int check_hull(const ConvexHull& hull) {
   int faces = 0;
   std::set<std::pair<std::size_t, std::size_t>> edges;
@@ -85,7 +86,7 @@ TEST_CASE("points on a sphere are all corners: 2n - 4 triangles") {
 TEST_CASE("what has no volume") {
   CHECK(hull_faces({}) == 0);
   CHECK(hull_faces({{1, 2, 3}, {1, 2, 3}}) == 0);
-  CHECK(hull_faces({{0, 0, 0}, {3, 6, 9}, {1, 2, 3}, {2, 4, 6}}) == 0);  // on a line
+  CHECK(hull_faces({{0, 0, 0}, {3, 6, 9}, {1, 2, 3}, {2, 4, 6}}) == 0);  // the points are on a line
   const std::vector<LatticePoint> flat = {{0, 0, 700}, {900, 0, 700}, {0, 900, 700}, {900, 900, 700}, {400, 500, 700}};
   CHECK(hull_faces(flat) == 2);
 }

@@ -1,4 +1,4 @@
-// r is the gradient of h, H that of r.
+// Tests that r is the gradient of h, and H that of r.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,16 +12,16 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Largest angle by which n may be turned without crossing what limits the smoothness of h: a coordinate plane.
+/// The largest angle by which n may be turned before it crosses a coordinate plane, which limits the smoothness of h.
 double room(const Vector3& n) { return 0.3 * std::asin(n.cwiseAbs().minCoeff()); }
 
-/// What finite differences found.
+/// The result of comparisons with finite differences.
 struct Comparison {
   int checked = 0, undecided = 0;
 };
 
-/// Compares `claimed` with the derivative of f, as sharply as that is known. `resolution`: an estimated error above it decides
-/// nothing.
+/// Compares `claimed` with the derivative of f, as sharply as that is known. If the estimated error is above `resolution`, the
+/// comparison decides nothing.
 void compare(Comparison& comparison, const Derivative& numeric, const Vector3& claimed, double resolution,
              const std::string& what) {
   if (numeric.error > resolution) {
@@ -55,7 +55,7 @@ TEST_CASE("superellipsoid: r is the gradient of h and H that of r") {
   Comparison gradient, hessian;
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
     for (const Vector3& n : random_normals(20, 11)) {
-      if (n.cwiseAbs().minCoeff() < 0.03) continue;  // no room for a difference
+      if (n.cwiseAbs().minCoeff() < 0.03) continue;  // there is no room for a difference
       check_derivatives(shape, n, text(shape), gradient, hessian);
     }
   }
@@ -63,8 +63,8 @@ TEST_CASE("superellipsoid: r is the gradient of h and H that of r") {
   CHECK(hessian.checked > 50 * hessian.undecided);
 }
 
-TEST_CASE("superellipsoid: curvature is known near the coordinate planes, where it is a steep function of the normal") {
-  // The angle from the plane has to be resolved in proportion: there r is a power of it.
+TEST_CASE("superellipsoid: H is known near the coordinate planes, where it is a steep function of the normal") {
+  // The angle from the plane has to be resolved in proportion: r is a power of it there.
   for (const double exponent : {1.3, 3.0, 20.0}) {
     const Superellipsoid shape(Vector3(3, 2, 1), exponent, exponent);
     for (const double angle : {1e-3, 1e-6, 1e-9}) {
@@ -74,7 +74,8 @@ TEST_CASE("superellipsoid: curvature is known near the coordinate planes, where 
         base.normalize();
         const auto turned = [&](double alpha) -> Vector3 { return std::cos(alpha) * base + std::sin(alpha) * Vector3::Unit(axis); };
         const Vector3 t = -std::sin(angle) * base + std::cos(angle) * Vector3::Unit(axis);
-        // Across the plane only: along it the point is as good as fixed, and differences of its coordinates are rounding.
+        // The difference is taken across the plane only: along it the point is as good as fixed, and differences of its
+        // coordinates are rounding.
         const auto across = [&](double beta) { return Vector3(shape.point(turned(angle + beta))[axis], 0, 0); };
         const Derivative numeric = derivative(across, 0.3 * angle);
         const double claimed = (shape.jet(turned(angle)).H * t)[axis];
@@ -103,7 +104,7 @@ TEST_CASE("the Hessian is symmetric, has the normal in its kernel and no negativ
       const Matrix3 H = hessian / largest;
       const bool symmetric = H == H.transpose();
       const bool kernel = (H * n).norm() <= 4e-15;
-      // Along any direction: diagonal entries and 2x2 minors.
+      // H is positive along any direction: this tests the diagonal entries and 2x2 minors.
       const double minor_xy = H(0, 0) * H(1, 1) - H(0, 1) * H(0, 1);
       const double minor_yz = H(1, 1) * H(2, 2) - H(1, 2) * H(1, 2);
       const double minor_zx = H(2, 2) * H(0, 0) - H(0, 2) * H(0, 2);

@@ -1,4 +1,4 @@
-// Valid input raises no floating-point exception that a program may have trapped, and gives finite results.
+// Tests that valid input raises no floating-point exception that a program may have trapped, and gives finite results.
 #include <doctest/doctest.h>
 
 #include <cfenv>
@@ -24,7 +24,7 @@ std::string raised() {
   return names;
 }
 
-/// All orders at n, and a step from there.
+/// Evaluates all orders at n, and a step from there.
 void check_quiet(const Shape& shape, const Vector3& n, const std::string& name) {
   std::feclearexcept(kTrapped);
   Jet jet;

@@ -1,4 +1,4 @@
-// Stretched, sheared, turned and mirrored shapes against shapes that are known.
+// Tests of stretched, sheared, turned and mirrored shapes against known shapes.
 #include "supernormal/shapes/linear_image.hpp"
 
 #include <doctest/doctest.h>
@@ -59,7 +59,7 @@ TEST_CASE("linear image: superellipsoids scale with their half-axes") {
     const auto shape = std::make_shared<Superellipsoid>(Vector3(1, 1, 1), exponent, 3);
     const LinearImage image(shape, diagonal(3, 2, 0.5));
     const Superellipsoid expected(Vector3(3, 2, 0.5), exponent, 3);
-    // The normal goes through a division by a length and back: as rounding of the normal, which flat bodies amplify.
+    // The normal is divided by a length and multiplied again: this acts as rounding of the normal, which flat bodies amplify.
     std::vector<Vector3> normals = random_normals(100, 52);
     std::erase_if(normals, [](const Vector3& n) { return n.cwiseAbs().minCoeff() < 0.05; });
     check_same(image, expected, normals, 2e-14);
@@ -76,7 +76,7 @@ TEST_CASE("linear image: turning and shearing back and forth changes nothing") {
   const auto shape = std::make_shared<Superellipsoid>(Vector3(3, 2, 1), 3, 1.6);
   const auto image = std::make_shared<LinearImage>(shape, some_shear());
   check_same(LinearImage(image, some_shear().inverse()), *shape, random_normals(100, 53), 1e-13);
-  // A mirror image: three planes of symmetry, so the shape itself.
+  // A mirror image of a shape with three planes of symmetry is the shape itself.
   check_same(LinearImage(shape, diagonal(-1, 1, 1)), *shape, random_normals(100, 54), 1e-15);
 }
 

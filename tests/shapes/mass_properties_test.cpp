@@ -1,4 +1,4 @@
-// Volume, centroid and second moments: against references, closed forms and one another.
+// Tests of volume, centroid and second moments: against references, closed forms and one another.
 #include "shapes/mass_properties.hpp"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ constexpr double kPi = std::numbers::pi;
 
 Vector3 mean_squares(const MassProperties& mass) { return mass.second_moment.diagonal() / mass.volume; }
 
-/// Agreement relative to the body's size, moments about the origin included.
+/// Checks agreement relative to the body's size, moments about the origin included.
 void check_equal(const MassProperties& a, const MassProperties& b, double tolerance, const std::string& name) {
   const double moment = b.second_moment.trace();
   const double length = std::sqrt(moment / b.volume);
@@ -38,7 +38,7 @@ void check_equal(const MassProperties& a, const MassProperties& b, double tolera
   }
 }
 
-/// `shape` turned and moved, as a body of the user's.
+/// The shape turned and moved, as a user-defined body.
 CallbackShape placed(const std::shared_ptr<const Shape>& shape, const Matrix3& rotation, const Vector3& position,
                      bool with_hessian) {
   const auto support = [=](const Vector3& n) { return shape->support(rotation.transpose() * n) + n.dot(position); };
@@ -153,7 +153,7 @@ TEST_CASE("mass: a rounding that rounding hides leaves the mass of the core, and
     check_equal(mass, core->mass_properties(), 0, "thin layer");
     CHECK(mass.relative_error == core->mass_properties().relative_error);
   }
-  // The first that shows: a layer of 1e-15 is the area times the radius.
+  // This is the thinnest layer that shows: one of 1e-15 is the area times the radius.
   const double swept = Rounded(core, 1e-15).mass_properties().volume;
   CHECK(swept > core->mass_properties().volume);
 }
@@ -181,7 +181,8 @@ TEST_CASE("mass: quadrature is within its reported error for bodies that are not
 }
 
 TEST_CASE("mass: Steiner's formula, coefficient by coefficient") {
-  // Areas and mean widths by other parametrizations: S by the angles of section and meridian, M = int h dw by tanh-sinh in mpmath.
+  // Areas and mean widths are by other parametrizations: S by the angles of section and meridian, M = int h dw by tanh-sinh in
+  // mpmath.
   struct Reference {
     Vector3 axes;
     double delta, epsilon, area, width;
@@ -208,7 +209,8 @@ TEST_CASE("mass: Steiner's formula for every exponent and slender bodies") {
     if (!is_chosen(shape.delta()) || !is_chosen(shape.epsilon())) continue;
     const auto core = std::make_shared<Superellipsoid>(shape);
     const Eigen::Vector4d coefficients = steiner(core);
-    // The unit sphere's volume: the normals are covered once. Differences of volumes lose the digits that `lost` counts.
+    // The cubic coefficient is the unit sphere's volume: the normals are covered once. Differences of volumes lose the digits
+    // that `lost` counts.
     const double lost = Rounded(core, 3).mass_properties().volume;
     if (!(std::abs(coefficients[3] - 4 * kPi / 3) <= 1e-13 * lost)) FAIL_CHECK(text(shape), " cubic ", coefficients[3]);
     CHECK(Rounded(core, 0.1).mass_properties().relative_error <= 1e-10);
@@ -276,7 +278,7 @@ TEST_CASE("mass: flat faces and straight edges, which the normals do not see, ar
     CHECK(std::abs(mass.volume / 48 - 1) <= mass.relative_error + 1e-12);
     CHECK(mass.relative_error > 0.9);
   }
-  // A disk swept by a sphere: two flat faces, no edge.
+  // A disk swept by a sphere has two flat faces and no edge.
   const double disk = 2, radius = 0.5;
   const auto across = [](const Vector3& n) { return std::hypot(n.x(), n.y()); };
   const CallbackShape pill([=](const Vector3& n) { return disk * across(n) + radius; },

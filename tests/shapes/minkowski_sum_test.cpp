@@ -1,4 +1,4 @@
-// The sum of two shapes: potentials add; known sums.
+// Tests of the sum of two shapes: support functions add; known sums.
 #include "supernormal/shapes/minkowski_sum.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Every corner is a point of the body, and the highest is on its supporting plane.
+/// Checks that every corner is a point of the body, and that the highest is on its supporting plane.
 void check_corners(const Shape& shape, const Vector3& n) {
   ActiveVertices corners;
   shape.add_active_vertices(n, Vector3(0.3, -0.2, 0.1), corners);
@@ -36,14 +36,14 @@ void check_corners(const Shape& shape, const Vector3& n) {
   CHECK(highest == relative(shape.support(n)).epsilon(1e-14));
 }
 
-/// The gap of a body and a smooth one, as a query answers it.
+/// The gap of a body and a smooth one, by a query.
 double gap(const Shape& shape, const Shape& other, const Vector3& at) {
   return find_proximity(other, Pose{Vector3::Zero(), Matrix3::Identity()}, shape, Pose{at, Matrix3::Identity()}, Settings{}).gap;
 }
 
 }  // namespace
 
-TEST_CASE("Minkowski sum: support, point and curvature are sums") {
+TEST_CASE("Minkowski sum: support function, point and Hessian are sums") {
   const auto boxy = std::make_shared<Superellipsoid>(Vector3(3, 2, 1), 6, 4);
   const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(0.5, 1, 2));
   const MinkowskiSum sum(boxy, ellipsoid);
@@ -119,7 +119,7 @@ TEST_CASE("Minkowski sum: boxes add to a box, corners are points of the body and
 }
 
 TEST_CASE("Minkowski sum: the gap of a sum is that of its parts") {
-  // dist(A + B, C) = dist(A, C - B): with a ball C and a body B that is its own mirror image, three ways to one number.
+  // dist(A + B, C) = dist(A, C - B): with a ball C and a body B that is its own mirror image, there are three ways to one number.
   const auto box = std::make_shared<Box>(Vector3(3, 2, 1));
   const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(0.5, 1, 0.7));
   const Sphere ball(0.4);
@@ -133,7 +133,7 @@ TEST_CASE("Minkowski sum: the gap of a sum is that of its parts") {
   }
 }
 
-TEST_CASE("Minkowski sum: a part without curvature leaves it without; a missing part is refused") {
+TEST_CASE("Minkowski sum: a part without a Hessian leaves it without; a missing part is refused") {
   const auto sphere = std::make_shared<Sphere>(1);
   const auto callback = std::make_shared<CallbackShape>([&](const Vector3&) { return 1.0; }, [&](const Vector3& n) { return n; });
   const MinkowskiSum sum(sphere, callback);

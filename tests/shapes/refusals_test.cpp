@@ -1,4 +1,4 @@
-// Constructors refuse what is no body, and say which parameter, which value, which range.
+// Tests that constructors refuse invalid bodies, and name the parameter, its value and its range.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Sweeping by a sphere adds `radius` to every support distance and every radius of curvature.
+// Tests that sweeping by a sphere adds `radius` to every support distance and every radius of curvature.
 #include "supernormal/shapes/rounded.hpp"
 
 #include <doctest/doctest.h>
@@ -59,7 +59,7 @@ TEST_CASE("rounding by 0 changes nothing; roundings add up") {
   }
 }
 
-TEST_CASE("rounding a shape without curvature leaves it without") {
+TEST_CASE("rounding a shape without a Hessian leaves it without") {
   const Ellipsoid ellipsoid(Vector3(3, 2, 1));
   const auto core = std::make_shared<CallbackShape>([&](const Vector3& n) { return ellipsoid.support(n); },
                                                     [&](const Vector3& n) { return ellipsoid.point(n); });

@@ -1,4 +1,4 @@
-// Normals and shapes that the tests of the shapes share, and an honest numerical derivative.
+// Normals and shapes that the tests of the shapes share, and a numerical derivative with an error estimate.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -33,7 +33,7 @@ inline std::vector<Vector3> random_normals(int count, unsigned seed) {
   std::normal_distribution<double> gauss;
   std::vector<Vector3> normals;
   while (static_cast<int>(normals.size()) < count) {
-    const Vector3 v{gauss(engine), gauss(engine), gauss(engine)};  // braces: evaluated in this order
+    const Vector3 v{gauss(engine), gauss(engine), gauss(engine)};  // braces fix the order of evaluation
     if (v.norm() > 1e-3) normals.push_back(v.normalized());
   }
   return normals;
@@ -67,7 +67,7 @@ inline std::vector<Vector3> singular_normals() {
   return normals;
 }
 
-/// The singular ones and `count` random ones.
+/// The singular normals and `count` random ones.
 inline std::vector<Vector3> all_normals(int count, unsigned seed) {
   std::vector<Vector3> normals = singular_normals();
   const std::vector<Vector3> random = random_normals(count, seed);
@@ -75,7 +75,7 @@ inline std::vector<Vector3> all_normals(int count, unsigned seed) {
   return normals;
 }
 
-/// Superellipsoids of all exponents up to `max_exponent` and from `min_exponent`, in four proportions (aspect ratios up to 100).
+/// Superellipsoids of all exponents from `min_exponent` up to `max_exponent`, in four proportions (aspect ratios up to 100).
 inline std::vector<Superellipsoid> superellipsoids(double min_exponent, double max_exponent) {
   const Vector3 proportions[] = {{1, 1, 1}, {3, 2, 1}, {0.01, 1, 0.3}, {0.5, 0.02, 2}};
   std::vector<Superellipsoid> shapes;

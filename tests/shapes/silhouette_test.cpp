@@ -49,26 +49,26 @@ TEST_CASE("the surface of spheroids") {
 
 TEST_CASE("the submerged part of an ellipsoid is the image of a sphere's cap") {
   const Vector3 a(0.3, 0.2, 0.1);
-  const SubmergedVolume immersion{Ellipsoid(a)};
+  const SubmergedVolume submerged_volume{Ellipsoid(a)};
   const double whole = 4 * kPi / 3 * a.prod();
-  CHECK(std::abs(immersion.volume() / whole - 1) < 1e-12);
+  CHECK(std::abs(submerged_volume.volume() / whole - 1) < 1e-12);
   const Vector3 up = Vector3(1, -2, 2) / 3;
   const Vector3 scaled = a.cwiseProduct(up);
   for (const double t : {-0.6, 0.0, 0.3, 0.8}) {
-    const Submerged part = immersion.below(up, t * scaled.norm());
+    const Submerged part = submerged_volume.below(up, t * scaled.norm());
     const double share = (2 + 3 * t - t * t * t) / 4;
     CHECK(std::abs(part.volume / whole - share) < 0.005);
-    const double depth = -3 * (1 - t * t) * (1 - t * t) / (16 * share);  // of the cap's centroid, in radii
+    const double depth = -3 * (1 - t * t) * (1 - t * t) / (16 * share);  // depth of the cap's centroid, in radii
     CHECK((part.centre - depth * a.cwiseProduct(scaled.normalized())).norm() < 1e-3);
   }
 }
 
 TEST_CASE("a body that is wholly in or out of the water is exact") {
   const Superovoid egg(Vector3(0.02, 0.02, 0.03), 2, 2, 0.3, 0.3);
-  const SubmergedVolume immersion(egg);
+  const SubmergedVolume submerged_volume(egg);
   const MassProperties exact = egg.mass_properties();
-  const Submerged all = immersion.below(Vector3::UnitZ(), 1);
+  const Submerged all = submerged_volume.below(Vector3::UnitZ(), 1);
   CHECK(all.volume == exact.volume);
   CHECK(all.centre == exact.centroid);
-  CHECK(immersion.below(Vector3::UnitZ(), -1).volume == 0);
+  CHECK(submerged_volume.below(Vector3::UnitZ(), -1).volume == 0);
 }

@@ -1,4 +1,4 @@
-// Which tapers are refused: the condition that fails is named, and it is the exact limit of convexity.
+// Tests of the tapers that are refused: the condition that fails is named, and it is the exact limit of convexity.
 #include "shapes/superovoid_convexity.hpp"
 
 #include <doctest/doctest.h>
@@ -48,14 +48,14 @@ TEST_CASE("superovoid: what is not convex is refused, with the condition that fa
   CHECK(refusal([&] { Superovoid(axes, 0.9, 2, 0, 0); }) == "delta = 0.9 is outside [1.01, 1000]");
   CHECK(refusal([&] { Superovoid(axes, 2, 1001, 0, 0); }) == "epsilon = 1001 is outside [1.01, 1000]");
   CHECK(refusal([&] { Superovoid(Vector3(1, 0, 1), 2, 2, 0, 0); }) == "half-axis b = 0 m is outside [1e-30, 1e+30] m");
-  // The closed form of the header: k^2 <= delta - 1 for tapers -k and k with epsilon = 2.
+  // The closed form is that of the header: k^2 <= delta - 1 for tapers -k and k with epsilon = 2.
   CHECK(refusal([&] { Superovoid(axes, 1.25, 2, -0.499999, 0.499999); }) == "accepted");
   CHECK(refusal([&] { Superovoid(axes, 1.25, 2, -0.500001, 0.500001); }) != "accepted");
 }
 
 TEST_CASE("superovoid: the limit of convexity is exact: chords of the surface, scanned") {
   // The width g(s) of the section in a direction (A, B) is concave: no midpoint of a chord lies above it. Exponents, tapers and
-  // directions at random; the least second difference tells on which side of the limit a body is.
+  // directions are random; the least second difference tells on which side of the limit a body is.
   std::mt19937_64 engine(13);
   std::uniform_real_distribution<double> uniform(-1, 1);
   int convex = 0, refused = 0;
@@ -67,7 +67,7 @@ TEST_CASE("superovoid: the limit of convexity is exact: chords of the surface, s
     double least = std::numeric_limits<double>::infinity();
     for (int trial = 0; trial < 4000; ++trial) {
       const double s = 0.999 * uniform(engine), step = 1e-3 * (1 - std::abs(s));
-      if (x == y && std::abs(s) < 0.1) continue;  // a straight side: rounding
+      if (x == y && std::abs(s) < 0.1) continue;  // a straight side, where only rounding is left
       const double share = std::abs(uniform(engine));
       if (std::min(1 + x * s, 1 + y * s) <= 0.01) {
         least = -1;

@@ -1,4 +1,4 @@
-// Tapered superellipsoids: on the surface, on the supporting plane, derivatives, mass.
+// Tests of tapered superellipsoids: on the surface, on the supporting plane, derivatives, mass.
 #include "supernormal/shapes/superovoid.hpp"
 
 #include <doctest/doctest.h>
@@ -34,7 +34,7 @@ struct Tapers {
   double x, y;
 };
 
-/// Of all exponents up to `max_exponent`; different tapers where that is convex.
+/// Superovoids of all exponents up to `max_exponent`, with different tapers where that is convex.
 std::vector<Superovoid> superovoids(double min_exponent, double max_exponent, const std::vector<Tapers>& tapers) {
   std::vector<Superovoid> shapes;
   for (const Vector3& half_axes : {Vector3(3, 2, 1), Vector3(0.02, 1, 0.3)}) {
@@ -55,7 +55,7 @@ std::vector<Superovoid> superovoids(double min_exponent, double max_exponent, co
 
 const std::vector<Tapers> kTapers = {{0.3, 0.3}, {-0.9, -0.9}, {1, 1}, {0.5, -0.2}, {0, 0.7}};
 
-/// Left side of the implicit equation, in extended precision.
+/// The left side of the implicit equation, in extended precision.
 Real implicit(const Superovoid& shape, const Vector3& point) {
   const Real z = Real{point.z()} / Real{shape.half_axes().z()};
   const Real x = std::abs(Real{point.x()}) / (Real{shape.half_axes().x()} * (1 + Real{shape.taper_x()} * z));
@@ -76,7 +76,7 @@ Vector3 implicit_gradient(const Superovoid& shape, const Vector3& point) {
   return gradient;
 }
 
-/// max over the heights z = s c of the width of the section plus n_z z, by golden section: an independent way to h.
+/// Computes max over the heights z = s c of the width of the section plus n_z z by golden section, independently of the library.
 double slow_support(const Superovoid& shape, const Vector3& n) {
   const Real p = Real{shape.delta()} / (Real{shape.delta()} - 1), epsilon = shape.epsilon();
   const auto value = [&](Real s) {
@@ -153,7 +153,7 @@ TEST_CASE("superovoid: the normal is that of the implicit equation") {
     for (const Vector3& n : random_normals(20, 6)) {
       const Vector3 r = shape.point(n);
       const Vector3 share = r.cwiseQuotient(shape.half_extents()).cwiseAbs();
-      if (share.minCoeff() < 0.05) continue;  // no room for a difference
+      if (share.minCoeff() < 0.05) continue;  // there is no room for a difference
       ++checked;
       const double angle = (implicit_gradient(shape, r).normalized() - n).norm();
       if (!(angle <= 1e-9)) FAIL_CHECK(text(shape), " n ", test::text(n), " differs by ", angle);
@@ -260,7 +260,7 @@ TEST_CASE("superovoid: the advanced normal of a step of 0 is the normal, of a sm
         const auto deviation = [&](double step) {
           return (shape.advance_normal(n, jet, step * t).normalized() - (n + step * t).normalized()).norm();
         };
-        // Second order: a tenth of the step deviates a hundredth as much.
+        // The deviation is of second order: a tenth of the step deviates a hundredth as much.
         const double coarse = deviation(1e-4), fine = deviation(1e-5);
         if (!(fine <= coarse / 50 + 1e-14 * exponent + 1e-14)) {
           FAIL_CHECK(text(shape), " n ", test::text(n), " deviations ", coarse, " ", fine);
@@ -335,8 +335,8 @@ TEST_CASE("superovoid: mass when rounded: by layers, and by quadrature over the 
   CHECK(layered.volume == relative(numeric.volume).epsilon(1e-10));
   CHECK((layered.centroid - numeric.centroid).norm() <= 1e-10);
   CHECK((layered.second_moment - numeric.second_moment).norm() <= 1e-10 * numeric.second_moment.norm());
-  // Steiner: the volume is a cubic in the radius, the last coefficient that of the ball, the first the body itself. The body's
-  // centroid moves towards that of its surface.
+  // Steiner's formula: the volume is a cubic in the radius, the last coefficient that of the ball, the first the body itself. The
+  // body's centroid moves towards that of its surface.
   for (const double exponent : {1.3, 4.0, 50.0}) {
     const double taper = 0.8 * Superovoid::max_taper(exponent);
     const auto core = std::make_shared<Superovoid>(Vector3(3, 2, 1), exponent, exponent, taper, taper);

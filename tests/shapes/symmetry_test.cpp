@@ -1,4 +1,4 @@
-// What shapes say of their symmetry, against their support functions.
+// Tests of the shapes' claims of symmetry against their support functions.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Digit by digit.
+/// Compares both sides digit by digit.
 bool has_equal_sides(const Shape& shape, const std::vector<Vector3>& normals) {
   return std::ranges::all_of(normals, [&](const Vector3& n) { return shape.support(n) == shape.support(-n); });
 }

@@ -1,4 +1,4 @@
-// The soak program finds what is wrong: here something is.
+// Tests that the soak program finds faults, with faults that are there.
 #include "examination.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ bool is_told(const Finding& finding, const std::string& what) {
   return std::ranges::any_of(finding.violations, [&](const std::string& text) { return text.find(what) != std::string::npos; });
 }
 
-/// A ball that does what it likes to its jets.
+/// A ball that changes its jets as it likes.
 class Liar : public Shape {
  public:
   explicit Liar(std::function<void(const Vector3& n, Jet& jet)> lie) : lie_(std::move(lie)) {}
@@ -61,7 +61,7 @@ Finding examine_liar(const std::function<void(const Vector3& n, Jet& jet)>& lie)
 
 }  // namespace
 
-TEST_CASE("nothing is wrong with two balls, asked in every way") {
+TEST_CASE("nothing is wrong with two balls, queried in every way") {
   const Finding finding = examine_thoroughly(balls());
   for (const std::string& violation : finding.violations) FAIL_CHECK(violation);
   CHECK(finding.queries >= 11);
@@ -70,7 +70,7 @@ TEST_CASE("nothing is wrong with two balls, asked in every way") {
   CHECK(finding.error_of_bound <= 1);
 }
 
-TEST_CASE("a gap that is not the one that the bodies were placed with is told") {
+TEST_CASE("a gap that is not the one that the bodies were placed with is reported") {
   for (const double placed : {0.6, 0.4}) {
     Sample sample = balls();
     sample.placed_gap = placed;
@@ -81,19 +81,19 @@ TEST_CASE("a gap that is not the one that the bodies were placed with is told") 
   }
 }
 
-TEST_CASE("a query that raises a floating-point exception is told") {
+TEST_CASE("a query that raises a floating-point exception is reported") {
   CHECK(is_told(examine_liar([](const Vector3&, Jet&) { std::feraiseexcept(FE_INVALID); }), "invalid operation"));
   CHECK(is_told(examine_liar([](const Vector3&, Jet&) { std::feraiseexcept(FE_DIVBYZERO); }), "division by zero"));
   CHECK(is_told(examine_liar([](const Vector3&, Jet&) { std::feraiseexcept(FE_OVERFLOW); }), "overflow"));
 }
 
-TEST_CASE("points off the surface and numbers that are not finite are told") {
+TEST_CASE("points off the surface and numbers that are not finite are reported") {
   CHECK(is_told(examine_liar([](const Vector3&, Jet& jet) { jet.r *= 1.01; }), "point 2"));
   CHECK(is_told(examine_liar([](const Vector3&, Jet& jet) { jet.h = std::numeric_limits<double>::quiet_NaN(); }), "no answer"));
 }
 
-TEST_CASE("a maximum that is not the highest is told") {
-  // A dent that the ascent does not see: at the sides the body is thinner than its points and curvature say.
+TEST_CASE("a maximum that is not the highest is reported") {
+  // The body has a dent that the ascent does not see: at the sides it is thinner than its points and radii of curvature say.
   const Finding finding = examine_liar([](const Vector3& n, Jet& jet) { jet.h -= std::abs(n.y()) > 0.1 ? 2 : 0; });
   CHECK_FALSE(finding.violations.empty());
 }

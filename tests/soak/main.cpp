@@ -1,4 +1,4 @@
-// The soak program: draws samples, asks, checks, until there have been so many queries.
+// The soak program: draws samples, queries and checks them, until there have been so many queries.
 //
 //     soak --queries 1e9 --seed 1 --resume soak.txt     in pieces: Ctrl-C, and the same command again
 //     soak --seed 1 --only 4711                         one sample, in full
@@ -75,7 +75,7 @@ void print(const Proximity& answer) {
               exact_text(answer.global_error).c_str());
 }
 
-/// One sample in full. With `trap`, for a debugger, an exception ends the program where it is raised.
+/// Examines one sample in full. With `trap`, for a debugger, an exception ends the program where it is raised.
 int examine_only(const SampleSource& source, const Options& options) {
   const auto index = static_cast<std::uint64_t>(options.only);
   Sample sample;
@@ -91,7 +91,7 @@ int examine_only(const SampleSource& source, const Options& options) {
   return finding.violations.empty() ? 0 : 1;
 }
 
-/// The samples first … end - 1, by all threads.
+/// Examines the samples first ... end - 1 on all threads.
 Tally run_round(const SampleSource& source, const Options& options, std::uint64_t first, std::uint64_t end) {
   std::atomic<std::uint64_t> next{first};
   std::vector<Tally> tallies(options.threads);

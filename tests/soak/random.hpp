@@ -1,4 +1,4 @@
-// Random numbers that belong to a sample: a function of the seed and the sample's number, the same on every machine.
+// Random numbers of a sample: a function of the seed and the sample's number, the same on every machine.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,31 +10,31 @@
 
 namespace supernormal::soak {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): starts in no time, which matters where every sample has a generator of its own.
+/// SplitMix64 (Steele, Lea, Flood 2014): its start takes no time, which matters because every sample has a generator of its own.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t sample) : state_(mixed(seed + kStep) ^ mixed(sample * kStep + 1)) {}
 
   std::uint64_t next() { return mixed(state_ += kStep); }
 
-  /// In [0, 1).
+  /// A number in [0, 1).
   double uniform() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
 
-  /// 0 … end - 1; the bias, of end/2^64, is nobody's concern.
+  /// A number in 0 ... end - 1; the bias, of end/2^64, does not matter.
   std::size_t below(std::size_t end) { return static_cast<std::size_t>(next() % end); }
 
   bool chance(double probability) { return uniform() < probability; }
 
-  /// Even over the sphere.
+  /// A direction, uniform over the sphere.
   Vector3 direction() {
     const double z = uniform(-1, 1), angle = 2 * std::numbers::pi * uniform();
     const double across = std::sqrt(1 - z * z);
     return {across * std::cos(angle), across * std::sin(angle), z};
   }
 
-  /// Even over all rotations (Shoemake 1992).
+  /// A rotation, uniform over all rotations (Shoemake 1992).
   Matrix3 rotation() {
     const double share = uniform(), angle1 = 2 * std::numbers::pi * uniform(), angle2 = 2 * std::numbers::pi * uniform();
     const double small = std::sqrt(1 - share), large = std::sqrt(share);
@@ -43,7 +43,7 @@ class Random {
         .toRotationMatrix();
   }
 
-  /// By `angle` about any axis.
+  /// A turn by `angle` about any axis.
   Matrix3 turn(double angle) { return Eigen::AngleAxisd(angle, direction()).toRotationMatrix(); }
 
  private:

@@ -19,14 +19,14 @@ Vector3 draw_axes(Random& random, const SuperellipsoidClass& kind) {
   return Vector3{axis(), axis(), axis()};
 }
 
-/// What bodies are drawn from.
+/// The classes that bodies are drawn from.
 struct Kind {
   SuperellipsoidClass sizes;
-  std::span<const SuperellipsoidClass> exponents;  // each exponent from any of them
+  std::span<const SuperellipsoidClass> exponents;  // each exponent is from any of them
 };
 
 double draw_exponent(Random& random, const Kind& kind) {
-  // One class takes no draw: the whole mix keeps its samples.
+  // With one class there is no draw, so that the samples of the whole mix stay the same.
   const SuperellipsoidClass& one =
       kind.exponents.size() == 1 ? kind.exponents[0] : kind.exponents[random.below(kind.exponents.size())];
   return random.log_uniform(one.least_exponent, one.largest_exponent);
@@ -45,7 +45,7 @@ Body draw_polytope(Random& random, const Vector3& axes) {
   return samples::polytope(std::move(points));
 }
 
-/// Anything but a plain superellipsoid.
+/// Draws any body but a plain superellipsoid.
 Body draw_other(Random& random, const Kind& kind) {
   const Vector3 axes = draw_axes(random, kind.sizes);
   switch (random.below(8)) {
@@ -73,7 +73,7 @@ Body draw_other(Random& random, const Kind& kind) {
   }
 }
 
-/// Also those on which a coordinate vanishes, or nearly does.
+/// Draws a normal; a coordinate may vanish, or nearly so.
 Vector3 draw_normal(Random& random) {
   Vector3 n = random.direction();
   if (random.chance(0.7)) return n;
@@ -91,7 +91,7 @@ Matrix3 draw_rotation(Random& random) {
   return random.turn(random.log_uniform(1e-16, 1));
 }
 
-/// In units of the smallest half-extent: from apart by twice that, through touching, to overlapped by all of it.
+/// Draws a gap in units of the smallest half-extent: from apart by twice that, through touching, to overlapped by all of it.
 double draw_relative_gap(Random& random) {
   const double choice = random.uniform();
   if (choice < 0.1) return 0;
@@ -100,7 +100,7 @@ double draw_relative_gap(Random& random) {
   return -random.uniform(0.3, 1);
 }
 
-/// Body 2 goes where n is a common normal and s(n) is `gap`.
+/// Places body 2 where n is a common normal and s(n) is `gap`.
 void place_on_normal(HardCase& pair, const Vector3& n, double gap) {
   const Vector3 point2 = pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n));
   pair.pose2.position = pair.shape1->point(n) + gap * n - point2;
@@ -137,7 +137,7 @@ void draw_random_pair(Random& random, std::span<const SuperellipsoidClass> class
   pair.pose1 = {};
   pair.pose2.rotation = draw_rotation(random);
   const double unit = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-  if (random.chance(0.05)) {  // within one another
+  if (random.chance(0.05)) {  // one body is within the other
     pair.pose2.position = unit * random.log_uniform(1e-16, 1) * random.direction();
     sample.placed_gap.reset();
   } else {

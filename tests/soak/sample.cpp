@@ -11,14 +11,14 @@ namespace {
 using samples::Body;
 using samples::HardCase;
 
-// From what rounding does to a number to another number.
+// Changes reach from the rounding of a number to another number.
 constexpr double kLeastChange = 1e-16, kLargestChange = 1;
 
 double change(Random& random) { return random.log_uniform(kLeastChange, kLargestChange); }
 
 double changed(double value, double by, Random& random) { return value * (1 + by * random.uniform(-0.9, 1)); }
 
-// Relative to its distance from 1, so that an exponent remains one.
+// The change is relative to the distance from 1, so that an exponent remains valid.
 double changed_exponent(double exponent, double by, Random& random) { return 1 + changed(exponent - 1, by, random); }
 
 void change_body(Body& body, Random& random) {
@@ -28,7 +28,7 @@ void change_body(Body& body, Random& random) {
   if (is_round) body.lengths.y() = body.lengths.x();
   body.delta = changed_exponent(body.delta, by, random);
   body.epsilon = changed_exponent(body.epsilon, by, random);
-  const double taper = changed(1, by, random);  // for both: different ones are rarely convex
+  const double taper = changed(1, by, random);  // the same for both: different ones are rarely convex
   body.taper_x *= taper;
   body.taper_y *= taper;
   body.rounding = changed(body.rounding, by, random);
@@ -42,7 +42,7 @@ void change_shape(Body& body, std::shared_ptr<const Shape>& shape, Random& rando
     shape = samples::make_shape(other);
     body = std::move(other);
   } catch (const std::invalid_argument&) {
-    // Out of the shape's range: the original is as good.
+    // The change is out of the shape's range, and the original is as good.
   }
 }
 

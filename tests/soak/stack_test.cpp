@@ -1,4 +1,4 @@
-// What was on the stack before does not decide an answer: every hard case, and what the soak program draws.
+// Tests that the former content of the stack does not decide an answer: every hard case, and samples of the soak program.
 #include <doctest/doctest.h>
 
 #include "painted_stack.hpp"

@@ -1,4 +1,4 @@
-// What the soak program has found so far, and the file that keeps it.
+// The results of the soak program so far, and the file that keeps them.
 #pragma once
 
 #include <cstdint>
@@ -32,21 +32,22 @@ class Ranking {
 struct Tally {
   std::uint64_t samples = 0, queries = 0, evaluations = 0;
   std::uint64_t not_global = 0, not_converged = 0;  ///< samples with an answer that does not claim to be global; to have converged
-  std::uint64_t violations = 0;                     ///< samples with at least one
-  double seconds = 0;                               ///< of real time
-  std::vector<std::uint64_t> violated;              ///< the first of them
+  std::uint64_t violations = 0;                     ///< samples with at least one violation
+  double seconds = 0;                               ///< real time
+  std::vector<std::uint64_t> violated;              ///< the first of the samples with violations
   Ranking by_error, by_error_of_bound, by_evaluations;
 
   void add(std::uint64_t sample, const Finding& finding);
 
-  /// All but the time.
+  /// Adds everything except the time.
   void add(const Tally& other);
 };
 
-/// Writes to a new file and renames it: whenever the program ends, the file is whole.
+/// Writes a new file and renames it: whenever the program ends, the file is whole.
 void save(const Tally& tally, std::uint64_t seed, const std::string& path);
 
-/// What was saved; a new tally when there is no such file. std::runtime_error when it is not one, or of another seed.
+/// Loads a saved tally; a new one when there is no such file. Throws std::runtime_error when the file is no tally, or one of
+/// another seed.
 Tally load(std::uint64_t seed, const std::string& path);
 
 }  // namespace supernormal::soak

@@ -6,10 +6,10 @@
 
 namespace supernormal {
 
-/// The curvature of the boundary at the point with outward unit normal n (world frame), 1/m: the symmetric matrix that takes a
-/// tangential step to the change of the normal, K n = 0. It is the inverse of the radii that H holds: 0 on a flat face, and on an
-/// edge no more than 1e9 over the smallest half-extent. Where the shape delivers no H it is taken from differences of boundary
-/// points.
+/// The curvature tensor (shape operator) of the boundary at the point with outward unit normal n (world frame), 1/m: the
+/// symmetric matrix that takes a tangential step to the change of the normal, K n = 0. It is the inverse of the Hessian H, which
+/// holds the radii of curvature: 0 on a flat face, and on an edge no more than 1e9 over the smallest half-extent. Where the shape
+/// delivers no H, it is found from finite differences of boundary points.
 SUPERNORMAL_API Matrix3 find_curvature(const Shape& shape, const Pose& pose, const Vector3& n);
 
 /// Principal values of the relative curvature K1 + K2, 1/m: the gap between the bodies grows as (smaller x^2 + larger y^2) / 2.
@@ -18,7 +18,7 @@ struct ContactCurvature {
   double larger = 0;
 };
 
-/// Of the sum of the curvatures of the two bodies at a contact with the unit normal n.
+/// Returns the principal values of `sum` = K1 + K2, the curvatures of the two bodies at a contact with the unit normal n.
 SUPERNORMAL_API ContactCurvature find_contact_curvature(const Matrix3& sum, const Vector3& n);
 
 }  // namespace supernormal

@@ -12,20 +12,20 @@ namespace supernormal {
 /// A contact point beside the deepest one.
 struct ManifoldCorner {
   Vector3 point = Vector3::Zero();  ///< m; in the frame of the query
-  double depth = 0;                 ///< m; of the overlap there, from 0 to that of the deepest point
+  double depth = 0;                 ///< m; depth of the overlap at `point`, from 0 to that of the deepest point
 };
 
 /// The deepest point of an overlap and, when that is flat, the corners of the region on which the bodies rest.
 ///
 /// One exact point does not let a flat body rest: it jumps from edge to edge as the body tilts by a millionth of a radian. So
 /// where both bodies are flat at the contact, the corners of the region that their support polygons have in common become contact
-/// points too: up to four of a face on a face, two of a cylinder on its side, none where a body is round, which must roll and rock
+/// points too: up to four for a face on a face, two for a cylinder on its side, none where a body is round and must roll and rock
 /// on one point.
 ///
 /// Everything is a continuous function of the pose. Corners grow out of the deepest point as the bodies become flat there
-/// (`flatness`); they are as deep as it is where the face does not lean, and less by as much as it leans. Those whose gap is not
-/// more than `margin` have depth 0: one-sided supports, onto which the body can settle. lib/contact/README.md has the
-/// construction, its proofs, and what it gives.
+/// (`flatness`); they are as deep as it is where the face does not lean, and less deep by as much as it leans. Corners at which
+/// the bodies are apart by at most `margin` have depth 0: they are one-sided supports, onto which the body can settle.
+/// lib/contact/README.md has the construction, its proofs and measurements.
 struct ContactManifold {
   static constexpr int kMaxCorners = 4;
 
@@ -33,29 +33,29 @@ struct ContactManifold {
   ContactManifold(const Proximity& proximity) : deepest(proximity) {}  // NOLINT(google-explicit-constructor): one point is one
 
   Proximity deepest;                                  ///< the contact with the depth of the overlap
-  std::array<ManifoldCorner, kMaxCorners> corners{};  ///< the first corner_count of them, around the contact
+  std::array<ManifoldCorner, kMaxCorners> corners{};  ///< the first corner_count are valid, in order around the contact
   int corner_count = 0;                               ///< 0 or 4, some of which may be at the same place; see reduced_to()
   double same_place = 0;                              ///< m; corners that are nearer to each other are one contact
-  double flatness = 0;  ///< 0 to 1: the share of their depths that corners have beside the deepest point. Without it, all of it
-  double margin = 0;    ///< m; at a corner there is no more than this between the bodies
+  double flatness = 0;  ///< 0 to 1: the factor on the corners' depths beside the deepest point; without that they count fully
+  double margin = 0;    ///< m; the bodies are apart by no more than this at a corner
   int evaluations = 0;  ///< boundary points of one body that finding the corners took
 };
 
-/// The manifold of two bodies whose proximity is known. Corners are only looked for when they overlap; they lie in the plane of
-/// proximity.contact. Symmetric under swapping the bodies.
+/// The manifold of two bodies whose proximity is known. Corners are only looked for when the bodies overlap; they lie in the
+/// plane of proximity.contact. The result is symmetric under swapping the bodies.
 SUPERNORMAL_API ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2,
                                                       const Pose& pose2, const Proximity& proximity);
 
 /// The manifold of a body and a plane, from find_plane_proximity(); the corners are points of the body.
 SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity);
 
-/// Whether a caller with room for so many contacts gets the deepest point beside the corners, whose depths then count `flatness`
-/// times. With less room the corners take its place, at their full depths: the body rests on what is around it.
+/// Whether a caller with room for so many contacts gets the deepest point beside the corners, whose depths are then scaled by
+/// `flatness`. With less room the corners replace it, at their full depths: the body rests on the points around it.
 constexpr bool has_room_for_deepest(int room) { return room > ContactManifold::kMaxCorners; }
 
-/// What a caller with room for so many contacts gets: the corners that are not at the same place; none, or two to four. Those that
-/// take the place of the deepest point begin with the deepest. With room for two or three neighbours are united at a place between
-/// them. Continuous as the manifold is.
+/// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places, of which there are
+/// none or two to four. Where they replace the deepest point, the deepest corner comes first. With room for two or three,
+/// neighbours are united at a place between them. The result is as continuous as the manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 
 }  // namespace supernormal

@@ -1,4 +1,4 @@
-// The gap function of two bodies: the one function that every solver works on.
+// The gap function of two bodies, which every solver maximises.
 #pragma once
 
 #include "supernormal/proximity/pose.hpp"
@@ -15,13 +15,13 @@ struct SUPERNORMAL_API GapJet {
   Jet jet1;                       ///< of body 1, in its frame
   Jet jet2;                       ///< of body 2, in its frame, for the normal m
 
-  /// Whether s and d are numbers: a shape may give some that are not.
+  /// Whether s and d are finite: a shape may deliver values that are not.
   bool is_finite() const;
 };
 
 /// s(n) = n.c - h1(n) - h2(-R^T n): how far apart the supporting planes of the two bodies with normal n are. Its maximum over the
-/// unit sphere is the signed gap (DESIGN section 2). Everything is in body 1's frame, so that distance from the world's origin
-/// costs no digits. Counts its evaluations. Holds references to the shapes.
+/// unit sphere is the signed gap (lib/proximity/README.md). Everything is in body 1's frame, so that distance from the world's
+/// origin costs no digits. Counts its evaluations. Holds references to the shapes.
 class SUPERNORMAL_API GapFunction {
  public:
   GapFunction(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2);
@@ -29,7 +29,7 @@ class SUPERNORMAL_API GapFunction {
   /// Evaluates at the unit normal n (body 1's frame) and counts one evaluation.
   void evaluate(const Vector3& n, Order order, GapJet& jet);
 
-  /// H1 + H2, the negative Hessian of s, m; of a jet with curvature.
+  /// H1 + H2, the negative Hessian of s, m; `jet` must have been evaluated with Order::Hessian.
   Matrix3 curvature(const GapJet& jet) const { return jet.jet1.H + rotation_ * jet.jet2.H * rotation_.transpose(); }
 
   int evaluations() const { return evaluations_; }
@@ -43,11 +43,11 @@ class SUPERNORMAL_API GapFunction {
   /// The unit of length that tolerances refer to: the smallest half-extent of the bodies that are not points, m.
   double length_unit() const { return length_unit_; }
 
-  /// A ball of this radius rolls inside the difference of the bodies, m: s + radius is the gap function of what is left of it
-  /// (Shape::rolling_radius; the radii add).
+  /// The radius (m) of a ball that rolls inside the difference of the bodies, the sum of their Shape::rolling_radius: s + radius
+  /// is the gap function of the difference with the ball taken away.
   double rolling_radius() const { return shape1_->rolling_radius() + shape2_->rolling_radius(); }
 
-  /// Unavoidable error of s by rounding, m.
+  /// The unavoidable rounding error of s, m.
   double rounding() const { return rounding_; }
 
   bool has_hessian() const { return has_hessian_; }
@@ -56,7 +56,7 @@ class SUPERNORMAL_API GapFunction {
  private:
   const Shape* shape1_;
   const Shape* shape2_;
-  const Superellipsoid* superellipsoid1_;  // null where it is none
+  const Superellipsoid* superellipsoid1_;  // null if body 1 is of another class
   const Superellipsoid* superellipsoid2_;
   Vector3 offset_;
   Matrix3 rotation_;

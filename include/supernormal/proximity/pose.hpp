@@ -1,4 +1,4 @@
-// Where a body is.
+// The position and attitude of a body.
 #pragma once
 
 #include <Eigen/Core>

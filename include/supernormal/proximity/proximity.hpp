@@ -1,4 +1,4 @@
-// What a query of two bodies is asked and what it answers.
+// Settings and result of a proximity query of two bodies.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,11 +6,11 @@
 
 namespace supernormal {
 
-/// The ways to find the common normal (DESIGN section 2).
+/// The methods that find the common normal (lib/proximity/README.md).
 enum class Solver {
   Hybrid,      ///< globally convergent ascent of the gap function; the default
-  Newton,      ///< Algorithm I of the paper: analytic curvature, no safeguard; Hybrid for shapes without a Hessian
-  FixedPoint,  ///< Algorithm II of the paper: centres of curvature from secants, no derivatives, no safeguard
+  Newton,      ///< Algorithm I of Roemer's paper: analytic radii of curvature, no safeguard; Hybrid for shapes without a Hessian
+  FixedPoint,  ///< Algorithm II of Roemer's paper: centres of curvature from secants, no derivatives, no safeguard
 };
 
 /// How a query ended.
@@ -23,7 +23,7 @@ enum class Status {
   InvalidInput,     ///< a pose or a shape gave a number that is not finite; the result holds no answer
 };
 
-/// When a solve is to stop. `tolerance` is relative to the smallest half-extent of the two bodies: a solve has converged when
+/// When a solver is to stop. `tolerance` is relative to the smallest half-extent of the two bodies: a solver has converged when
 ///     error <= tolerance * min(smallest half-extent of body 1, of body 2)
 /// (of the other body alone, when one is a point), but never asks for less than a few units of rounding of the terms of s.
 struct Settings {
@@ -31,31 +31,32 @@ struct Settings {
   double tolerance = 1e-9;       ///< in [1e-15, 1]
   int max_evaluations = 1000;    ///< in [1, 1000000]
   bool stop_when_apart = false;  ///< end with Status::Apart at the first normal that proves separation
-  bool certify_depth = false;    ///< of overlapping bodies, search on until the depth is proved the smallest: Proximity::is_global
+  bool certify_depth = false;    ///< search on until the depth of overlapping bodies is proved the smallest: Proximity::is_global
 };
 
 /// The common normal of two bodies. Points and the normal are in the frame that the query was asked in.
 struct Proximity {
   double gap = 0;                                     ///< m; distance when positive, minus the penetration depth when negative
-  double error = 0;                                   ///< m; estimate of what is left to the local maximum of the gap function. A
+  double error = 0;                                   ///< m; estimate of what is left to the local maximum of the gap function: a
                                                       ///< bound where is_global; elsewhere not less than the tolerance
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, from body 1 to body 2
   Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
   Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
   Eigen::Vector3d contact =
       Eigen::Vector3d::Zero();  ///< m; where a contact force acts: between the two points, nearer to the sharper body's
-  int evaluations = 0;          ///< of the gap function
+  int evaluations = 0;          ///< evaluations of the gap function
   Status status = Status::InvalidInput;
   /// Whether it is proved that no other normal has a larger gap: `gap` is then the largest value of the gap function, to within
-  /// `error` or the tolerance, whichever is larger, and of overlapping bodies `-gap` the shortest translation that separates them.
-  /// Always true of bodies apart or touching (overlapping by half of the tolerance at most), of closed forms (a plane), and after
-  /// Settings::certify_depth unless the evaluations ran out; without that, of overlapping bodies it is true when the depth is
-  /// within the proved smallest radii of curvature of both (Shape::rolling_radius).
+  /// `error` or the tolerance, whichever is larger, and for overlapping bodies `-gap` is the minimum translation distance (MTD),
+  /// the length of the shortest translation that separates them. It is always true for bodies apart or touching (overlapping by
+  /// half of the tolerance at most), for closed forms (a plane), and after Settings::certify_depth unless the evaluations ran
+  /// out; without that, it is true for overlapping bodies when the depth is within the sum of the proved rolling radii of both
+  /// (Shape::rolling_radius).
   bool is_global = false;
-  /// m; proved bound on how much larger than `gap` the largest value of the gap function can be, so that this lies within
-  /// [gap, gap + global_error]: when is_global the larger of `error` and the tolerance. Where the hybrid has looked for other
-  /// maxima, 1 % of the depth (more where a shallow overlap ended the search), a third of it when it followed an earlier normal.
-  /// Infinite of contacts with meshes, where a part of the surface counts.
+  /// m; proved bound on how much larger than `gap` the largest value of the gap function can be, so that this lies within [gap,
+  /// gap + global_error]. When is_global, it is the larger of `error` and the tolerance. Where the hybrid has looked for other
+  /// maxima, it is 1 % of the depth (more where a shallow overlap ended the search), or a third of the depth when it followed an
+  /// earlier normal. It is infinite for contacts with meshes, where only a part of the surface counts.
   double global_error = std::numeric_limits<double>::infinity();
 };
 

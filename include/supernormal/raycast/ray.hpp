@@ -7,38 +7,40 @@
 
 namespace supernormal {
 
-/// Where a ray meets the boundary of a body. Point and normal are in the frame that the query was asked in.
+/// The point where a ray meets the boundary of a body. Point and normal are in the frame that the query was asked in.
 struct RayHit {
   bool hit = false;                   ///< whether the ray meets the boundary within its length
   bool from_inside = false;           ///< the origin is inside the body, and the hit is where the ray leaves it
   double distance = 0;                ///< m; from the origin to the hit, along the ray
-  double distance_error = 0;          ///< m; about how far `distance` may be off
+  double distance_error = 0;          ///< m; estimate of the error of `distance`
   double boundary_error = 0;          ///< m; bound on the distance of `point` from the boundary, to rounding
   Vector3 point = Vector3::Zero();    ///< m
   Vector3 normal = Vector3::UnitX();  ///< unit; the outward normal at the hit, also from inside
-  int evaluations = 0;                ///< of the potential
+  int evaluations = 0;                ///< evaluations of the support function
   Status status = Status::InvalidInput;
 };
 
-/// The first point of the boundary on the ray from `origin` along `direction`: where the ray enters the body or, when the origin
-/// is inside, where it leaves it. A ray that begins or ends on the boundary meets it; one that lies wholly inside does not.
-/// The body may be any shape, with or without a Hessian, faces and edges.
+/// Finds the first point of the boundary on the ray from `origin` along `direction`: where the ray enters the body or, when the
+/// origin is inside, where it leaves it. A ray that begins or ends on the boundary meets it; one that lies wholly inside does
+/// not. The body may be any shape, with or without a Hessian, faces and edges.
 ///
-/// `origin` in m; `direction` of unit length (to 1e-6; it is normalised); `length` in m, in [0, inf]. Of the settings, `tolerance`
-/// (of boundary_error, relative to the body's smallest half-extent) and `max_evaluations` count. std::invalid_argument when one of
-/// these is out of range; Status::InvalidInput when the pose, the ray or what the shape delivers is not finite, or the body more
-/// than 1e150 m away. With any other status but Converged, `hit` is what is known so far.
+/// `origin` in m; `direction` of unit length (to 1e-6; it is normalised); `length` in m, in [0, inf]. Of the settings,
+/// `tolerance` (of boundary_error, relative to the body's smallest half-extent) and `max_evaluations` are used. Throws
+/// std::invalid_argument when one of these is out of range; returns Status::InvalidInput when the pose, the ray or what the shape
+/// delivers is not finite, or the body is more than 1e150 m away. With any status other than Converged, `hit` is what is known so
+/// far.
 ///
-/// As a point of the boundary the hit is well conditioned at any angle. As a distance along the ray it is not where the ray grazes
-/// the body: moving the ray sideways by x changes the distance by x / |normal.direction|, and by about sqrt(2 R x) where it is
-/// tangent, R being the radius of curvature; distance_error allows for that. Hit or miss is decided to rounding, whatever the
-/// tolerance: about 1e-14 of the body's size and of its distance from the line. On a flat face of a body without a Hessian the
-/// normal is good to about the square root of the tolerance.
+/// The hit is well conditioned as a point of the boundary at any angle. As a distance along the ray it is not where the ray
+/// grazes the body: moving the ray sideways by x changes the distance by x / |normal.direction|, and by about sqrt(2 R x) where
+/// the ray is tangent, R being the radius of curvature; distance_error allows for that. Hit or miss is decided to rounding,
+/// whatever the tolerance: about 1e-14 of the body's size and of its distance from the line. On a flat face of a body without a
+/// Hessian the normal is good to about the square root of the tolerance.
 SUPERNORMAL_API RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction,
                                     double length, const Settings& settings = {});
 
-/// The proximity of a body (body 1) and the segment that the ray covers (body 2): its distance when they are apart, and when the
-/// ray passes through the body, how far one must be moved to clear the other. Arguments as above.
+/// The proximity of a body (body 1) and the segment that the ray covers (body 2): their distance when they are apart, and when
+/// the ray passes through the body, the depth by which one must be moved to clear the other. Arguments are those of
+/// find_ray_hit().
 SUPERNORMAL_API Proximity find_ray_proximity(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction,
                                              double length, const Settings& settings = {});
 

@@ -1,11 +1,11 @@
-// Box.
+// A box with sharp edges.
 #pragma once
 
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
 
-/// |x| <= a, |y| <= b, |z| <= c: h(n) = a|nx| + b|ny| + c|nz|. Of a face or an edge, r(n) is one of the corners.
+/// x| <= a, |y| <= b, |z| <= c: h(n) = a|nx| + b|ny| + c|nz|. For the normal of a face or an edge, r(n) is one of its corners.
 class SUPERNORMAL_API Box final : public Shape {
  public:
   /// Half-lengths in m, in [0, 1e30]; std::invalid_argument otherwise.

@@ -15,28 +15,28 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
   using Point = std::function<Vector3(const Vector3& n)>;
   using Hessian = std::function<Matrix3(const Vector3& n)>;
 
-  /// `hessian` may be empty. Tries the functions in 26 directions (of the faces, edges and corners of a cube): finite results, a
-  /// size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) >= 2e-30 m, no point farther than 1e-6 of the size
-  /// outside a supporting plane, a symmetric Hessian with H n = 0 and no negative radius, to 1e-6 of its largest entry.
-  /// std::invalid_argument otherwise, with the direction, the value and what was expected. Looks for the body's sharpest edges in
-  /// some 650 directions more.
+  /// `hessian` may be empty. The functions are tried in 26 directions (to the faces, edges and corners of a cube): finite
+  /// results, a size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) >= 2e-30 m, no point farther than 1e-6 of
+  /// the size outside a supporting plane, a symmetric Hessian with H n = 0 and no negative radius, to 1e-6 of its largest entry.
+  /// std::invalid_argument otherwise, with the direction, the value and what was expected. Some 650 directions more look for the
+  /// body's sharpest edges.
   CallbackShape(Support support, Point point, Hessian hessian = {});
 
-  /// Without a Hessian, Order::Hessian delivers h and r and leaves H as it is.
+  /// Without a Hessian, Order::Hessian delivers h and r and leaves H unchanged.
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_hessian() const override { return static_cast<bool>(hessian_); }
   Vector3 half_extents() const override { return half_extents_; }
 
-  /// Estimated from boundary points. Solvers need them to know how sharp the body is; an edge away from the nine great circles that
-  /// are walked, and shorter than the way between two of them, may be missed.
-  double min_curvature_radius_estimate() const override { return sharpest_radius_; }
+  /// An estimate from boundary points. Solvers need it to know how sharp the body is; an edge away from the nine great circles
+  /// that are sampled, and shorter than the distance between two of them, may be missed.
+  double min_curvature_radius_estimate() const override { return min_curvature_radius_; }
 
  private:
   Support support_;
   Point point_;
   Hessian hessian_;
-  Vector3 half_extents_;  // asked for once, like the next
-  double sharpest_radius_;
+  Vector3 half_extents_;  // computed once, like the next
+  double min_curvature_radius_;
 };
 
 }  // namespace supernormal

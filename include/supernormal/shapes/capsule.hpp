@@ -6,7 +6,7 @@
 namespace supernormal {
 
 /// The points within `radius` of the segment from (0, 0, -half_length) to (0, 0, half_length): h(n) = half_length |nz| + radius.
-/// Of its side, r(n) is one of the two ends.
+/// For a normal of the side, r(n) is at one of the two ends.
 class SUPERNORMAL_API Capsule final : public Shape {
  public:
   /// Both in m, in [0, 1e30]; std::invalid_argument otherwise. A radius of 0 makes it a segment.

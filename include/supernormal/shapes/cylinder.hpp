@@ -5,8 +5,8 @@
 
 namespace supernormal {
 
-/// x^2 + y^2 <= radius^2, |z| <= half_length: h(n) = radius sqrt(nx^2 + ny^2) + half_length |nz|. Of its side, r(n) is one of the
-/// two ends; of a cap, the centre.
+/// x^2 + y^2 <= radius^2, |z| <= half_length: h(n) = radius sqrt(nx^2 + ny^2) + half_length |nz|. For a normal of the side, r(n)
+/// is at one of the two ends; for that of a cap, it is the centre.
 class SUPERNORMAL_API Cylinder final : public Shape {
  public:
   /// Both in m, in [0, 1e30]; std::invalid_argument otherwise.

@@ -1,4 +1,4 @@
-// Ellipsoid: the potential is a norm, no powers needed.
+// Ellipsoid: its support function is a Euclidean norm and needs no powers.
 #pragma once
 
 #include "supernormal/shapes/shape.hpp"
@@ -16,7 +16,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return half_axes_; }
 
-  /// That of the smallest radius of curvature: c^2/a with c the smallest half-axis and a the largest.
+  /// The smallest radius of curvature: c^2/a with c the smallest half-axis and a the largest.
   double rolling_radius() const override;
   MassProperties mass_properties() const override;
 

@@ -26,10 +26,10 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   Vector3 half_extents() const override { return half_extents_; }
   double min_curvature_radius_estimate() const override;
 
-  /// The image of a ball is an ellipsoid, and a ball rolls in that.
+  /// The image of a ball is an ellipsoid, and a ball rolls inside that.
   double rolling_radius() const override { return shape_->rolling_radius() * smallest_ * (smallest_ / largest_); }
 
-  /// As exact as that of the shape.
+  /// These are as exact as the mass properties of the shape.
   MassProperties mass_properties() const override;
 
   const Shape& shape() const { return *shape_; }
@@ -38,7 +38,7 @@ class SUPERNORMAL_API LinearImage final : public Shape {
  private:
   std::shared_ptr<const Shape> shape_;
   Matrix3 matrix_, inverse_;
-  double largest_, smallest_;  // stretch
+  double largest_, smallest_;  // the largest and smallest singular value
   Vector3 half_extents_;
 };
 

@@ -1,4 +1,4 @@
-// The sum of two shapes.
+// The Minkowski sum of two shapes.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,10 @@
 
 namespace supernormal {
 
-/// The Minkowski sum: all points p + q with p in one shape and q in the other. h, r and H are the sums of those of the two. (With a
-/// sphere it is Rounded; with a point, such as a Polytope of one, the shape is moved there.) Its mass is that of
-/// Shape::mass_properties(): to 1e-10 when both are smooth, without the volume behind flat faces, which relative_error counts.
-/// Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 1.7.
+/// All points p + q with p in one shape and q in the other. h, r and H are the sums of those of the two. (With a sphere the sum
+/// is Rounded; with a point, such as a Polytope of one point, the shape is moved there.) Its mass comes from
+/// Shape::mass_properties(): to 1e-10 when both are smooth, and without the volume behind flat faces, which relative_error
+/// accounts for. Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 1.7.
 class SUPERNORMAL_API MinkowskiSum final : public Shape {
  public:
   /// Neither may be null; std::invalid_argument otherwise.

@@ -8,8 +8,8 @@
 namespace supernormal {
 
 /// The convex hull of points: a point, a segment, a triangle or a solid, h(n) = max n.v. Points inside the hull, coplanar and
-/// repeated points do no harm. It only looks at the points, which the caller keeps: nothing is copied or allocated, so that one can
-/// be made for a query. The origin of the frame should be near the middle of the points: solvers start from there.
+/// repeated points do no harm. It refers to the caller's points: nothing is copied or allocated, so that one can be made for a
+/// query. The origin of the frame should be near the middle of the points, because solvers start from there.
 class SUPERNORMAL_API Polytope final : public Shape {
  public:
   /// `points` in m, at least one, finite and within 1e30; std::invalid_argument otherwise.
@@ -21,8 +21,8 @@ class SUPERNORMAL_API Polytope final : public Shape {
   Vector3 half_extents() const override { return half_extents_; }
   double min_curvature_radius_estimate() const override;
 
-  /// Exact, but for points that lie less than about a millionth of the size outside the hull of the others: what they hold may be
-  /// missing, and relative_error counts it.
+  /// Exact, except for points that lie less than about a millionth of the size outside the hull of the others: their volume may
+  /// be missing, and relative_error accounts for it.
   MassProperties mass_properties() const override;
 
   std::span<const Vector3> points() const { return points_; }

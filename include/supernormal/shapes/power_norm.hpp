@@ -19,14 +19,14 @@ struct PowerNormJet {
 
 class PowerNorm;
 
-/// A norm, where it is asked for, and the answer.
+/// A request: a norm, the point at which it is evaluated, and the result.
 struct PowerNormRequest {
   const PowerNorm* norm;
   double x, y;  ///< not negative
   PowerNormJet jet;
 };
 
-/// A norm of three numbers, and the answer.
+/// A request for a norm of three numbers, and the result.
 struct PowerNorm3Request {
   const PowerNorm* norm;
   std::array<double, 3> x;  ///< not negative
@@ -35,8 +35,8 @@ struct PowerNorm3Request {
   std::array<double, 3> bend{};   ///< value times the second derivatives; the mixed ones are -(p - 1) slope[i] slope[j] / value
 };
 
-/// (x^p + y^p)^(1/p), from two powers; from a square root for p = 2. The larger number is factored out, so that nothing
-/// overflows whatever p is.
+/// The norm (x^p + y^p)^(1/p) from two powers, or from a square root for p = 2. The larger number is factored out, so that
+/// nothing overflows for any p.
 class PowerNorm {
  public:
   /// The norm with p = exponent.
@@ -47,21 +47,21 @@ class PowerNorm {
 
   double value(double x, double y) const;
 
-  /// Value and first derivatives. At the origin, where the direction is undefined, as if x = y.
+  /// Value and first derivatives. At the origin, where the direction is undefined, they are those for x = y.
   void gradient(double x, double y, PowerNormJet& jet) const;
 
-  /// k^(p-1): what the derivative with respect to one number is to that with respect to another that is 1/k times as large.
+  /// k^(p-1): the ratio of the derivative with respect to one number to that with respect to another that is 1/k times as large.
   double slope(double k) const;
 
-  /// All of PowerNormJet.
+  /// Value, first and second derivatives: all of PowerNormJet.
   void curvature(double x, double y, PowerNormJet& jet) const;
 
-  /// Answers one, two or four requests up to `order`. Two side by side take two thirds of the time of one after the other: a
-  /// power, a logarithm and an exponential wait for one another, but not for those of the other norm.
+  /// Answers one, two or four requests up to `order`. Two side by side take two thirds of the time of two in sequence: a power, a
+  /// logarithm and an exponential wait for one another, but not for those of the other norm.
   template <std::size_t kCount>
   static void evaluate_requests(std::array<PowerNormRequest, kCount>& requests, Order order);
 
-  /// The same of three numbers, which must be plain: one root less than two nested norms take.
+  /// The same for three numbers, which must be plain: this takes one root less than two nested norms.
   template <std::size_t kCount>
   static void evaluate_requests(std::array<PowerNorm3Request, kCount>& requests, Order order);
 

@@ -1,4 +1,4 @@
-// Any shape swept by a sphere.
+// A shape swept by a sphere.
 #pragma once
 
 #include <memory>
@@ -26,8 +26,8 @@ class SUPERNORMAL_API Rounded final : public Shape {
   double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return core_->rolling_radius() + radius_; }
 
-  /// Of spheres, capsules and ellipsoids, superellipsoids and superovoids, swept once or again, to 1e-11. Of other shapes by
-  /// Shape::mass_properties(), which knows no flat faces: see relative_error there.
+  /// Accurate to 1e-11 for spheres, capsules, ellipsoids, superellipsoids and superovoids, swept once or repeatedly. Other shapes
+  /// use Shape::mass_properties(), which does not see flat faces: see relative_error there.
   MassProperties mass_properties() const override;
 
   const Shape& core() const { return *core_; }

@@ -1,4 +1,4 @@
-// A convex body as its generating potential (support function): give a normal, get the boundary point that has it.
+// A convex body given by its support function and the boundary point of each outward normal.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,14 +12,14 @@ namespace supernormal {
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 
-/// How much of the potential an evaluation has to deliver; each level includes those before it.
+/// How much an evaluation has to deliver; each level includes those before it.
 enum class Order {
   Value,    ///< h
   Point,    ///< h and r
   Hessian,  ///< h, r and H
 };
 
-/// The generating potential and its derivatives in one normal direction n, all in the body's frame.
+/// The support function and its derivatives in one normal direction n, all in the body's frame.
 struct Jet {
   double h = 0;                 ///< m; support function, the distance from the body's origin to the tangent plane with normal n
   Vector3 r = Vector3::Zero();  ///< m; gradient of h: the boundary point with outward normal n, n.r = h
@@ -31,7 +31,7 @@ struct MassProperties {
   double volume = 0;                        ///< m^3
   Vector3 centroid = Vector3::Zero();       ///< m
   Matrix3 second_moment = Matrix3::Zero();  ///< m^5; integral of x x^T about the origin of the body's frame
-  double relative_error = 0;                ///< estimated, of volume and moments relative to their size; 0 for closed forms
+  double relative_error = 0;                ///< estimate, for volume and moments relative to their size; 0 for closed forms
 };
 
 /// Some points of a body that has faces or straight edges, in its own frame: see Shape::add_active_vertices.
@@ -44,7 +44,7 @@ class ActiveVertices {
   int size() const { return count_; }
   const Vector3& operator[](int k) const { return points_[static_cast<std::size_t>(k)]; }
 
-  /// Whether the body has more corners than it named. They must then be the same points for every normal.
+  /// Whether the body has more corners than the list names. They must then be the same points for every normal.
   bool is_partial() const { return is_partial_; }
   void set_partial() { is_partial_ = true; }
 
@@ -56,8 +56,8 @@ class ActiveVertices {
 
 class Superellipsoid;
 
-/// A convex body known by its normal parameterization (Roemer; DESIGN section 1). The functions of a shape are pure:
-/// any number of threads may call them at once.
+/// A convex body known by its normal parameterization (Roemer; lib/shapes/README.md). The functions of a shape are pure: any
+/// number of threads may call them at once.
 class SUPERNORMAL_API Shape {
  public:
   Shape() = default;
@@ -67,50 +67,52 @@ class SUPERNORMAL_API Shape {
   Shape& operator=(Shape&&) = default;
   virtual ~Shape() = default;
 
-  /// Evaluates the potential for the unit normal n, up to `order`; members of a higher order are left as they are.
-  /// On a flat face the radius of curvature is infinite; H then holds a large finite number.
+  /// Evaluates the support function for the unit normal n, up to `order`; members of a higher order are left unchanged. On a flat
+  /// face the radius of curvature is infinite; H then holds a large finite number.
   virtual void evaluate(const Vector3& n, Order order, Jet& jet) const = 0;
 
-  /// Itself, if it is one: two superellipsoids are evaluated together.
+  /// This object if it is a superellipsoid, null otherwise: two superellipsoids are evaluated together.
   virtual const Superellipsoid* as_superellipsoid() const { return nullptr; }
 
-  /// Whether evaluate() can deliver Order::Hessian. Solvers estimate the curvature from boundary points otherwise.
+  /// Whether evaluate() can deliver Order::Hessian. Otherwise solvers estimate the radii of curvature from boundary points.
   virtual bool has_hessian() const { return true; }
 
-  /// The normal to move to when the boundary point is to move from jet.r by H dn: to first order n + dn. Shapes with flat faces
-  /// override it, because there the normal is a smooth function of the boundary point but not the other way round.
-  /// `jet` is the one of the unit normal n, with curvature. The result need not be of unit length.
+  /// The normal to move to when the boundary point is to move from jet.r by H dn; to first order it is n + dn. Shapes with flat
+  /// faces override it, because there the normal is a smooth function of the boundary point but not the other way round. `jet`
+  /// belongs to the unit normal n and has been evaluated with Order::Hessian. The result need not be of unit length.
   virtual Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const;
 
-  /// Whether advance_normal() is more than n + dn.
+  /// Whether advance_normal() differs from n + dn.
   virtual bool has_flat_faces() const { return false; }
 
   /// Whether the body has flat faces or straight edges in the strict sense, so that its support function has kinks: all points of
   /// a face share one normal. evaluate() then delivers one of them, and H without the jump.
   virtual bool has_kinks() const { return false; }
 
-  /// For a body with kinks: at most ActiveVertices::kCapacity points that are or become its boundary points as the normal turns,
-  /// the first to do so. Each bounds the support function, h(m) >= m.corner for every m; r(n) may be among them. Of a curved face
-  /// with normal n, three that have its point nearest to `toward` (body's frame) between them.
+  /// For a body with kinks: adds at most ActiveVertices::kCapacity points that are or become its boundary points as the normal
+  /// turns, the first to do so. Each bounds the support function, h(m) >= m.corner for every m; r(n) may be among them. For a
+  /// curved face with normal n, they are three points of its rim whose triangle contains its point nearest to `toward` (body's
+  /// frame).
   virtual void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const;
 
-  /// Whether the way from one normal to another crosses that of a curved face, such as the cap of a cylinder, which no corners
-  /// announce; then `face` is that normal.
+  /// Whether the arc from one normal to another passes the normal of a curved face, such as the cap of a cylinder, which no
+  /// active vertices announce; `face` is then set to that normal.
   virtual bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const;
 
-  /// Whether no cap of the body is wider than one of an ellipsoid is, but for a little: it never rests on more than one point
+  /// Whether no cap of the body is much wider than that of an ellipsoid: such a body never rests on more than one point
   /// (contact_manifold.hpp). False where it is not known.
   virtual bool is_round() const { return false; }
 
-  /// Whether the body is its own image in the origin of its frame: h(-n) = h(n), digit by digit. False where it is not known.
+  /// Whether the body is point-symmetric about the origin of its frame: h(-n) = h(n), digit by digit. False where it is not
+  /// known.
   virtual bool is_symmetric() const { return false; }
 
   /// Half of the extent along the three axes of the body's frame, m.
   virtual Vector3 half_extents() const;
 
-  /// m; about the smallest radius of curvature, 0 with an edge or a corner. An estimate, for where to look: rolling_radius() is
-  /// proved. Of vertices where the radius vanishes at one normal only it may be that of what is beside them. Unless overridden,
-  /// that of the ellipsoid of the same extents.
+  /// m; an estimate of the smallest radius of curvature, 0 for a body with an edge or a corner. It tells solvers where to look;
+  /// rolling_radius() is proved. For vertices where the radius vanishes at one normal only, it may be that of the vertex'
+  /// surroundings. Unless overridden, it is that of the ellipsoid of the same extents.
   virtual double min_curvature_radius_estimate() const;
 
   /// m; a ball of this radius provably rolls freely inside the body: no radius of curvature is smaller, so that the body is the sum
@@ -118,15 +120,15 @@ class SUPERNORMAL_API Shape {
   /// where none is known. Two bodies that overlap by less than the sum of theirs have one local maximum of the gap only.
   virtual double rolling_radius() const { return 0; }
 
-  /// Volume, centroid and second moments; a closed form where there is one, quadrature over the normals otherwise: to 1e-10 for a
-  /// smooth body; flat faces and straight edges, which the normals do not see, are missing and counted in relative_error.
-  /// std::domain_error when the shape delivers values that are not finite.
+  /// Volume, centroid and second moments, in closed form where there is one and otherwise by quadrature over the normals: to
+  /// 1e-10 for a smooth body; the volume behind flat faces and straight edges, which the normals do not see, is missing and
+  /// accounted for in relative_error. std::domain_error when the shape delivers values that are not finite.
   virtual MassProperties mass_properties() const;
 
-  /// h(n), m.
+  /// The support function h(n), m.
   double support(const Vector3& n) const;
 
-  /// r(n), m.
+  /// The boundary point r(n), m.
   Vector3 point(const Vector3& n) const;
 
   /// h, r and H together.

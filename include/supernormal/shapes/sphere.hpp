@@ -1,11 +1,11 @@
-// Sphere; of radius 0, a point.
+// Sphere; a point if the radius is 0.
 #pragma once
 
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
 
-/// h(n) = radius. A sphere of radius 0 is a point, which makes the distance of a point from a body a request about two bodies.
+/// h(n) = radius. A sphere of radius 0 is a point, so that the distance of a point from a body is a query of two bodies.
 class SUPERNORMAL_API Sphere final : public Shape {
  public:
   /// Radius in m, in [0, 1e30]; std::invalid_argument otherwise.

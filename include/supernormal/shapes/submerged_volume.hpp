@@ -10,14 +10,14 @@ namespace supernormal {
 
 struct Submerged {
   double volume = 0;                 ///< m^3
-  Vector3 centre = Vector3::Zero();  ///< m; of the volume, in the body's frame
+  Vector3 centre = Vector3::Zero();  ///< m; centre of the submerged volume, in the body's frame
 };
 
-/// Answers how much of a body is under water, from a mesh of 512 triangles between boundary points that is made once. Exact for a
-/// body that is wholly in or out; what is cut is to 0.5 % of the volume for ellipsoids.
+/// Computes how much of a body is under water, from a mesh of 512 triangles between boundary points that is made once. Exact for
+/// a body that is wholly in or out; a body that is cut is accurate to 0.5 % of the volume for ellipsoids.
 class SUPERNORMAL_API SubmergedVolume {
  public:
-  /// The shape is not kept.
+  /// Builds the mesh; the shape is not kept.
   explicit SubmergedVolume(const Shape& shape);
 
   double volume() const { return whole_.volume; }
@@ -29,7 +29,7 @@ class SUPERNORMAL_API SubmergedVolume {
   const Vector3& corner(int k) const { return points_[static_cast<std::size_t>(k)]; }
 
   Submerged whole_;
-  double enlargement_ = 1;  // of the volumes of the mesh, which lies inside the body
+  double enlargement_ = 1;  // volume of the body over that of the mesh, which lies inside it
   std::vector<Vector3> points_;
   std::vector<std::array<int, 3>> triangles_;
 };

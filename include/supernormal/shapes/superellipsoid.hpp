@@ -12,10 +12,10 @@ namespace supernormal {
 
 /// (|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 in the body's frame.
 ///
-/// With the dual exponents p = delta/(delta-1) and q = epsilon/(epsilon-1) the potential is two nested norms,
+/// With the dual exponents p = delta/(delta-1) and q = epsilon/(epsilon-1) the support function is two nested norms,
 ///     t = (|a nx|^p + |b ny|^p)^(1/p),   h = (t^q + |c nz|^q)^(1/q),
-/// evaluated with the larger term factored out, so that nothing over- or underflows (DESIGN section 1). The printed
-/// potential of Roemer's paper has a misprinted exponent; this one satisfies the implicit equation.
+/// evaluated with the larger term factored out, so that nothing over- or underflows (lib/shapes/README.md). The printed function
+/// of Roemer's paper has a misprinted exponent; this one satisfies the implicit equation.
 class SUPERNORMAL_API Superellipsoid final : public Shape {
  public:
   static constexpr double kMinExponent = 1.01;
@@ -26,22 +26,22 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
 
-  /// A body, a unit normal, and where its jet goes.
+  /// A request: a body, a unit normal, and where its jet goes.
   struct EvalRequest {
     const Superellipsoid* body;
     const Vector3* n;
     Jet* jet;
   };
 
-  /// evaluate() of two bodies in two thirds of the time that they take one after the other, with the same digits.
+  /// Evaluates two bodies in two thirds of the time that two calls of evaluate() take, with the same digits.
   static void evaluate_both(const EvalRequest& request1, const EvalRequest& request2, Order order);
 
-  /// The same of four normals: in half of the time.
+  /// Evaluates four normals in half of the time, with the same digits.
   static void evaluate_four(const std::array<EvalRequest, 4>& requests, Order order);
   const Superellipsoid* as_superellipsoid() const override { return this; }
 
-  /// Moves the boundary point and takes the normal there (the gradient of the implicit function): on a flat face, r is
-  /// a steep power of n but n is a gentle power of r.
+  /// Moves the boundary point and takes the normal there (the gradient of the implicit function): on a flat face, r is a steep
+  /// power of n but n is a gentle power of r.
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
 
@@ -57,7 +57,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   double epsilon() const { return epsilon_; }
 
  private:
-  // At most 0.21 of the body's width wider than an ellipsoid's are the caps of a superellipsoid with such exponents.
+  // The caps of a superellipsoid with exponents up to this are wider than an ellipsoid's by at most 0.21 of the body's width.
   static constexpr double kMostRound = 3;
 
   template <std::size_t kCount>
@@ -73,9 +73,9 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   Vector3 half_axes_;
   double delta_, epsilon_;
-  PowerNorm inner_potential_, outer_potential_;  // of (a nx, b ny) and of (inner, c nz): exponents p and q
-  PowerNorm inner_gauge_, outer_gauge_;          // of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
-  double rolling_radius_;                        // m
+  PowerNorm inner_support_, outer_support_;  // norms of (a nx, b ny) and of (inner, c nz): exponents p and q
+  PowerNorm inner_gauge_, outer_gauge_;      // norms of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
+  double rolling_radius_;                    // m
 };
 
 }  // namespace supernormal

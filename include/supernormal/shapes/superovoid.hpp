@@ -34,18 +34,19 @@ class SUPERNORMAL_API Superovoid final : public Shape {
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
 
-  /// As that of the Superellipsoid: where it is flat, the gradient of the implicit function at the moved boundary point.
+  /// The normal at the moved boundary point where the body is flat (the gradient of the implicit function), as for the
+  /// Superellipsoid.
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
 
   /// The body reaches from z = -c to c; its widest section is above or below z = 0.
   Vector3 half_extents() const override { return half_extents_; }
-  double min_curvature_radius_estimate() const override { return sharpest_radius_; }
+  double min_curvature_radius_estimate() const override { return min_curvature_radius_; }
 
   /// In closed form. With a taper the centroid is not the origin but on the z-axis.
   MassProperties mass_properties() const override;
 
-  /// a, b, c: those of the superellipsoid that is tapered.
+  /// The half-axes a, b, c of the superellipsoid that is tapered.
   const Vector3& half_axes() const { return half_axes_; }
   double delta() const { return delta_; }
   double epsilon() const { return epsilon_; }
@@ -56,11 +57,11 @@ class SUPERNORMAL_API Superovoid final : public Shape {
   Vector3 half_axes_;
   double delta_, epsilon_;
   double taper_x_, taper_y_;
-  double knee_;                                  // 2^(-1/epsilon): |z/c| where the meridian has the slope of its diagonal
-  PowerNorm inner_potential_, outer_potential_;  // the dual norms of the section and of the meridian: exponents p and q
-  PowerNorm inner_gauge_, outer_gauge_;          // of (x/(a X), y/(b Y)) and of (inner, z/c): exponents delta and epsilon
+  double knee_;                              // 2^(-1/epsilon): |z/c| where the meridian has the slope of its diagonal
+  PowerNorm inner_support_, outer_support_;  // the dual norms of the section and of the meridian: exponents p and q
+  PowerNorm inner_gauge_, outer_gauge_;      // norms of (x/(a X), y/(b Y)) and of (inner, z/c): exponents delta and epsilon
   Vector3 half_extents_;
-  double sharpest_radius_;  // m
+  double min_curvature_radius_;  // m
 };
 
 }  // namespace supernormal

@@ -12,27 +12,27 @@
 namespace supernormal {
 namespace {
 
-// Of the smallest half-extent: a lesser depth is rounding.
+// A depth below this share of the smallest half-extent is rounding.
 constexpr double kLeastDepth = 1e-12;
 
 // Corners that are nearer to each other than this share of the body's extent are one; from twice that on they are two, and in
 // between they move together.
 constexpr double kSamePlace = 0.01;
 
-// Of that length: closer together, two corners are at the same place but for rounding.
+// Two corners that are nearer than this share of that length differ by rounding only.
 constexpr double kMoved = 0.01;
 
 // Corners are looked for from so many times the reach of the region: far enough to find those of a square that is turned by
 // 25 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
 constexpr double kLookFrom = 1.5;
 
-// Of the depth: what two corners that are equally deep may differ by in rounding.
+// Two corners are equally deep when their depths differ by less than this share.
 constexpr double kSameDepth = 1e-9;
 
-// Of the deepest: what a corner that is not deep counts where two are united.
+// A corner of depth 0 has this share of the deepest point's depth as its weight where two are united.
 constexpr double kLeastShare = 0.01;
 
-// Not a plate or a segment, which has no thickness to be deep in; nor anything else that is thinner than a body of ours may be.
+// Plates and segments have no thickness to be deep in, nor have shapes that are thinner than a body of ours may be.
 bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
   const double thickness = shape.half_extents().minCoeff();
@@ -44,9 +44,9 @@ struct CornerList {
   std::array<Vector3, ContactManifold::kMaxCorners> points;
   std::array<double, ContactManifold::kMaxCorners> drops;
 
-  /// What a flat face has as its drop everywhere is its rounding: the face as a whole is as deep as the deepest point. What one
-  /// corner has more than another is the lean. A corner that leans by more than `largest_lean` (m) is drawn in to the deepest
-  /// point, as the square of what it exceeds that by: it is in the air, and would hold the body there.
+  /// The drop that all corners of a flat face have in common is its rounding: the face as a whole is as deep as the deepest
+  /// point. The drop that one corner has beyond another is the lean. A corner that leans by more than `largest_lean` (m) is drawn
+  /// in to the deepest point, as the square of the excess: it is in the air, and would hold the body there.
   void write(double largest_lean, ContactManifold& manifold) const {
     const double least = *std::min_element(drops.begin(), drops.end());
     const Vector3& deepest = manifold.deepest.contact;
@@ -76,7 +76,7 @@ class Side {
     }
   }
 
-  /// The support point, which its polygon need not contain.
+  /// The support point, which the polygon need not contain.
   const Vector2& apex() const { return apex_; }
 
   ConvexPolygon outline() const {
@@ -85,14 +85,15 @@ class Side {
     return outline;
   }
 
-  /// A bound on how far the surface is below the tangent plane there: by the triangles between the support point and two
+  /// A bound on how far the surface is below the tangent plane at the point, from the triangles between the support point and two
   /// neighbouring vertices, which lie in the body.
   double drop_at(const Vector2& point) const {
     const Vector2 way = point - apex_;
-    std::array<double, 5> across;  // of the spokes; the first one twice
+    std::array<double, 5> across;  // cross products of the spokes and the way; the first one is repeated
     for (std::size_t k = 0; k < 4; ++k) across[k] = x_[k] * way.y() - y_[k] * way.x();
     across[4] = across[0];
-    std::array<double, 4> share1, share2, outside;  // of the two spokes of each triangle
+    // Each triangle has shares of its two spokes; `outside` is positive when the point is outside it.
+    std::array<double, 4> share1, share2, outside;
     for (std::size_t k = 0; k < 4; ++k) {
       share1[k] = -across[k + 1] * inverse_areas_[k];
       share2[k] = across[k] * inverse_areas_[k];
@@ -104,18 +105,18 @@ class Side {
       share2[k] = share.y();
     }
     for (std::size_t k = 0; k < 4; ++k) outside[k] = std::max(std::max(-share1[k], -share2[k]), share1[k] + share2[k] - 1);
-    // The triangle that it is in, or least outside of.
+    // The nearest triangle is the one that contains the point, or that the point is least outside of.
     const std::size_t nearest02 = outside[2] < outside[0] ? 2 : 0, nearest13 = outside[3] < outside[1] ? 3 : 1;
     const std::size_t nearest = outside[nearest13] < outside[nearest02] ? nearest13 : nearest02;
     const double first = std::clamp(share1[nearest], 0.0, 1.0);
     return first * drops_[nearest] + std::clamp(share2[nearest], 0.0, 1 - first) * drops_[(nearest + 1) % 4];
   }
 
-  /// The direction of its axes, the same for all four of them, as a complex number that is the larger the smaller the body is.
+  /// The direction of the axes, the same for all four of them, as a complex number whose length grows as the body gets smaller.
   Vector2 direction() const { return fourth_power(axis_) / (area_ * area_); }
 
  private:
-  /// 0 of two that are parallel, which have no area between them.
+  /// Inverse of the area between two vectors; 0 if they are parallel.
   static double inverse_area(const Vector2& spoke1, const Vector2& spoke2) {
     const double area = cross(spoke1, spoke2);
     return area * area > 1e-24 * spoke1.squaredNorm() * spoke2.squaredNorm() ? 1 / area : 0;
@@ -129,41 +130,43 @@ class Side {
     return length1 >= length2 ? Vector2(point.dot(spoke1) / length1, 0) : Vector2(0, point.dot(spoke2) / length2);
   }
 
-  /// From the apex to a corner.
+  /// The vector from the apex to a corner.
   Vector2 spoke(std::size_t k) const { return {x_[k], y_[k]}; }
 
   Vector2 apex_;
-  std::array<double, 4> x_{}, y_{};  // of the spokes: what is done to all four alike, the compiler does to two at a time
+  // Coordinates of the spokes, the vectors from the apex to the corners. They are stored by coordinate because the compiler
+  // vectorises operations on all four, two at a time.
+  std::array<double, 4> x_{}, y_{};
   std::array<double, 4> drops_{};
-  std::array<double, 4> inverse_areas_{};  // of the parallelograms between two spokes
+  std::array<double, 4> inverse_areas_{};  // inverse areas of the parallelograms between two spokes
   bool has_parallel_spokes_ = false;
   Vector2 axis_;
   double area_;
 };
 
-/// The common directions of the axes of both bodies, of which the smaller one counts more.
+/// The common directions of the axes of both bodies, in which the smaller body has more weight.
 std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
   const Vector2 sum = side1.direction() + side2.direction();
   const Vector2 first = sum.squaredNorm() > 0 ? direction_of_fourth_power(sum) : Vector2(Vector2::UnitX());
   return {first, Vector2(-first.y(), first.x())};
 }
 
-/// What both have in common; may be empty.
+/// The intersection of both polygons, which may be empty.
 ConvexPolygon common_region(const ConvexPolygon& outline1, const ConvexPolygon& outline2) {
   const bool thinner = outline1.area() < outline2.area();  // an edge of a box has no area
   return thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
 }
 
-/// Where the deepest point belongs that is at the origin: into what both sides and their support points have in common. Of two
-/// faces the query knows the normal, but it knows the place of the support points on them to no digit, and the contact between
-/// these may be beside a body that the other one hangs over.
+/// Moves the deepest point, which is at the origin, into the region that both sides and their support points have in common. For
+/// two faces the query knows the normal, but it knows the place of the support points on them to no digit, and the contact
+/// between these may be beside a body that the other one hangs over.
 Vector2 place_of_deepest(const ConvexPolygon& region, const Side& side1, const Side& side2) {
   if (region.contains(Vector2::Zero())) return Vector2::Zero();
   const ConvexPolygon whole = common_region(side1.outline().with(side1.apex()), side2.outline().with(side2.apex()));
   return whole.size() == 0 || whole.contains(Vector2::Zero()) ? Vector2::Zero() : whole.nearest_to(Vector2::Zero());
 }
 
-/// Four of a region that is not empty.
+/// Finds four corners of a region that is not empty.
 CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side& side2, const ContactFrame& frame) {
   double squared_reach = 0;
   for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
@@ -179,7 +182,7 @@ CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side
   return corners;
 }
 
-/// Takes both to one place between them. The deeper of two counts more: where the body leans, it is its place that matters.
+/// Moves both corners to one place between them. The deeper of two has more weight: where the body leans, its place matters.
 void unite(ManifoldCorner& corner, ManifoldCorner& other, double least_depth) {
   const double weight = std::pow(corner.depth + least_depth, 2);
   const double weight_of_other = std::pow(other.depth + least_depth, 2);
@@ -189,8 +192,8 @@ void unite(ManifoldCorner& corner, ManifoldCorner& other, double least_depth) {
   other = corner;
 }
 
-/// Takes two that are near to each other to the middle between them, with the depth of the deeper one: not at all from twice the
-/// distance on, to one place within it.
+/// Moves two corners that are near to each other towards the middle between them, with the depth of the deeper one: not at all
+/// from twice the distance on, to one place within it.
 void draw_together(ManifoldCorner& corner, ManifoldCorner& other, double distance) {
   const Vector3 way = other.point - corner.point;
   const double squared_length = way.squaredNorm();
@@ -203,7 +206,7 @@ void draw_together(ManifoldCorner& corner, ManifoldCorner& other, double distanc
   other.depth += share * (depth - other.depth);
 }
 
-/// Leaves one of those that are at the same place.
+/// Keeps one of several corners at the same place.
 void remove_repeated(ContactManifold& manifold, bool deepest_counts) {
   const double distance = kMoved * manifold.same_place;
   const auto is_at = [&](const Vector3& place, const Vector3& point) {
@@ -219,8 +222,8 @@ void remove_repeated(ContactManifold& manifold, bool deepest_counts) {
   manifold.corner_count = static_cast<int>(end - kept);
 }
 
-/// Programs expect that. Of those that are as deep but for rounding the first one is the deepest: quickstep's forces depend on the
-/// order.
+/// Rotates the corners so that the deepest comes first, as programs expect. Among those that are equally deep but for rounding,
+/// the first one is taken as the deepest, because quickstep's forces depend on the order.
 void put_deepest_first(std::span<ManifoldCorner> corners) {
   double depth = 0;
   for (const ManifoldCorner& corner : corners) depth = std::max(depth, corner.depth);
@@ -274,8 +277,8 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
   return manifold;
 }
 
-// Which corners are united does not depend on where they are, and those that come near to each other are drawn together before they
-// are one: so no force jumps.
+// Which corners are united does not depend on where they are, and corners that approach each other are drawn together before they
+// become one: so no force jumps.
 ContactManifold reduced_to(ContactManifold manifold, int room) {
   if (room < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
@@ -289,7 +292,7 @@ ContactManifold reduced_to(ContactManifold manifold, int room) {
     }
   }
   remove_repeated(manifold, has_room_for_deepest(room));
-  if (manifold.corner_count == 1) manifold.corner_count = 0;  // beside the deepest point
+  if (manifold.corner_count == 1) manifold.corner_count = 0;  // that corner would repeat the deepest point
   if (!has_room_for_deepest(room)) put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)});
   return manifold;
 }

@@ -11,12 +11,12 @@ double ConvexPolygon::area() const {
   return 0.5 * twice;
 }
 
-// Sutherland and Hodgman (1974): the other polygon's edges cut this one, one after the other. Where edges lie on edges, as in a
-// stack, it is a matter of rounding which corners are kept, and no processor foresees it: so corners are written in any case, and
-// only how many count depends on it.
+// Clips by Sutherland and Hodgman's algorithm (1974): the other polygon's edges cut this one, one after the other. If edges lie on
+// edges, as in a stack, rounding decides which corners are kept, and no branch predictor foresees it: so corners are written in any
+// case, and only their count depends on it.
 ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   using Corners = std::array<Vector2, kCapacity + 2>;
-  std::array<Corners, 2> buffers;  // in turn of what is cut and of what is kept
+  std::array<Corners, 2> buffers;  // one holds the corners that are cut, the other those that are kept; they take turns
   std::copy_n(corners_.begin(), size_, buffers[0].begin());
   auto count = static_cast<std::size_t>(size_);
   std::size_t current = 0;
@@ -56,7 +56,7 @@ bool ConvexPolygon::contains(const Vector2& point) const {
   return size_ > 0;
 }
 
-// The corners between the edges that are seen from the point give way to it.
+// The point replaces the corners between the edges that are visible from it.
 ConvexPolygon ConvexPolygon::with(const Vector2& point) const {
   const auto is_seen = [&](int edge) {
     const Vector2& here = (*this)[edge];

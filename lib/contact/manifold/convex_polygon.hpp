@@ -18,7 +18,7 @@ struct ContactFrame {
   Eigen::Vector3d lift(const Vector2& point) const { return origin + plane.lift(point); }
 };
 
-/// A convex polygon, counter-clockwise, or what is left of one: a segment, a point, nothing.
+/// A convex polygon, counter-clockwise, or a degenerate one: a segment, a point, nothing.
 class ConvexPolygon {
  public:
   /// Two quadrangles with a point each meet in a polygon of at most ten corners.
@@ -30,16 +30,16 @@ class ConvexPolygon {
 
   double area() const;  ///< m^2
 
-  /// What both have in common. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm. This one
-  /// may be a segment; the other one needs an inside.
+  /// The intersection of both. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm. This
+  /// polygon may be a segment; the other one needs an interior.
   ConvexPolygon intersected(const ConvexPolygon& other) const;
 
   bool contains(const Vector2& point) const;
 
-  /// The convex hull of this one and a point. Needs an inside.
+  /// The convex hull of this polygon, which needs an interior, and a point.
   ConvexPolygon with(const Vector2& point) const;
 
-  /// The point of the polygon that is nearest to a point outside of it. There must be a corner.
+  /// The point of the polygon that is nearest to a point outside of it. The polygon must have a corner.
   Vector2 nearest_to(const Vector2& point) const;
 
  private:

@@ -11,49 +11,53 @@ namespace supernormal {
 namespace {
 
 // The vertices are where the bodies would overlap if the overlap were so many times as deep. A body at rest overlaps by
-// micrometres; what is round in the last digit must not make it rock. With less, bodies with small exponents rock for longer; with
-// more, bodies with little room for contacts fall asleep while they lean.
+// micrometres, and a face that is round in the last digit must not make it rock. With a smaller value, bodies with small
+// exponents rock for longer; with a larger one, bodies with little room for contacts fall asleep while they lean.
 constexpr double kReach = 12;
 
-// A face like |x|^e with this exponent has its vertices just there; a flatter one has them nearer to its end.
+// A face like |x|^e with this exponent has its vertices exactly at the reach; a flatter one has them nearer to its end.
 constexpr double kFaceExponent = 8;
 
-// Of the half-height: from there on the vertices overlap themselves. In a fall they would else hold a body that leans in the air.
+// Largest reach, in half-heights: beyond it the vertices would hold a body that leans in the air during a fall.
 constexpr double kLargestReach = 0.07;
 
-// Of the half-height: with more, the far corners of a body that leans hold it in the air, and a stack of bodies leans a little more
-// with every step; with less, bodies with small exponents rock for longer.
+// Largest lean, in half-heights: if it is larger, the far corners of a body that leans hold it in the air, and a stack of bodies
+// leans a little more with every step; if it is smaller, bodies with small exponents rock for longer.
 constexpr double kLargestLean = 0.035;
 
-// Of the half-height: at a larger one the vertices would be on the sides of the body.
+// Largest depth, in half-heights, that the tilts grow with: beyond it the vertices would be on the sides of the body.
 constexpr double kLargestDepth = 0.2;
 
-// Of faces like |x|^e: up to here the body is round, from there on flat. The closed forms of rocking bodies hold for the first, and
-// bodies come to rest with the second.
+// Exponents of faces like |x|^e: up to the first the body is round, from the second on it is flat. The closed forms of rocking
+// bodies hold for the first, and bodies come to rest with the second.
 constexpr double kRoundExponent = 4;
 constexpr double kFlatExponent = 6;
 
 // A face that leans along an axis almost as much as the diagonals do is about to be left by those of the four points that are on
-// its far side. Shares of the diagonals' tilt at which the polygon begins to shrink along that axis, and has no width left.
+// its far side. These are the shares of the diagonals' tilt at which the polygon begins to shrink along that axis, and has no
+// width left.
 constexpr double kLeaning = 0.6;
 constexpr double kLeaningTooFar = 0.9;
 
-// Of the width of a round side: a line of contact is not without any, so that two of them have something in common.
+// Share of its width that a round side keeps, so that two lines of contact have a region in common.
 constexpr double kThinnest = 1e-3;
 
-// Squared, of the longer way across the four points: along a shorter one nothing is known of the lean, and there is none.
+// The least spread of the four points, relative to the larger one and squared: along a shorter axis the lean is unknown and taken
+// as 0.
 constexpr double kLeastSpread = 1e-6;
 
-// Along the axes; and which of the four faces which other one along either axis.
+// The signs of the four vertices along both axes, and for either axis the vertex that each of them faces.
 constexpr std::array<std::array<double, 2>, 4> kSigns = {{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 constexpr std::array<std::array<std::size_t, 4>, 2> kFacing = {{{1, 0, 3, 2}, {3, 2, 1, 0}}};
 
-/// 0 up to `zero`, 1 from `one` on, either of which may be the larger. Of constants, whose quotient the compiler knows.
+/// The ramp is 0 up to `zero` and 1 from `one` on, either of which may be the larger. Callers pass constants, so that the compiler
+/// computes the quotient.
 inline double ramp(double value, double zero, double one) { return std::clamp((value - zero) * (1 / (one - zero)), 0.0, 1.0); }
 
-/// The axes of a body as they lie in the tangent plane: two directions at right angles, so that those of all its axes, and of their
-/// opposites, are near one of them or its opposite. As complex numbers to the power of four they are all the same, and added up. So
-/// it depends on the normal continuously, except where the three are alike, towards the vertices of a box. All in the body's frame.
+/// The axes of a body as they lie in the tangent plane: two directions at right angles, such that all the body's axes, and their
+/// opposites, are near one of them or its opposite. Axes are added as complex numbers to the power of four, in which these are
+/// all the same. So the result depends on the normal continuously, except where the three axes are alike, towards the vertices of
+/// a box. All is in the body's frame.
 std::array<Vector3, 2> axes_in_plane(const Vector3& n) {
   int along_normal = 0;
   n.cwiseAbs().maxCoeff(&along_normal);
@@ -65,7 +69,7 @@ std::array<Vector3, 2> axes_in_plane(const Vector3& n) {
   return {plane.lift(first), plane.lift({-first.y(), first.x()})};
 }
 
-/// kReach times the depth, up to a share of the height; but for the depth itself.
+/// kReach times the depth, up to a share of the height, but at least the depth itself.
 double reach_of(double depth, double height, double largest) { return std::max(depth, std::min(kReach * depth, largest * height)); }
 
 // (kFaceExponent reach / (2 height))^(1 - 1 / kFaceExponent): the slope, in units of height over extent, where a face of that
@@ -77,7 +81,7 @@ double tangent_of_tilt(double reach, double height) {
 
 }  // namespace
 
-/// Looks at points of a body from its support point, all in the body's frame.
+/// Evaluates points of a body relative to its support point, all in the body's frame.
 class SupportPolygon::Observer {
  public:
   Observer(const Shape& shape, const Vector3& n, const std::array<Vector3, 2>& axes, const Vector3& support_point)
@@ -89,7 +93,7 @@ class SupportPolygon::Observer {
     return sight_of(jet.r);
   }
 
-  /// Of the normals that are tilted towards each of the four diagonals.
+  /// Finds the support points of the normals that are tilted towards each of the four diagonals.
   std::array<PatchSupport, 4> of_diagonals(const Tilt& diagonal) const {
     const double inverse_length = 1 / std::sqrt(1 + diagonal[0] * diagonal[0] + diagonal[1] * diagonal[1]);
     std::array<Vector3, 4> normals;
@@ -123,13 +127,13 @@ class SupportPolygon::Observer {
   Vector3 support_point_;
 };
 
-/// Compares the drops of the four points with the turns, the ways to them times the tilts.
+/// Compares the drops of the four points with the turns, which are the ways to them times the tilts.
 class SupportPolygon::View {
  public:
   View(const Tilt& diagonal, double tangent)
       : diagonal_(diagonal), along_one_(std::sqrt(1 + tangent * tangent)), along_both_(std::sqrt(1 + 2 * tangent * tangent)) {}
 
-  /// As they are seen from the point of the body whose tangent plane has that tilt.
+  /// Computes the shares as seen from the point of the body whose tangent plane has that tilt.
   Shares shares_of(const std::array<PatchSupport, 4>& points, const PatchSupport& from, const Tilt& tilt) const {
     double drop = 0;
     std::array<double, 2> turn{};
@@ -147,8 +151,8 @@ class SupportPolygon::View {
   }
 
  private:
-  /// Of the drop in the sum of drop and rise. What the turn exceeds the drop by is the rise times the length of the tilted normal,
-  /// `stretch`, in units of the half-extents: so an ellipsoid has 1/2 at any tilt.
+  /// The share of the drop in the sum of drop and rise. The turn minus the drop is the rise times the length of the tilted
+  /// normal, `stretch`, in units of the half-extents: so an ellipsoid has 1/2 at any tilt.
   static double share_of_drop(double drop, double turn, double stretch) {
     const double rise = std::max(0.0, turn - drop) / stretch;
     return drop + rise > 0 ? drop / (drop + rise) : 0;
@@ -166,7 +170,7 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   const std::array<Vector3, 2> axes = axes_in_plane(normal);
   axes_ = {pose.rotation * axes[0], pose.rotation * axes[1]};
   const Vector3 half_extents = shape.half_extents();
-  // Of the ellipsoid with the body's half-extents.
+  // The extents are those of the ellipsoid with the body's half-extents.
   const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
   extents_ = {extent(axes[0]), extent(axes[1])};
   const double height = extent(normal);
@@ -193,15 +197,15 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
     shares = shares.lesser_of(view.shares_of(points, observer.of(tilt_that_counts), tilt_that_counts));
     ++evaluations_;
   }
-  // Along one axis at a time the drop is still that of both.
+  // The drop is that along both axes, so its share along one axis has twice the bounds.
   std::array<double, 2> flat{};
   for (std::size_t a = 0; a < 2; ++a) flat[a] = ramp(shares.along[a], 2 / kRoundExponent, 2 / kFlatExponent);
   flatness_ = ramp(shares.both, 1 / kRoundExponent, 1 / kFlatExponent) * std::max(flat[0] * upright[0], flat[1] * upright[1]);
   if (flatness_ > 0) place_vertices(drawn_in(points, flat), n);
 }
 
-// Of the plane that fits the four points best, as far as the diagonals reach; level along an axis along which they are all the
-// same.
+// Fits a plane to the four points and returns its tilt, limited to the diagonals; it is level along an axis along which the
+// points do not differ.
 SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<PatchSupport, 4>& sights, const Tilt& diagonal) const {
   const Vector2 inverse_extents(1 / extents_[0], 1 / extents_[1]);
   std::array<Vector2, 4> ways;
@@ -225,12 +229,13 @@ SupportPolygon::Tilt SupportPolygon::tilt_of_face(const std::array<PatchSupport,
           std::clamp(slope.y() * inverse_extents.y(), -diagonal[1], diagonal[1])};
 }
 
-// Where the body is round along an axis, or leans too far, it stands on the line through the support point: there the chord between
-// two points that face one another crosses it. In between they are drawn in along this chord, so that they stay in the body.
+// Where the body is round along an axis, or leans too far, it stands on the line through the support point: there the chord
+// between two points that face one another crosses it. Between flat and round the points are drawn in along this chord, so that
+// they stay in the body.
 std::array<SupportPolygon::PatchSupport, 4> SupportPolygon::drawn_in(std::array<PatchSupport, 4> points,
                                                                      const std::array<double, 2>& widths) {
   for (std::size_t a = 0; a < 2; ++a) {
-    if (widths[a] == 1) continue;  // as of most faces: they stay where they are
+    if (widths[a] == 1) continue;  // most faces have full width: their vertices stay where they are
     const double width = std::max(widths[a], kThinnest);
     const std::array<PatchSupport, 4> apart = points;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -243,7 +248,7 @@ std::array<SupportPolygon::PatchSupport, 4> SupportPolygon::drawn_in(std::array<
   return points;
 }
 
-// Those with a larger drop than the one that counts are drawn in to the support point.
+// Points with a larger drop than the reach are drawn in to the support point.
 void SupportPolygon::place_vertices(const std::array<PatchSupport, 4>& points, const Vector3& n) {
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& [way, drop] = points[k];

@@ -1,4 +1,4 @@
-// What a body would stand on if it stood on one of its tangent planes.
+// The polygon that a body would stand on if it stood on one of its tangent planes.
 #pragma once
 
 #include <array>
@@ -18,45 +18,46 @@ namespace supernormal {
 ///  3. A plane that is tilted against a flat face has a drop, too. So where the share is not small, the face is judged once more by
 ///     the tangent plane that is parallel to the plane through the four points, for one more evaluation.
 ///  4. Along an axis along which the body is round, or leans too far, it stands on the line through p, and the points are drawn in
-///     to it along chords of the body; then all to p, as the body becomes round, or where their drop is too large.
+///     to it along chords of the body; then all points are drawn in to p, as the body becomes round, or where their drop is too
+///     large.
 ///
 /// lib/contact/README.md has the proofs and figures.
 class SupportPolygon {
  public:
   struct Vertex {
     Vector3 offset = Vector3::Zero();  ///< m; from the support point, in the frame of the pose
-    double drop = 0;                   ///< m; below the tangent plane
+    double drop = 0;                   ///< m; distance below the tangent plane
   };
 
-  /// `n` of unit length, in the frame that the pose refers to; `support_point` that of the body with this normal, m; `depth` of the
-  /// overlap, m.
+  /// `n` is of unit length, in the frame that the pose refers to; `support_point` is that of the body with this normal, m;
+  /// `depth` is that of the overlap, m.
   SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth);
 
-  /// No vertex has a larger drop: between the bodies there is at most what this exceeds the depth by, m.
+  /// The largest drop of a vertex, m: between the bodies there is at most the excess of this over the depth.
   double reach() const { return reach_; }
 
-  /// m; a vertex whose drop exceeds that of another by more is too far in the air to rest on.
+  /// m; a vertex whose drop exceeds that of another by more than this is too far in the air to rest on.
   double largest_lean() const { return largest_lean_; }
 
   /// 0: the body is round at the support point, which is its only one; 1: it is flat.
   double flatness() const { return flatness_; }
 
-  /// Counter-clockwise about n.
+  /// The vertices, counter-clockwise about n.
   const std::array<Vertex, 4>& vertices() const { return vertices_; }
 
   const Vector3& support_point() const { return support_point_; }
 
-  /// The axis of the body's frame that the diagonals are between, as it lies in the tangent plane; unit.
+  /// The axis of the body's frame that lies between the diagonals, projected into the tangent plane; unit.
   const Vector3& axis() const { return axes_[0]; }
 
-  /// The half-extents of the body along the plane, m; its product and its smaller one.
+  /// The product of the half-extents of the body along the plane, m^2, and the smaller one, m.
   double area() const { return extents_[0] * extents_[1]; }
   double size() const { return std::min(extents_[0], extents_[1]); }
 
   int evaluations() const { return evaluations_; }
 
  private:
-  /// A point q of the body, seen from the support point: along the axes and along -n, m.
+  /// A point q of the body, relative to the support point: along the axes and along -n, m.
   struct PatchSupport {
     std::array<double, 2> way;
     double drop;
@@ -66,7 +67,7 @@ class SupportPolygon {
               own * drop + (1 - own) * other.drop};
     }
   };
-  /// Of the drop in the sum of drop and rise: along both axes, and along either one.
+  /// The share of the drop in the sum of drop and rise: along both axes, and along either one.
   struct Shares {
     double both;
     std::array<double, 2> along;
@@ -75,7 +76,7 @@ class SupportPolygon {
       return {std::min(both, other.both), {std::min(along[0], other.along[0]), std::min(along[1], other.along[1])}};
     }
   };
-  using Tilt = std::array<double, 2>;  // of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
+  using Tilt = std::array<double, 2>;  // tilt of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
 
   class Observer;
   class View;

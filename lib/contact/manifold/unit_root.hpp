@@ -5,7 +5,7 @@
 
 namespace supernormal {
 
-/// As of complex numbers.
+/// The product of two complex numbers.
 inline Vector2 product(const Vector2& a, const Vector2& b) {
   return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()};
 }
@@ -15,11 +15,11 @@ inline Vector2 fourth_power(const Vector2& z) {
   return product(square, square);
 }
 
-/// A root, of any length, with a real part that is not negative: it halves the angle, as a diagonal of a rhombus does. 0 where z is
-/// negative and real.
+/// A square root, of any length, with a real part that is not negative: it halves the angle, as a diagonal of a rhombus does. The
+/// result is 0 if z is negative and real.
 inline Vector2 direction_of_square(const Vector2& z) { return {z.x() + z.norm(), z.y()}; }
 
-/// The unit direction within 45 degrees of the first axis whose fourth power has that of z, which must not be 0.
+/// The unit vector within 45 degrees of the first axis whose fourth power has the direction of z, which must not be 0.
 inline Vector2 direction_of_fourth_power(const Vector2& z) {
   const Vector2 square = direction_of_square(z);
   return direction_of_square(square.squaredNorm() > 0 ? square : Vector2(Vector2::UnitY())).normalized();

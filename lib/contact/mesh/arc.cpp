@@ -6,8 +6,9 @@
 namespace supernormal {
 namespace {
 
-/// Halves the interval until the gap rises into it from both ends. Where it is known to rise from one end only, that is the higher
-/// one, and the maximum is in front of what is not higher still. False when the bodies turn out to be apart.
+/// Halves the interval until the gap rises into it from both ends. Where it is known to rise from one end only, that end is the
+/// higher one, and the maximum lies before the first sample that is not higher still. Returns false when the bodies turn out to
+/// be apart.
 bool bracket(SupportProbe& probe, const Arc& arc, ArcSample& low, ArcSample& high, int last_evaluation) {
   bool rises_from_low = low.slope >= 0;
   bool rises_from_high = high.slope <= 0;
@@ -25,8 +26,9 @@ bool bracket(SupportProbe& probe, const Arc& arc, ArcSample& low, ArcSample& hig
   return true;
 }
 
-/// The next angle to try, by the ITP method (Oliveira, Takahashi: An enhancement of the bisection method average performance
-/// preserving minmax optimality, ACM TOMS 47, 2020): never worse than one step more than bisection, superlinear on a smooth slope.
+/// Chooses the next angle by the ITP method (Oliveira, Takahashi: An enhancement of the bisection method average performance
+/// preserving minmax optimality, ACM TOMS 47, 2020): never more than one step worse than bisection, superlinear on a smooth
+/// slope.
 class Interpolation {
  public:
   explicit Interpolation(double width) : first_width_(width), reach_(width) {}
@@ -45,17 +47,17 @@ class Interpolation {
 
  private:
   double first_width_;
-  double reach_;  // half of the width that bisection, one step behind, would have
+  double reach_;  // half of the width that bisection would have one step later
 };
 
-/// s is below its tangents at both ends, so far as it is concave.
+/// Bounds the maximum above the samples: s is below its tangents at both ends as far as it is concave.
 double bound_above(const ArcSample& low, const ArcSample& high) {
   const double descent = low.slope - high.slope;
   return descent > 0 ? low.slope * -high.slope / descent * (high.angle - low.angle) : 0;
 }
 
-/// The normal for which both points are equally deep: the maximum, if the body has nothing beyond its chord between them. A body
-/// with a nearly flat side has its slope there jump from one value to the other.
+/// The angle of the normal for which both points are equally deep. It is the maximum if the body has nothing beyond its chord
+/// between them. On a body with a nearly flat side the slope jumps from one value to the other there.
 double kink_between(const Arc& arc, const ArcSample& low, const ArcSample& high) {
   const Vector3 chord = low.point - high.point;
   const double sine = arc.from.dot(chord);
@@ -97,14 +99,14 @@ ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, 
   for (int step = 0; is_bracketed && best.error > tolerance && probe.evaluations() < last_evaluation; ++step) {
     double angle = step % 2 == 0 ? kink_between(arc, low, high) : interpolation.next(low, high);
     if (!is_inside(angle)) angle = interpolation.next(low, high);
-    if (!is_inside(angle)) break;  // two neighbouring numbers
+    if (!is_inside(angle)) break;  // `low` and `high` are neighbouring numbers
     const ArcSample middle = arc.sample(angle, probe);
     if (middle.gap > 0) return best;
     (middle.slope > 0 ? low : high) = middle;
     best.error = bound_above(low, high);
   }
-  // Between the two points also where they are far apart: a flat side of the body lies across the edge then, and all of it is the
-  // support of one normal.
+  // The point is interpolated also where the two are far apart: a flat side of the body lies across the edge then, and all of it
+  // is the support of one normal.
   const double descent = low.slope - high.slope;
   const double share = is_bracketed && descent > 0 ? low.slope / descent : 0.5;
   best.normal = arc.normal(low.angle + share * (high.angle - low.angle));

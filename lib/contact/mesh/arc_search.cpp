@@ -8,18 +8,18 @@
 namespace supernormal {
 namespace {
 
-// Enough for the usual tolerance, at two samples a digit, and several maxima.
+// Suffices for the usual tolerance, at two samples a digit, and for several maxima.
 constexpr std::size_t kMostSamples = 64;
 
-// No new sample is nearer to the ends of its interval than this share.
+// A new sample keeps at least this share of the interval from its ends.
 constexpr double kFromEnds = 1e-3;
 
-/// What the body's point in `sample` says of the gap at another angle.
+/// The upper bound that the body's point in `sample` gives for the gap at another angle.
 double bound_at(const ArcSample& sample, double angle) {
   return sample.gap * std::cos(angle - sample.angle) + sample.slope * std::sin(angle - sample.angle);
 }
 
-/// Where two neighbouring samples allow the largest gap between them.
+/// The angle between two neighbouring samples where their bounds allow the largest gap.
 struct Interval {
   double angle = 0;
   double bound;  // m
@@ -40,7 +40,7 @@ struct Interval {
   }
 };
 
-/// Samples by angle.
+/// Samples in the order of their angles.
 class Samples {
  public:
   Samples(const ArcSample& low, const ArcSample& high) : samples_{low, high} {}

@@ -13,7 +13,7 @@ struct BodyBox {
   Vector3 centre;
   Vector3 half_lengths;
 
-  /// The smallest one, exact but for rounding.
+  /// The smallest such box, exact but for rounding.
   static BodyBox of(const Shape& shape);
 
   BodyBox widened(double margin) const { return {centre, half_lengths.array() + margin}; }

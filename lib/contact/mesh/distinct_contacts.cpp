@@ -5,22 +5,24 @@
 namespace supernormal {
 namespace {
 
-// What a contact does depends on its normal and place continuously. Vertices of a mesh are floats, so that a plane through them is
-// known to about 1e-7 only, and the normal of a small gap to the root of its tolerance.
+// Two contacts are one if their normals and places are this close. The effect of a contact depends on both continuously, the
+// vertices of a mesh are floats, so that a plane through them is known to about 1e-7 only, and the normal of a small gap is known
+// to the root of its tolerance.
 constexpr double kSameNormal = 1e-4;
 constexpr double kSamePlace = 1e-4;  // of the length unit
 
-// Where surfaces run into each other a contact with a normal within 18 degrees says enough.
+// Cosine of 18 degrees: where surfaces run into each other, a contact with such a similar normal makes another one redundant.
 constexpr double kSimilarNormal = 0.95;
 
-// On a tangent plane, and clearly behind it, in length units.
+// A point is on a tangent plane, or clearly behind it, at these distances in length units.
 constexpr double kOnPlane = 1e-9;
 constexpr double kBehindPlane = 1e-8;
 
-// Normals closer than 2.6 degrees, cosine: of a body that lies flat on two tips.
+// Cosine of 2.6 degrees: closer normals are those of a body that lies flat on two tips.
 constexpr double kNearlyParallel = 0.999;
 
-// Normals of the two sides of a plate, cosine: they belong together although the rim that joins them is far away.
+// Cosine beyond which two normals are those of the two sides of a plate: they belong together although the rim that joins them is
+// far away.
 constexpr double kOpposite = -0.5;
 
 }  // namespace
@@ -52,7 +54,7 @@ bool DistinctContacts::has_similar(const Vector3& normal, const Vector3& point) 
   });
 }
 
-std::optional<double> DistinctContacts::shortest_way_out(int part) const {
+std::optional<double> DistinctContacts::shortest_separation(int part) const {
   std::optional<double> largest;
   for (const SurfaceContact& contact : contacts_) {
     if (contact.part == part && (!largest || contact.gap > *largest)) largest = contact.gap;
@@ -66,15 +68,16 @@ bool DistinctContacts::are_of_one_part(const SurfaceContact& a, const SurfaceCon
   const double b_before_a = a.normal.dot(from_a_to_b);
   const double a_before_b = -b.normal.dot(from_a_to_b);
   if (std::max(b_before_a, a_before_b) > kOnPlane * length_unit_) return false;
-  // Two normals of one edge, as both planes go through it; but not the faces of a corner, which may have been given the same point.
+  // Two normals of one edge separate the same part, as both planes go through it; but not the faces of a corner, which may have
+  // been given the same point.
   const bool is_at_crease = a.crease >= 0 || b.crease >= 0;
   return (is_at_crease && a.normal.dot(b.normal) < kNearlyParallel) ||
          std::min(b_before_a, a_before_b) < -kBehindPlane * length_unit_;
 }
 
-void DistinctContacts::keep_shortest_ways_out() {
+void DistinctContacts::keep_shortest_separations() {
   sort();
-  // From the deepest on: dropped if a shallower one, whether that one remains or not, is a way out of the same part.
+  // A contact is dropped if any shallower one, whether that one remains or not, separates the body from the same part.
   const auto is_superseded = [&](const SurfaceContact& contact) {
     const auto* const shallower = &contact + 1;
     const auto* const end = contacts_.data() + contacts_.size();

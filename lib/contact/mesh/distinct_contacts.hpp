@@ -1,4 +1,4 @@
-// Which of the contacts of a body with a surface say something of their own.
+// Selection of those contacts of a body with a surface that are distinct.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,18 @@
 
 namespace supernormal {
 
-/// A contact as it is found: all vectors in the frame of the surface (surface.hpp).
+/// A contact as it is found: all vectors are in the frame of the surface (surface.hpp).
 struct SurfaceContact {
   Vector3 normal;         ///< unit, out of the surface
   double gap = 0;         ///< m, not positive
   double error = 0;       ///< m
   Vector3 body_point;     ///< m
   Vector3 surface_point;  ///< m; body_point - gap * normal, on the plane or line of the feature
-  Vector3 feature_point;  ///< m; the nearest point of the feature itself: another one where that runs into a wall
-  int face = 0;           ///< the feature's
-  int part = 0;           ///< of the surface, see CoplanarPatch
-  int crease = -1;        ///< number of the vertex or edge, if the feature is one
+  Vector3 feature_point;  ///< m; the nearest point of the feature itself, which differs from surface_point where the feature ends
+                          ///< at a wall
+  int face = 0;           ///< face that the feature belongs to
+  int part = 0;           ///< part of the surface, see CoplanarPatch
+  int crease = -1;        ///< number of the vertex or edge if the feature is one, otherwise -1
   int evaluations = 0;
   Status status = Status::Converged;
 };
@@ -30,22 +31,23 @@ class DistinctContacts {
   /// `length_unit`: the body's size, m.
   void clear(double length_unit);
 
-  /// Adds the contact, unless one with the same normal at the same place is there; of the two the deeper remains. Of
-  /// those at one vertex or edge the shortest way out remains.
+  /// Adds the contact, unless one with the same normal at the same place is there; of the two the deeper remains. Of contacts at
+  /// one vertex or edge, the one with the minimum translation distance (MTD) remains.
   void add(const SurfaceContact& contact);
 
   /// Whether a contact with a similar normal is there that is at least as deep at the point.
   bool has_similar(const Vector3& normal, const Vector3& point) const;
 
-  /// The largest gap of the contacts with this part of the surface, m; none if there are none.
-  std::optional<double> shortest_way_out(int part) const;
+  /// The largest gap of the contacts with this part of the surface, m; empty if there are none.
+  std::optional<double> shortest_separation(int part) const;
 
-  /// Of several ways out of one convex part of the solid leaves the shortest. Two contacts are of one such part when neither's
-  /// feature is in front of the other's tangent plane. The bodies' convexity then says that they overlap by more than the
-  /// body's radius of curvature; contacts of a body that rests on or against several parts are never of this kind.
-  void keep_shortest_ways_out();
+  /// Keeps, among several translations that separate the body from one convex part of the solid, the shortest. Two contacts are
+  /// of one such part when neither's feature is in front of the other's tangent plane. The bodies' convexity then implies that
+  /// they overlap by more than the body's radius of curvature; contacts of a body that rests on or against several parts are
+  /// never of this kind.
+  void keep_shortest_separations();
 
-  /// Deepest first.
+  /// Sorts the contacts, deepest first.
   void sort();
 
   const std::vector<SurfaceContact>& contacts() const { return contacts_; }

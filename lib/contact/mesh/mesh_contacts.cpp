@@ -12,10 +12,10 @@
 namespace supernormal {
 namespace {
 
-// The normal at an edge is wanted better than the gap, and another step of a superlinear iteration is cheap.
+// The normal at an edge must be more precise than the gap, and another step of a superlinear iteration is cheap.
 constexpr double kArcTolerance = 1e-2;  // of the tolerance of the gap
 
-// What touches the body must not be lost by rounding.
+// The searched box is larger than the body's, so that rounding loses no triangle that touches it.
 constexpr double kBoxMargin = 1e-9;  // of the length unit
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -35,15 +35,15 @@ std::span<const MeshContact> MeshContacts::find(const Shape& shape, const Pose& 
   prepare(shape, pose, triangles);
   SupportProbe probe(shape, pose.rotation);
   look_at_patches(probe);
-  for (std::size_t p = 0; p < sights_.size(); ++p) find_on_patch(probe, p);
+  for (std::size_t p = 0; p < supports_.size(); ++p) find_on_patch(probe, p);
   for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
     for (int side = 0; side < 3; ++side) find_on_edge(probe, static_cast<int>(f), side);
   }
-  for (std::size_t p = 0; p < sights_.size(); ++p) find_beyond_rim(probe, p);
+  for (std::size_t p = 0; p < supports_.size(); ++p) find_beyond_rim(probe, p);
   add_beyond_rim();
-  find_other_ways_out(probe);
+  find_other_separations(probe);
   if (found_.contacts().empty()) find_way_up(probe);
-  found_.keep_shortest_ways_out();
+  found_.keep_shortest_separations();
   evaluations_ = probe.evaluations();
   return to_world(pose.position);
 }
@@ -57,7 +57,7 @@ void MeshContacts::prepare(const Shape& shape, const Pose& pose, std::span<const
   std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near_),
                [&](const MeshTriangle& triangle) { return searched.touches(pose, triangle.vertices); });
   surface_.build(near_, pose.position, length_unit_);
-  sights_.clear();
+  supports_.clear();
   settled_.assign(at(surface_.corner_count()), 0);
   found_.clear(length_unit_);
   beyond_rim_.clear(length_unit_);
@@ -67,7 +67,7 @@ void MeshContacts::look_at_patches(SupportProbe& probe) {
   for (const CoplanarPatch& patch : surface_.patches()) {
     const DeepestPoint deepest = probe.deepest(patch.normal);
     const double plane = patch.normal.dot(surface_.faces()[at(patch.first_face)].vertices[0]);
-    sights_.push_back({deepest.point, deepest.height - plane, false});
+    supports_.push_back({deepest.point, deepest.height - plane, false});
   }
 }
 
@@ -84,20 +84,20 @@ SurfaceContact MeshContacts::contact_at(int face, const Vector3& normal, double 
 }
 
 void MeshContacts::find_on_patch(SupportProbe& probe, std::size_t patch) {
-  PatchSupport& sight = sights_[patch];
-  if (!(sight.gap <= 0)) return;
+  PatchSupport& support = supports_[patch];
+  if (!(support.gap <= 0)) return;
   const Vector3& normal = surface_.patches()[patch].normal;
   for (int f = surface_.patches()[patch].first_face; f >= 0; f = surface_.faces()[at(f)].next_in_patch) {
     const Face& face = surface_.faces()[at(f)];
-    if (!surface_.is_over(face, sight.deepest)) continue;
-    sight.is_over = true;
-    const SurfaceContact contact = contact_at(f, normal, sight.gap, sight.deepest);
+    if (!surface_.is_over(face, support.deepest)) continue;
+    support.is_over = true;
+    const SurfaceContact contact = contact_at(f, normal, support.gap, support.deepest);
     if (touches_surface(probe, contact)) found_.add(contact);
     return;
   }
 }
 
-// Each convex edge once, from the face with the lower number.
+// Each convex edge is handled once, by the face with the lower number.
 bool MeshContacts::is_edge_owned_by_neighbour(int face, int side) const {
   const int neighbour = surface_.faces()[at(face)].neighbour[at(side)];
   if (neighbour < 0 || neighbour > face) return false;
@@ -107,14 +107,15 @@ bool MeshContacts::is_edge_owned_by_neighbour(int face, int side) const {
 
 bool MeshContacts::open_arc(SupportProbe& probe, int f, int side, Arc& arc, ArcSample& low, ArcSample& high) const {
   const Face& face = surface_.faces()[at(f)];
-  const EdgeConvexity fold = face.fold[at(side)];
-  const PatchSupport& sight = sights_[at(face.patch)];
-  if (fold == EdgeConvexity::Flat || fold == EdgeConvexity::Concave || !(sight.gap <= 0) || is_edge_owned_by_neighbour(f, side))
+  const EdgeConvexity convexity = face.convexity[at(side)];
+  const PatchSupport& support = supports_[at(face.patch)];
+  if (convexity == EdgeConvexity::Flat || convexity == EdgeConvexity::Concave || !(support.gap <= 0) ||
+      is_edge_owned_by_neighbour(f, side))
     return false;
   const Vector3& across = face.outward[at(side)];
   arc = {surface_.patches()[at(face.patch)].normal, across, 0.5 * std::numbers::pi, face.vertices[at(side)]};
-  low = arc.sample(0, sight.deepest);
-  if (fold == EdgeConvexity::Border) {
+  low = arc.sample(0, support.deepest);
+  if (convexity == EdgeConvexity::Border) {
     if (!(low.slope > surface_.rounding())) return false;
     high = arc.sample(arc.end, probe);
     return true;
@@ -122,9 +123,9 @@ bool MeshContacts::open_arc(SupportProbe& probe, int f, int side, Arc& arc, ArcS
   const std::size_t other = at(surface_.faces()[at(face.neighbour[at(side)])].patch);
   const Vector3& other_normal = surface_.patches()[other].normal;
   const double angle = std::atan2(other_normal.dot(across), other_normal.dot(arc.from));
-  arc.end = angle > 0 ? angle : std::numbers::pi;  // back to back
-  high = arc.sample(arc.end, sights_[other].deepest);
-  return sights_[other].gap <= 0;
+  arc.end = angle > 0 ? angle : std::numbers::pi;  // the faces are back to back
+  high = arc.sample(arc.end, supports_[other].deepest);
+  return supports_[other].gap <= 0;
 }
 
 void MeshContacts::find_on_edge(SupportProbe& probe, int f, int side) {
@@ -158,39 +159,39 @@ void MeshContacts::find_on_arc(SupportProbe& probe, int f, int side, const Arc& 
   contact.error = top.error;
   contact.evaluations = probe.evaluations() - first_evaluation;
   contact.status = top.converged ? Status::Converged : Status::EvaluationLimit;
-  if (face.fold[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point)) return;
+  if (face.convexity[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point)) return;
   if (surface_.violates_normal_cone(contact.normal, contact.feature_point, contact.surface_point)) return;
   if (touches_surface(probe, contact)) found_.add(contact);
 }
 
-// The deepest point may lie under no face although the solid goes on there.
+// The deepest point may lie under no face although the solid goes on there. There are two such cases.
 //
-// A sharp tip that is pressed into the corner of floor and wall: where the floor's plane is above the tip, there is the wall
-// already. The solid goes on below the wall, and so does the contact with the floor.
+// A sharp tip is pressed into the corner of floor and wall: where the floor's plane is above the tip, there is the wall already.
+// The solid goes on below the wall, and so does the contact with the floor.
 //
-// A thin rod that stands deep in the floor: above its tip the floor is out of the body's box, and its triangles are not known.
+// A thin rod stands deep in the floor: above its tip the floor is out of the body's box, and its triangles are not known.
 //
-// But only as far as there is solid: beyond a low wall the floor's plane is in the air. Where the body sticks out of that plane it
-// must be in the solid, so that a face that is known lies between there and its other end.
+// The contact goes on only as far as the solid does: beyond a low wall the floor's plane is in the air. Where the body sticks out
+// of that plane it must be in the solid, so that a known face lies between that place and the body's other end.
 void MeshContacts::find_beyond_rim(SupportProbe& probe, std::size_t p) {
   const CoplanarPatch& patch = surface_.patches()[p];
-  const PatchSupport& sight = sights_[p];
-  if (!(sight.gap <= 0) || sight.is_over) return;
-  const Vector3 to_top = probe.deepest(-patch.normal).point - sight.deepest;
+  const PatchSupport& support = supports_[p];
+  if (!(support.gap <= 0) || support.is_over) return;
+  const Vector3 to_top = probe.deepest(-patch.normal).point - support.deepest;
   const double rise = patch.normal.dot(to_top);
-  if (!(rise > -sight.gap)) return;  // all of it is behind
-  if (!surface_.exits_solid(sight.deepest - sight.gap / rise * to_top, sight.deepest + to_top)) return;
-  SurfaceContact contact = contact_at(patch.first_face, patch.normal, sight.gap, sight.deepest);
+  if (!(rise > -support.gap)) return;  // the whole body is behind the plane
+  if (!surface_.exits_solid(support.deepest - support.gap / rise * to_top, support.deepest + to_top)) return;
+  SurfaceContact contact = contact_at(patch.first_face, patch.normal, support.gap, support.deepest);
   int side = 0;
   contact.feature_point = surface_.nearest_on_rim(patch, contact.surface_point, contact.face, side);
   const Face& face = surface_.faces()[at(contact.face)];
   const bool goes_on_behind_wall = surface_.find_wall(patch.normal, contact.feature_point, contact.surface_point) >= 0;
-  const bool goes_on_unseen =
-      face.fold[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point);
-  if (goes_on_unseen || goes_on_behind_wall) beyond_rim_.add(contact);
+  const bool goes_on_unknown =
+      face.convexity[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point);
+  if (goes_on_unknown || goes_on_behind_wall) beyond_rim_.add(contact);
 }
 
-// Of nearly parallel ones the deepest, whatever the order of the triangles.
+// Among nearly parallel contacts the deepest is added, whatever the order of the triangles.
 void MeshContacts::add_beyond_rim() {
   beyond_rim_.sort();
   for (const SurfaceContact& contact : beyond_rim_.contacts()) {
@@ -198,16 +199,16 @@ void MeshContacts::add_beyond_rim() {
   }
 }
 
-// Whether all triangles at a point are there: the caller found those in the body's box.
+// Whether all triangles at a point are known: the caller found those in the body's box.
 bool MeshContacts::has_complete_neighbourhood(const SupportProbe& probe, const Vector3& point) const {
   return box_.contains(probe.rotation().transpose() * point, surface_.rounding());
 }
 
-// The body's point may lie under a face, and the body beside the solid: a rod that leans against a sheet's border from below.
-// The line from the point to the opposite end of the body lies in the body; where it comes out of the solid it meets the surface.
+// The body's point may lie under a face while the body is beside the solid: a rod that leans against a sheet's border from below.
+// The line from the point to the opposite end of the body lies in the body; where it leaves the solid it meets the surface.
 bool MeshContacts::touches_surface(SupportProbe& probe, const SurfaceContact& contact) const {
   const Vector3 top = probe.deepest(-contact.normal).point;
-  if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // behind all of it
+  if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // the whole body is behind the plane
   return surface_.is_crossed(contact.body_point, top, contact.face) || overlaps_face(probe, surface_.faces()[at(contact.face)]);
 }
 
@@ -222,23 +223,24 @@ Proximity MeshContacts::meet_face(SupportProbe& probe, const Face& face) const {
   return found;
 }
 
-// Where no normal is that of a maximum, the shortest way out of one of the faces that the body crosses. So it is with a body that
-// has sunk and comes out of the solid at the foot of a wall only, or one that comes down across an inner corner: the surface goes
-// in there under its deepest point. Not where the body is behind the face, as it may be at the border of a sheet.
+// If no normal is that of a maximum, takes the shortest translation out of one of the faces that the body crosses. This happens
+// to a body that has sunk and comes out of the solid at the foot of a wall only, or one that comes down across an inner corner:
+// the surface recedes there under its deepest point. It does not count where the body is behind the face, as it may be at the
+// border of a sheet.
 void MeshContacts::find_way_up(SupportProbe& probe) {
   const Vector3 centre = probe.rotation() * box_.centre;
   std::optional<SurfaceContact> shortest;
   for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
     const Face& face = surface_.faces()[f];
-    const PatchSupport& sight = sights_[at(face.patch)];
-    if (!(sight.gap <= 0) || (shortest && sight.gap <= shortest->gap)) continue;
+    const PatchSupport& support = supports_[at(face.patch)];
+    if (!(support.gap <= 0) || (shortest && support.gap <= shortest->gap)) continue;
     const Proximity found = meet_face(probe, face);
     if (found.status == Status::Apart || found.gap > 0) continue;
     const bool is_in_front = face.normal.dot(centre - face.vertices[0]) > surface_.rounding();
-    // Of a flat side of the body point1 may be any point.
+    // If the body has a flat side, point1 may be any point of it.
     const Vector3 opposite = found.point2 - found.gap * found.normal;
     if (!is_in_front && !surface_.exits_solid(centre, found.point1) && !surface_.exits_solid(centre, opposite)) continue;
-    shortest = contact_at(static_cast<int>(f), face.normal, sight.gap, sight.deepest);
+    shortest = contact_at(static_cast<int>(f), face.normal, support.gap, support.deepest);
   }
   if (shortest) found_.add(*shortest);
 }

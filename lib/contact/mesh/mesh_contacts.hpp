@@ -18,7 +18,7 @@
 namespace supernormal {
 
 /// Finds contacts. It owns the scratch memory: keep one per thread, and after the first queries nothing is allocated any more.
-/// Nothing else is remembered from query to query.
+/// Nothing else is carried over from one query to the next.
 ///
 /// The surface is single-sided: behind a triangle is solid. The triangles have to be all those that touch the body's box
 /// (body_box.hpp); others do not count, and the order does not matter. Neighbours are recognised by equal coordinates of the
@@ -27,31 +27,32 @@ namespace supernormal {
 class MeshContacts {
  public:
   /// The distinct contacts of the body with the surface, deepest first, in the world frame. A contact is a local maximum of the
-  /// gap function over the normals of one feature of the surface (DESIGN section 4), with a gap that is not positive:
+  /// gap function over the normals of one feature of the surface (lib/proximity/README.md), with a gap that is not positive:
   ///
   ///  * a face, when the body's deepest point lies under it, or under the wall that the face runs into: explicit, with the digits
   ///    of find_plane_proximity();
   ///  * a convex edge, over the arc between the normals of its two faces (at a border up to 90 degrees from that of its one face);
-  ///  * a vertex, over the normals with whose tangent plane no triangle there stands out of it;
+  ///   * a vertex, over the normals with whose tangent plane no triangle there violates the normal cone;
   ///  * a face that the body crosses, if there is nothing else: see find_way_up().
   ///
-  /// Over one edge, at one vertex and for one convex part of the solid there is one contact: the shortest way out.
+  /// Over one edge, at one vertex and for one convex part of the solid there is one contact: the one with the minimum translation
+  /// distance (MTD).
   ///
-  /// Inner edges of flat and hollow parts have no such normals: no ghost contacts. Proximity::contact is the body's point, as with
-  /// a plane. Of the settings only the tolerance and the limit of evaluations matter: the hybrid solves the vertices. The result is
-  /// valid until the next query; empty when the pose is not finite.
+  /// Inner edges of flat and concave parts have no such normals, so there are no ghost contacts. Proximity::contact is the body's
+  /// point, as with a plane. Of the settings only the tolerance and the limit of evaluations are used: the hybrid solves the
+  /// vertices. The result is valid until the next query; empty when the pose is not finite.
   std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                     const Settings& settings);
 
-  /// Evaluations of the support function and the gap function, in the last query.
+  /// Evaluations of the support function and the gap function in the last query.
   int evaluations() const { return evaluations_; }
 
  private:
-  /// A patch as the body sees it.
+  /// The support point of the body against one patch.
   struct PatchSupport {
     Vector3 deepest;       // the body's point, m
-    double gap;            // to the patch's plane, m
-    bool is_over = false;  // over the patch itself
+    double gap;            // distance from the patch's plane, m
+    bool is_over = false;  // whether the point is over the patch itself
   };
 
   void prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles);
@@ -66,7 +67,7 @@ class MeshContacts {
   bool add_at_vertex(SupportProbe& probe, int face, int k, const Proximity& found);
   void find_beyond_rim(SupportProbe& probe, std::size_t patch);
   void add_beyond_rim();
-  void find_other_ways_out(SupportProbe& probe);
+  void find_other_separations(SupportProbe& probe);
   std::optional<double> depth_cutoff(int part) const;
   void find_shorter_over_edges(SupportProbe& probe, int face, double known);
   void find_shorter_over_vertices(SupportProbe& probe, int part, double known);
@@ -86,11 +87,11 @@ class MeshContacts {
   double length_unit_ = 1;
   Settings settings_;
   Surface surface_;
-  std::vector<PatchSupport> sights_;  // of the patches
-  std::vector<char> settled_;         // of the corners: whether a contact there is found, or ruled out
-  std::vector<Vector3> hull_;         // points
+  std::vector<PatchSupport> supports_;  // one for each patch
+  std::vector<char> settled_;           // for each corner: whether a contact there is found, or ruled out
+  std::vector<Vector3> hull_;           // points whose hull is solved for
   DistinctContacts found_;
-  DistinctContacts beyond_rim_;  // candidates
+  DistinctContacts beyond_rim_;  // candidates for contacts beyond the rim of a patch
   std::vector<MeshContact> contacts_;
   int evaluations_ = 0;
 };

@@ -7,17 +7,17 @@
 namespace supernormal {
 namespace {
 
-// Radians; triangles in one plane, but for rounding of their coordinates.
+// Normals within this angle (radians) are those of triangles in one plane, but for rounding of their coordinates.
 constexpr double kLevel = 1e-5;
 
-// Of the length of the way to a corner: what is between triangles that were meant to meet.
+// Width of a crack between triangles that were meant to meet, relative to the distance of a corner.
 constexpr double kCrack = 1e-6;
 
-/// The plane of a contact with a face, seen from the point of it under the body's deepest.
+/// The plane of a contact with a face, with the point of it under the body's deepest as its origin.
 struct Floor {
   Vector3 normal;  // unit, out of the surface
   Vector3 origin;  // m, world frame
-  double height;   // m; what is farther from the plane is not the floor
+  double height;   // m; triangles farther from the plane than this are not the floor
 
   bool has(const MeshTriangle& triangle) const {
     const Vector3 a = triangle.vertices[0] - origin;
@@ -35,14 +35,14 @@ struct Stretch {
   double to = 0;
 };
 
-/// The part of the way from the origin to `corner` that is over the triangle, as shares of it; from > to if there is none.
+/// The part of the segment from the origin to `corner` that is over the triangle, as shares of it; from > to if there is none.
 Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vector3& corner) {
   Stretch stretch{0, 1};
   const Vector3 way = corner - floor.origin;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3 start = triangle.vertices[k] - floor.origin;
     const Vector3 inward = floor.normal.cross(triangle.vertices[(k + 1) % 3] - triangle.vertices[k]).normalized();
-    // inward.(share way - start) >= 0, or beside it by a crack
+    // The line is on the inner side, inward.(share way - start) >= 0, or outside by less than a crack.
     const double slope = inward.dot(way);
     const double offset = inward.dot(start) - kCrack * way.norm();
     if (slope > 0) {
@@ -56,7 +56,7 @@ Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vec
   return stretch;
 }
 
-/// How far one can go on the floor from the origin towards `corner`, as a share of the way.
+/// How far the floor reaches from the origin towards `corner`, as a share of the way.
 double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangles, const Vector3& corner) {
   double reached = 0;
   bool goes_on = true;
@@ -75,20 +75,20 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
 
 }  // namespace
 
-void draw_in_corners(ContactManifold& patch, std::span<const MeshTriangle> triangles) {
-  const Vector3& contact = patch.deepest.contact;
-  const double depth = -patch.deepest.gap;
-  const Floor floor{-patch.deepest.normal, patch.deepest.point2, depth};
+void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles) {
+  const Vector3& contact = manifold.deepest.contact;
+  const double depth = -manifold.deepest.gap;
+  const Floor floor{-manifold.deepest.normal, manifold.deepest.point2, depth};
   bool is_on_face = false;
-  for (int k = 0; k < patch.corner_count; ++k) {
-    ManifoldCorner& corner = patch.corners[static_cast<std::size_t>(k)];
+  for (int k = 0; k < manifold.corner_count; ++k) {
+    ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
     const double share = share_on_floor(floor, triangles, corner.point);
     is_on_face = is_on_face || share > 0;
     if (share >= 1) continue;
     corner.point = contact + share * (corner.point - contact);
     corner.depth = depth + share * (corner.depth - depth);
   }
-  if (!is_on_face) patch.corner_count = 0;
+  if (!is_on_face) manifold.corner_count = 0;
 }
 
 }  // namespace supernormal

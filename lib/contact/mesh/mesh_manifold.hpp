@@ -1,4 +1,4 @@
-// What flat bodies rest on when the floor is made of triangles.
+// The corners of a contact manifold where the floor is made of triangles.
 #pragma once
 
 #include <span>
@@ -8,9 +8,10 @@
 
 namespace supernormal {
 
-/// Draws the corners of a patch with a plane in, towards the deepest point, to where there are triangles in that plane, without a
-/// hole on the way: a brick that hangs over the border of a table is supported as far as the table goes. Leaves none where the
-/// contact is not on a face. `triangles`: at least those within patch.margin of the body; their order does not matter.
-void draw_in_corners(ContactManifold& patch, std::span<const MeshTriangle> triangles);
+/// Draws the corners of a manifold with a plane in, towards the deepest point, to where there are triangles in that plane,
+/// without a hole on the way: a brick that hangs over the border of a table is supported as far as the table goes. Leaves no
+/// corners where the contact is not on a face. `triangles` are at least those within manifold.margin of the body; their order does
+/// not matter.
+void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles);
 
 }  // namespace supernormal

@@ -1,4 +1,4 @@
-// What goes into a query of a body and a triangle surface, and what comes out.
+// The input and output of a query of a body and a triangle surface.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace supernormal {
 
 struct MeshTriangle {
   std::array<Vector3, 3> vertices;  ///< m, world frame; counter-clockwise seen from outside
-  int index = 0;                    ///< the caller's name for it
+  int index = 0;                    ///< the caller's name for the triangle
 };
 
-/// Whether its coordinates are numbers that can be computed with: finite and within kMaxLength.
+/// Whether the coordinates can be computed with: finite and within kMaxLength.
 inline bool is_usable(const MeshTriangle& triangle) {
   return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
                      [](const Vector3& vertex) { return (vertex.array().abs() <= kMaxLength).all(); });

@@ -1,4 +1,4 @@
-// A body seen from the surface that it touches.
+// The support points of a body in the frame of the surface that it touches.
 #pragma once
 
 #include "supernormal/shapes/shape.hpp"
@@ -11,13 +11,13 @@ struct DeepestPoint {
   double height = 0;  ///< m; normal . point
 };
 
-/// Evaluates and counts. The frame has the directions of the world and the body's origin, so that distance from the world's
-/// origin costs no digits and the normals of a level floor stay exact.
+/// Evaluates support points and counts the evaluations. The frame has the directions of the world and the body's origin, so that
+/// distance from the world's origin costs no digits and the normals of a level floor stay exact.
 class SupportProbe {
  public:
   SupportProbe(const Shape& shape, const Matrix3& rotation) : shape_(&shape), rotation_(rotation) {}
 
-  /// `normal` of unit length, out of the surface. The same operations in the same order as find_plane_proximity().
+  /// `normal` is of unit length, out of the surface. The operations are those of find_plane_proximity(), in the same order.
   DeepestPoint deepest(const Vector3& normal) {
     Jet jet;
     shape_->evaluate(-(rotation_.transpose() * normal), Order::Point, jet);

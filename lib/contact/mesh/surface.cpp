@@ -9,13 +9,13 @@
 namespace supernormal {
 namespace {
 
-// A triangle whose height is less than this share of its longest side has no normal to speak of.
+// A triangle whose height is less than this share of its longest side has no reliable normal.
 constexpr double kNoHeight = 1e-12;
 
-// Normals that differ by less than this (radians) are one by rounding.
+// Normals that differ by less than this (radians) are equal but for rounding.
 constexpr double kFlat = 1e-12;
 
-// -0 and 0 are equal.
+// Hashes a point; -0 and 0 have the same hash, as they are equal.
 std::uint64_t hash(const Vector3& v) {
   std::uint64_t h = 0;
   for (int i = 0; i < 3; ++i) {
@@ -25,7 +25,7 @@ std::uint64_t hash(const Vector3& v) {
   return h;
 }
 
-// Whether the face stands out of the tangent plane by more than what touching allows for, and not by a rounding of the normal.
+// Whether the face stands out of the tangent plane by more than the contact tolerance and a rounding of the normal.
 bool rises(const Face& face, const Vector3& normal, const Vector3& from, double contact_tolerance) {
   return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& vertex) {
     const Vector3 reach = vertex - from;
@@ -74,7 +74,7 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin) {
   face.triangle = triangle.index;
   face.corner = {-1, -1, -1};
   face.neighbour = {-1, -1, -1};
-  face.fold = {EdgeConvexity::Border, EdgeConvexity::Border, EdgeConvexity::Border};
+  face.convexity = {EdgeConvexity::Border, EdgeConvexity::Border, EdgeConvexity::Border};
   face.patch = -1;
   face.next_in_patch = -1;
   faces_.push_back(face);
@@ -121,28 +121,28 @@ void Surface::match_edges() {
   }
 }
 
-// The neighbour of a face is the one that goes along the edge the other way. Where several do, the flattest of them: what stands
-// out beside it is found when a contact is checked.
+// The neighbour of a face is the one that goes along the edge the other way. Where several do, it is the flattest of them: a face
+// that stands out beside it is found when a contact is checked.
 void Surface::match_uses(std::span<EdgeUse> uses) {
   for (const EdgeUse& use : uses) {
     Face& face = faces_[at(use.face)];
     double best = -std::numeric_limits<double>::infinity();
     for (const EdgeUse& other : uses) {
       const Face& candidate = faces_[at(other.face)];
-      if (candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;  // the same way: itself, or wound differently
+      if (candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;  // the face itself, or one wound differently
       const double flatness = face.normal.dot(candidate.normal);
       if (flatness <= best) continue;
       best = flatness;
       face.neighbour[at(use.side)] = other.face;
-      face.fold[at(use.side)] = fold_between(face, use.side, candidate);
+      face.convexity[at(use.side)] = convexity_between(face, use.side, candidate);
     }
   }
 }
 
-EdgeConvexity Surface::fold_between(const Face& face, int side, const Face& neighbour) const {
+EdgeConvexity Surface::convexity_between(const Face& face, int side, const Face& neighbour) const {
   const double sine = neighbour.normal.dot(face.outward[at(side)]);
   const double cosine = neighbour.normal.dot(face.normal);
-  // Back to back: the two sides of a sheet.
+  // The faces are back to back: the two sides of a sheet.
   if (std::abs(sine) <= kFlat) return cosine > 0 ? EdgeConvexity::Flat : EdgeConvexity::Convex;
   return sine > 0 ? EdgeConvexity::Convex : EdgeConvexity::Concave;
 }
@@ -166,9 +166,9 @@ void Surface::grow_patch(int seed) {
     const Face& face = faces_[at(to_visit_.back())];
     to_visit_.pop_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      if (face.fold[k] != EdgeConvexity::Flat) continue;
+      if (face.convexity[k] != EdgeConvexity::Flat) continue;
       Face& neighbour = faces_[at(face.neighbour[k])];
-      // Many nearly flat folds make a bend: all have the first one's normal.
+      // Many nearly flat edges make a bend, so the normal is compared with the first one.
       if (neighbour.patch >= 0 || (neighbour.normal - normal).norm() > 2 * kFlat) continue;
       neighbour.patch = number;
       faces_[at(last)].next_in_patch = face.neighbour[k];
@@ -181,7 +181,7 @@ void Surface::grow_patch(int seed) {
 void Surface::join_parts() {
   for (const Face& face : faces_) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (face.fold[k] != EdgeConvexity::Convex && face.fold[k] != EdgeConvexity::Flat) continue;
+      if (face.convexity[k] != EdgeConvexity::Convex && face.convexity[k] != EdgeConvexity::Flat) continue;
       const int part1 = find_part(face.patch);
       const int part2 = find_part(faces_[at(face.neighbour[k])].patch);
       patches_[at(std::max(part1, part2))].part = std::min(part1, part2);
@@ -213,7 +213,7 @@ Vector3 Surface::nearest_on_rim(const CoplanarPatch& patch, const Vector3& point
   for (int f = patch.first_face; f >= 0; f = faces_[at(f)].next_in_patch) {
     const Face& face = faces_[at(f)];
     for (int k = 0; k < 3; ++k) {
-      if (face.fold[at(k)] == EdgeConvexity::Flat) continue;
+      if (face.convexity[at(k)] == EdgeConvexity::Flat) continue;
       const Vector3& start = face.vertices[at(k)];
       const Vector3 edge = face.vertices[at(next(k))] - start;
       const double share = std::clamp(edge.dot(point - start) / edge.squaredNorm(), 0.0, 1.0);
@@ -250,7 +250,7 @@ bool Surface::violates_normal_cone(const Vector3& normal, const Vector3& at, con
   });
 }
 
-// Where on the segment the face is met, 0...1; infinite if it is not.
+// The share of the segment, 0...1, at which the face is met; infinite if it is not.
 double Surface::share_to(const Face& face, const Vector3& start, const Vector3& end) const {
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const double height1 = face.normal.dot(start - face.vertices[0]);

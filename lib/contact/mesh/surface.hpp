@@ -1,4 +1,4 @@
-// Triangles that know their neighbours.
+// A triangle surface whose faces know their neighbours.
 #pragma once
 
 #include <array>
@@ -17,26 +17,26 @@ struct Face {
   std::array<Vector3, 3> vertices;
   std::array<Vector3, 3> outward;  ///< unit, in the plane, across edge k, which goes from vertex k to the next one
   Vector3 normal;                  ///< unit, out of the solid
-  std::array<int, 3> corner;       ///< number of the vertex: vertices at equal coordinates have the same
+  std::array<int, 3> corner;       ///< numbers of the vertices; vertices at equal coordinates have the same number
   std::array<int, 3> neighbour;    ///< the face across edge k, or -1
-  std::array<EdgeConvexity, 3> fold;
-  int triangle;       ///< the caller's index
-  int patch;          ///< see below
-  int next_in_patch;  ///< face, or -1
+  std::array<EdgeConvexity, 3> convexity;
+  int triangle;       ///< the caller's number for the triangle
+  int patch;          ///< number of the CoplanarPatch that it belongs to
+  int next_in_patch;  ///< next face of that patch, or -1
 };
 
 /// Faces that share flat edges: a piece of a plane.
 struct CoplanarPatch {
   Vector3 normal;  ///< unit
   int first_face;
-  int part;  ///< patches that share convex edges are of one part; its number is that of one of them
+  int part;  ///< patches that share convex edges are of one part, which has the number of one of them
 };
 
 /// A surface in a frame with the origin near the body: coordinates of triangles far from the world's origin lose no digits.
 /// Keeps its memory from one build() to the next.
 class Surface {
  public:
-  /// `length_unit` (m) is the size of what is to touch it.
+  /// `length_unit` (m) is the size of the body that is to touch it.
   void build(std::span<const MeshTriangle> triangles, const Vector3& origin, double length_unit);
 
   const std::vector<Face>& faces() const { return faces_; }
@@ -47,25 +47,25 @@ class Surface {
   /// Points nearer to one another than this are one by rounding, m.
   double rounding() const { return rounding_; }
 
-  /// Nothing thinner than this separates: cracks between triangles that were meant to meet, slivers. m
+  /// Features thinner than this (m) do not separate: cracks between triangles that were meant to meet, slivers.
   double contact_tolerance() const { return contact_tolerance_; }
 
   /// Whether the projection of the point into the face's plane is within the face or within rounding.
   bool is_over(const Face& face, const Vector3& point) const;
 
-  /// The point of the patch's rim nearest to `point`, which is over none of its faces, and the face there with its edge.
+  /// The point of the patch's rim nearest to `point`, which is over none of its faces, with the face and edge there.
   Vector3 nearest_on_rim(const CoplanarPatch& patch, const Vector3& point, int& face, int& side) const;
 
   /// The first face from number `first` on that is a wall there: it rises from the tangent plane with the normal at the surface's
-  /// point `at`, and `beyond` is behind it: what ends at `at` goes on inside of the wall's solid as far as `beyond`. -1 if there is
-  /// none.
+  /// point `at`, and `beyond` is behind it, so that the feature that ends at `at` goes on inside of the wall's solid as far as
+  /// `beyond`. Returns -1 if there is none.
   int find_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond, int first = 0) const;
 
-  /// Whether a face that touches `at` stands out of the tangent plane there: the normal is not one of the surface at `at`. A wall
-  /// with `foot` behind it does not count.
+  /// Whether a face that touches `at` stands out of the tangent plane there, so that the normal is outside the normal cone of the
+  /// surface at `at`. A wall with `foot` behind it does not count.
   bool violates_normal_cone(const Vector3& normal, const Vector3& at, const Vector3& foot) const;
 
-  /// Whether the segment meets a face; `first` is looked at first.
+  /// Whether the segment meets a face; the face `first` is tested first.
   bool is_crossed(const Vector3& start, const Vector3& end, int first) const;
 
   /// Whether the first face that the segment meets is met from inside: the segment starts in the solid, or on it, and leaves it.
@@ -73,16 +73,16 @@ class Surface {
 
  private:
   struct EdgeUse {
-    std::uint64_t edge;  // its two corners
+    std::uint64_t edge;  // its two vertices
     int face;
-    int side;  // k
+    int side;  // number k of the edge in the face
   };
 
   void append(const MeshTriangle& triangle, const Vector3& origin);
   void number_corners();
   void match_edges();
   void match_uses(std::span<EdgeUse> uses);
-  EdgeConvexity fold_between(const Face& face, int side, const Face& neighbour) const;
+  EdgeConvexity convexity_between(const Face& face, int side, const Face& neighbour) const;
   void collect_patches();
   void grow_patch(int seed);
   void join_parts();

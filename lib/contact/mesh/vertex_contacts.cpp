@@ -1,4 +1,4 @@
-// Contacts at the vertices of a surface, over the normals between those of the faces there.
+// Contacts at the vertices of a surface, found over the normals between those of the faces there.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace supernormal {
 namespace {
 
-// Normals that differ by less than this (radians) may be one, as far as the tolerance of the gap goes.
+// Normals that differ by less than this (radians) are indistinguishable at the tolerance of the gap.
 constexpr double kNearEdgeNormal = 1e-5;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -23,8 +23,8 @@ double angle_at(const Face& face, int k) {
 
 }  // namespace
 
-// Solved for the hull of the triangles there, not for the point alone, whose gap may be larger still along normals that are none of
-// the surface.
+// Solves for the hull of the triangles at the vertex, not for the point alone, whose gap may be larger still along normals that
+// the surface does not have.
 void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vector3& start) {
   const int corner = surface_.faces()[at(f)].corner[at(k)];
   if (settled_[at(corner)] != 0) return;
@@ -36,10 +36,10 @@ void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vecto
   const Proximity found = solve_for_hull(probe, surface_.faces()[at(f)].vertices[at(k)], &start);
   if (found.status == Status::InvalidInput) return;
   const bool is_apart = found.status == Status::Apart || found.gap > 0;
-  // Another edge's contact is found over that edge; but the edge that led here may be in touch with a flat side of the body, any
-  // point of which was as good as the one found there.
+  // The contact of another edge is found over that edge; but the edge that led here may touch a flat side of the body, any point
+  // of which was as good as the one found there.
   const bool is_other_edge = (found.normal + start).norm() > kNearEdgeNormal && is_normal_of_edge_at(corner, -found.normal);
-  // Where it is no normal of the vertex, another edge may lead to another maximum.
+  // If the normal is not one of the vertex, another edge may lead to another maximum.
   settled_[at(corner)] = is_apart || (!is_other_edge && add_at_vertex(probe, f, k, found)) ? 1 : 0;
 }
 
@@ -65,7 +65,7 @@ Proximity MeshContacts::solve_for_hull(SupportProbe& probe, const Vector3& origi
   return found;
 }
 
-// False when the normal is none of the surface there, or when that cannot be told.
+// Returns false when the normal is not one of the surface there, or when that cannot be decided.
 bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
   const Face& face = surface_.faces()[at(f)];
   const Vector3& vertex = face.vertices[at(k)];

@@ -34,7 +34,7 @@ extern "C" dGeomID snCreateConvex(dSpaceID space, const snShape* shape) {
     auto body = std::make_unique<Body>(make_user_shape(shape));
     Body& alive = *body;
     const dGeomID geom = create_geom(space, std::move(body));
-    alive.set_release_callback(shape->release, shape->user);  // from here on: a refused call does not release
+    alive.set_release_callback(shape->release, shape->user);  // from here on the geom calls release: a refused call must not
     return geom;
   });
 }

@@ -1,4 +1,4 @@
-// dMass from the volume integrals of the body.
+// Computes a dMass from the volume integrals of the body.
 #include <cmath>
 #include <stdexcept>
 
@@ -14,7 +14,8 @@ namespace {
 constexpr double kMaxRelativeError = 0.01;
 
 void require_usable(const MassProperties& properties) {
-  // Faces and edges of a user-defined body have no normal of their own to be found by; what they hold may be missing.
+  // Faces and edges of a user-defined body have no normals of their own by which quadrature could find them, so their volume may
+  // be missing.
   if (properties.relative_error > kMaxRelativeError) {
     throw std::domain_error("the volume of the geom, " + to_text(properties.volume) + " m^3, is uncertain by " +
                             to_text(100 * properties.relative_error) +
@@ -26,7 +27,7 @@ void require_usable(const MassProperties& properties) {
   throw std::invalid_argument("the volume of the geom is " + to_text(properties.volume) + " m^3, but must be in (0, inf)");
 }
 
-// ODE's inertia tensor is the one about the origin of the frame that the centre of mass is given in, not about that centre
+// ODE's inertia tensor is about the origin of the frame that the centre of mass is given in, not about that centre
 // (dMassTranslate and dMassCheck show it): tr(S) 1 - S with the second moment S about the origin.
 void set_mass(dMass* mass, const MassProperties& properties, double density) {
   const Matrix3& S = properties.second_moment;
@@ -36,7 +37,7 @@ void set_mass(dMass* mass, const MassProperties& properties, double density) {
   dMassSetParameters(&result, to_real(density * properties.volume), to_real(c.x()), to_real(c.y()), to_real(c.z()),
                      to_real(inertia(0, 0)), to_real(inertia(1, 1)), to_real(inertia(2, 2)), to_real(inertia(0, 1)),
                      to_real(inertia(0, 2)), to_real(inertia(1, 2)));
-  // dMassCheck lets infinite ones pass.
+  // dMassCheck accepts infinite values, so they are refused here.
   const bool is_finite =
       std::isfinite(result.mass) && std::isfinite(result.I[0]) && std::isfinite(result.I[5]) && std::isfinite(result.I[10]);
   if (!is_finite || dMassCheck(&result) == 0) {

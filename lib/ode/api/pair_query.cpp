@@ -15,7 +15,7 @@
 namespace supernormal::ode {
 namespace {
 
-// The core's answer for two geoms, ours first.
+// The core's result for two geoms, ours first.
 Proximity query(dGeomID ours, dGeomID collider, Goal goal) {
   require_body(ours);
   PairQuery* const pair_query = find_query(dGeomGetClass(collider));

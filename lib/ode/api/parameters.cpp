@@ -1,4 +1,4 @@
-// Reading and changing what a geom is.
+// Getters and setters of a geom's parameters.
 #include <stdexcept>
 #include <string>
 

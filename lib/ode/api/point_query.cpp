@@ -1,4 +1,4 @@
-// Questions about one body and a point or a direction.
+// Queries of one body and a point or a direction.
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -23,7 +23,7 @@ extern "C" dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z) {
     const Settings settings = for_goal(body.settings(), Goal::Distance);
     const Proximity result = find_proximity(body.shape(), pose_of(geom), Sphere(0), point_pose, settings);
     if (result.status == Status::InvalidInput) throw std::invalid_argument("the pose of geom" + no_answer_because());
-    return to_real(0 - result.gap);  // 0 - 0 is +0
+    return to_real(0 - result.gap);  // 0 - 0 is +0, not -0
   });
 }
 

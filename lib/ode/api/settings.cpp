@@ -1,4 +1,4 @@
-// How queries are solved: of one geom, and of all.
+// Solver settings of one geom and of all.
 #include <stdexcept>
 #include <string>
 

@@ -1,4 +1,4 @@
-// Reading and resetting this thread's counts.
+// Reads and resets this thread's counts.
 #include "ode/runtime/statistics.hpp"
 
 #include "ode/support/last_error.hpp"

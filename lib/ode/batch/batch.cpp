@@ -10,13 +10,12 @@
 namespace supernormal::ode {
 namespace {
 
-constexpr std::size_t kJobsAtOnce =
-    16;                               // some 20 µs: waiting for a lock is short beside it, and nobody waits long for the last one
-constexpr std::size_t kPrefetch = 8;  // pairs ahead
+constexpr std::size_t kJobsAtOnce = 16;  // some 20 µs: waiting for a lock is short beside it, and the last thread is soon done
+constexpr std::size_t kPrefetch = 8;     // how many pairs ahead entries are prefetched
 
 bool is_solid_pair(dGeomID g1, dGeomID g2) {
   const dBodyID body = dGeomGetBody(g1);
-  return g1 != g2 && (body == nullptr || body != dGeomGetBody(g2));  // as in dCollide
+  return g1 != g2 && (body == nullptr || body != dGeomGetBody(g2));  // the same test as in dCollide
 }
 
 }  // namespace
@@ -36,7 +35,7 @@ int Batch::collide(dSpaceID space, int room, const BatchCallbacks& callbacks) {
   return report(callbacks);
 }
 
-// Called by ODE, which no exception may cross.
+// ODE calls this function, and no exception may cross ODE.
 void Batch::name_pair(void* self, dGeomID g1, dGeomID g2) {
   auto& batch = *static_cast<Batch*>(self);
   if (dGeomIsSpace(g1) != 0 || dGeomIsSpace(g2) != 0) {
@@ -58,7 +57,7 @@ void Batch::add_item(dGeomID g1, dGeomID g2) {
   if (is_ours) jobs_.push_back({BodyPair(g1, g2), {}});
 }
 
-// In the order of ODE: what the table of warm starts forgets depends on it.
+// Items are prepared in ODE's order, because the entries that the table of warm starts drops depend on the order.
 void Batch::prepare(std::size_t item) {
   if (const std::size_t ahead = item + kPrefetch; ahead < items_.size() && items_[ahead].is_ours) {
     prefetch_entry(jobs_[items_[ahead].index].pair.key());
@@ -114,7 +113,7 @@ void Batch::solve_job(std::size_t index) {
     const ContactManifold manifold = job.pair.solve(job.remembered, room_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
     job.count = write_contacts(manifold, {g1, g2, room_of_job_, first, sizeof(dContactGeom)});
   } catch (...) {
-    job.is_refused = true;  // a user-defined body: collided once more where the error can be told
+    job.is_refused = true;  // a user-defined body threw: the pair is collided once more where the error can be reported
   }
 }
 

@@ -1,4 +1,4 @@
-// Threads that wait for work.
+// A pool of threads that wait for work.
 #pragma once
 
 #include <atomic>
@@ -9,18 +9,19 @@
 
 namespace supernormal::ode {
 
-/// Runs a task many times at once: on its own threads and on the one that asks.
+/// Runs a task many times in parallel: on its own threads and on the calling one.
 class WorkerPool {
  public:
   using Task = void (*)(void* context, int index);
 
-  /// `threads` in [1, …], the calling one among them.
+  /// `threads` in [1, ...] includes the calling one.
   explicit WorkerPool(int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// task(context, i) once for every i in [0, count); returns when all are done. One call at a time. The task must not throw.
+  /// Calls task(context, i) once for every i in [0, count) and returns when all are done. One call at a time. The task must not
+  /// throw.
   void run(int count, Task task, void* context);
 
  private:
@@ -30,7 +31,7 @@ class WorkerPool {
 
   std::mutex mutex_;
   std::condition_variable begins_, ends_;
-  // Guarded by the mutex.
+  // These members are guarded by the mutex.
   unsigned round_ = 0;
   int busy_ = 0;
   bool stops_ = false;

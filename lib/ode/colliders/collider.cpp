@@ -10,7 +10,7 @@
 namespace supernormal::ode {
 namespace {
 
-/// The dColliderFn that makes contacts of what the query finds.
+/// The dColliderFn that writes the contacts of a query.
 template <PairQuery kQuery>
 int collide_by(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
   return guarded("dCollide", 0, [&] {
@@ -25,7 +25,7 @@ struct Collider {
   PairQuery* query;
 };
 
-// ODE's own classes but for spaces and dGeomTransform, which ODE takes apart itself.
+// ODE's own classes without spaces and dGeomTransform, which ODE resolves itself.
 constexpr std::array<Collider, 9> kColliders = {{
     {dSphereClass, collide_by<query_sphere>, query_sphere},
     {dBoxClass, collide_by<query_box>, query_box},

@@ -10,7 +10,7 @@
 namespace supernormal::ode {
 namespace {
 
-// ODE's assertions abort on a normal that is not a unit vector or not a number, so nothing gets past this on trust.
+// ODE's assertions abort on a normal that is not a unit vector or not a number, so every contact is checked here.
 bool is_contact(const Proximity& proximity) {
   if (proximity.status == Status::Apart || proximity.status == Status::InvalidInput) return false;
   const bool overlap = proximity.gap <= 0 && std::isfinite(proximity.gap);
@@ -18,7 +18,8 @@ bool is_contact(const Proximity& proximity) {
   return overlap && unit_normal && proximity.contact.allFinite();
 }
 
-/// Writes what is_contact() behind the `count` that are there, if there is room, and returns how many are there now.
+/// Writes one contact, which must satisfy is_contact(), after the `count` that are there, if there is room, and returns how many
+/// are there now.
 int append_contact(const Proximity& proximity, const ContactArray& out, int count, int side2) {
   if (count >= out.room()) return count;
   auto* const place = reinterpret_cast<char*>(out.first) + std::ptrdiff_t{count} * out.skip;
@@ -46,12 +47,12 @@ int append_corners(const ContactManifold& manifold, double share_of_depth, const
   return count;
 }
 
-/// Shares out the room for contacts: one for each manifold, and of what is left a fair share for its corners.
+/// Distributes the room for contacts: one for each manifold, and a fair share of the rest for its corners.
 class Shares {
  public:
   Shares(std::size_t manifolds, int room) : left_(static_cast<int>(manifolds)), spare_(std::max(0, room - left_)) {}
 
-  /// The room for the next manifold; as much as anyone may want where it gets what it wants.
+  /// The room for the next manifold; if its wish is granted, all the room that a manifold may want.
   int next(const ContactManifold& manifold) {
     const int wanted = reduced_to(manifold, kAllTheRoom).corner_count;
     const int share = std::min(wanted, (spare_ + left_ - 1) / left_);
@@ -84,7 +85,7 @@ int write_contacts(std::span<LocatedManifold> manifolds, const ContactArray& out
   if (manifolds.size() == 1) return write_contacts(manifolds.front().manifold, out, manifolds.front().side2);
   int count = 0;
   Shares shares(manifolds.size(), out.room());
-  // First the deepest point of each, so that the deepest of all comes first.
+  // The deepest point of each manifold comes first, so that the deepest of all is the first contact.
   for (LocatedManifold& located : manifolds) {
     ContactManifold& manifold = located.manifold;
     located.room = shares.next(manifold);
@@ -96,7 +97,7 @@ int write_contacts(std::span<LocatedManifold> manifolds, const ContactArray& out
       count = append_corners(manifold, 1, out, count, located.side2);
     }
   }
-  // Then the corners beside them.
+  // The corners follow.
   for (const LocatedManifold& located : manifolds) {
     if (!lists_deepest(located.manifold, located.room) || !is_contact(located.manifold.deepest)) continue;
     count = append_corners(located.manifold, located.manifold.flatness, out, count, located.side2);

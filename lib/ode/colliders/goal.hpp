@@ -1,16 +1,16 @@
-// What a query of a pair is for.
+// The purpose of a query of a pair.
 #pragma once
 
 #include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal::ode {
 
-/// Colliders want overlaps only: they stop at the first normal that proves separation.
+/// The purpose of a query. Colliders need overlaps only: they stop at the first normal that proves separation.
 enum class Goal {
   OneContact,  ///< the deepest point
-  Contacts,    ///< and the corners of a wide overlap
+  Contacts,    ///< the deepest point and the corners of a wide overlap
   Distance,
-  CertifiedDistance,  ///< with a proof that of overlapping bodies the depth is the smallest
+  CertifiedDistance,  ///< with a proof that the depth of overlapping bodies is the smallest
 };
 
 inline Settings for_goal(Settings settings, Goal goal) {

@@ -16,8 +16,8 @@ struct PosedShape {
   const Pose& pose;
 };
 
-/// The answer of two shapes; `last.pose` is known, and the normals in the table are those in the frame with the attitude `frame`.
-/// `size` is that of recall_normal().
+/// Solves for two shapes. `last.pose` must be set; the remembered normals are in the frame with the attitude `frame`, and `size`
+/// is passed on to recall_normal().
 ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, Goal goal, const Matrix3& frame,
                       double size, const Remembered& remembered, LastNormal& last) {
   Vector3 first_normal;

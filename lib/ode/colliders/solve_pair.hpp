@@ -1,5 +1,5 @@
-// Pairs of shapes that the core's solver answers, each from its last normal: our bodies among themselves, and with those of ODE's
-// own geoms that are shapes of the core.
+// Pairs that are solved as two shapes of the core, each from its last normal: our bodies among themselves, and our bodies with
+// those of ODE's own geoms that are shapes of the core.
 #pragma once
 
 #include <ode/ode.h>
@@ -17,9 +17,9 @@ namespace supernormal::ode {
 
 class Body;
 
-/// What the table of warm starts is to learn from a query.
+/// The result that the table of warm starts stores from a query.
 struct LastNormal {
-  bool is_known = false;  ///< false: the query had no answer
+  bool is_known = false;  ///< false: the query had no result
   RelativePose pose;
   Vector3 normal = Vector3::UnitX();
 
@@ -28,18 +28,18 @@ struct LastNormal {
   }
 };
 
-/// Two bodies of ours. Body 1 of the query is the older one, whatever the caller's order: spaces pass a pair now in one order and
-/// now in the other, and both give the same digits this way.
+/// A pair of our bodies. Body 1 of the query is the older one, whatever the caller's order: spaces pass a pair now in one order
+/// and now in the other, and both give the same digits this way.
 class BodyPair {
  public:
-  /// std::invalid_argument when one of them is empty (dCreateGeom).
+  /// Throws std::invalid_argument when one of them is empty (dCreateGeom).
   BodyPair(dGeomID g1, dGeomID g2);
 
   PairKey key() const;
   std::pair<dGeomID, dGeomID> geoms() const { return is_swapped_ ? std::pair(geom2_, geom1_) : std::pair(geom1_, geom2_); }
 
-  /// The answer as seen from g1. Looks at nothing but the two geoms and touches nothing but this thread's statistics: pairs may be
-  /// solved on several threads while no geom moves.
+  /// The result as seen from g1. It reads nothing but the two geoms and changes nothing but this thread's statistics: pairs may
+  /// be solved on several threads while no geom moves.
   ContactManifold solve(const Remembered& remembered, Goal goal, LastNormal& last) const;
 
  private:
@@ -49,17 +49,17 @@ class BodyPair {
   bool is_swapped_;
 };
 
-/// One of ODE's own geoms as the core sees it.
+/// One of ODE's own geoms as a shape of the core.
 struct ColliderShape {
   const Shape& shape;
   Pose pose;
   std::uint32_t kind;  ///< collider_kind()
 };
 
-/// The query of a body of ours and such a collider; counts itself.
+/// Solves the pair of a body of ours and such a collider, from its last normal if there is one, and counts the query.
 ///
-/// Of the collider's normals we remember those in its own frame, under where our body is seen from there: on a floor made of a
-/// dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
+/// The remembered normals are in the collider's own frame, and the key is the direction in which our body is seen from there: on
+/// a floor made of a dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
 ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goal);
 
 }  // namespace supernormal::ode

@@ -57,8 +57,8 @@ void Body::set_rounding(double radius) { set_shape(core_, radius); }
 
 void Body::set_shape(std::shared_ptr<const Shape> core, double rounding) {
   std::shared_ptr<const Shape> shape = core;
-  if (rounding != 0) shape = std::make_shared<Rounded>(core, rounding);  // which refuses what is no radius
-  size_ = shape->half_extents().minCoeff();  // may throw, when it asks a user's callbacks: before anything else changes
+  if (rounding != 0) shape = std::make_shared<Rounded>(core, rounding);  // the constructor refuses an invalid radius
+  size_ = shape->half_extents().minCoeff();  // this may throw, as it calls a user's callbacks, so nothing else has changed yet
   core_ = std::move(core);
   shape_ = std::move(shape);
   rounding_ = rounding;

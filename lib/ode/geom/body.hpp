@@ -1,4 +1,4 @@
-// What a geom of our class is.
+// The body behind a geom of our class: shape, parameters, solver settings, serial number.
 #pragma once
 
 #include <ode/ode.h>
@@ -38,13 +38,13 @@ class Body {
   Body& operator=(const Body&) = delete;
   Body& operator=(Body&&) = delete;
 
-  /// With its rounding.
+  /// The shape with its rounding.
   const Shape& shape() const { return *shape_; }
 
   /// The smallest half-extent of shape(), m.
   double size() const { return size_; }
 
-  /// Number 1, 2, … in the order of creation; never used again in this process (unless 2^32 bodies wrap it around).
+  /// The number 1, 2, ... in the order of creation; never used again in this process (unless 2^32 bodies wrap it around).
   std::uint32_t serial() const { return serial_; }
 
   const Settings& settings() const { return settings_; }
@@ -54,12 +54,12 @@ class Body {
   const SuperellipsoidParameters* superellipsoid() const { return std::get_if<SuperellipsoidParameters>(&parameters_); }
   const SuperovoidParameters* superovoid() const { return std::get_if<SuperovoidParameters>(&parameters_); }
 
-  /// These leave the body as it was when they throw.
+  /// These setters leave the body as it was when they throw.
   void set_superellipsoid(const SuperellipsoidParameters& parameters);
   void set_superovoid(const SuperovoidParameters& parameters);
   void set_rounding(double radius);
 
-  /// Is called once, when the body dies. `release` may be null.
+  /// `release` is called once, when the body dies; it may be null.
   void set_release_callback(void (*release)(void*), void* user) {
     release_ = release;
     user_ = user;
@@ -68,18 +68,19 @@ class Body {
  private:
   void set_shape(std::shared_ptr<const Shape> core, double rounding);
 
-  std::shared_ptr<const Shape> core_;  // without rounding
+  std::shared_ptr<const Shape> core_;  // the shape without rounding
   std::shared_ptr<const Shape> shape_;
   double rounding_ = 0;                                                                      // m
   double size_;                                                                              // m
-  std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // none: a user-defined body
+  std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // monostate: a user-defined body
   Settings settings_;
   std::uint32_t serial_;
   void (*release_)(void*) = nullptr;
   void* user_ = nullptr;
 };
 
-/// What ODE keeps for a geom of ours: all zeros at first, aligned as malloc does it, and neither constructed nor destroyed.
+/// The memory that ODE keeps for a geom of ours: all zeros at first, aligned as malloc does it, and neither constructed nor
+/// destroyed.
 struct ClassData {
   Body* body;
 };
@@ -87,7 +88,7 @@ struct ClassData {
 /// The geom's body; null when the geom is null, of another class, or came from dCreateGeom(snGeomClass()), which leaves it empty.
 Body* find_body(dGeomID geom) noexcept;
 
-/// The same, but std::invalid_argument instead of null.
+/// The geom's body; throws std::invalid_argument where find_body() returns null.
 Body& require_body(dGeomID geom);
 
 }  // namespace supernormal::ode

@@ -12,7 +12,7 @@
 namespace supernormal::ode {
 namespace {
 
-// Rounding, in units of dReal's last place, of what is computed here: of a support function, a rotated direction, a sum.
+// Rounding error of a support function, a rotated direction and a sum, in units of dReal's last place.
 constexpr double kRoundingUnits = 8;
 
 double rounding_of(double magnitude) { return kRoundingUnits * double{std::numeric_limits<dReal>::epsilon()} * magnitude; }
@@ -21,7 +21,7 @@ struct Interval {
   double low, high;
 };
 
-// The body between its two supporting planes perpendicular to a world axis. Row i of R is axis i in the body's frame.
+// The interval between the body's two supporting planes perpendicular to a world axis. Row i of R is axis i in the body's frame.
 Interval extent_along(int axis, const Shape& shape, const Pose& pose) {
   const Vector3 direction = pose.rotation.row(axis).transpose();
   const double position = pose.position[axis];
@@ -51,8 +51,8 @@ bool is_above_plane(const Body& body, const Pose& pose, dGeomID plane_geom) {
   return gap > rounding_of(pose.position.lpNorm<1>() + std::abs(double{plane[3]}) + std::abs(gap));
 }
 
-// Tries one separating plane, perpendicular to the line from the body's origin to the nearest point of the box (which is then
-// the box's support point, also when it reaches to infinity).
+// Tries one separating plane, perpendicular to the line from the body's origin to the nearest point of the box (which is then the
+// box's support point, also when the box reaches to infinity).
 bool is_outside_box(const Body& body, const Pose& pose, const dReal* aabb) {
   Vector3 nearest;
   for (int axis = 0; axis < 3; ++axis) {
@@ -67,8 +67,7 @@ bool is_outside_box(const Body& body, const Pose& pose, const dReal* aabb) {
 
 }  // namespace
 
-// ODE's hash space aborts on a NaN; a box without bounds is what it can live with. Such a body shows in the colliders, which refuse
-// it.
+// ODE's hash space aborts on a NaN, but accepts a box without bounds. Such a body is then refused by the colliders.
 void compute_aabb(dGeomID geom, dReal aabb[6]) {
   if (guarded("dGeomGetAABB", 0, [&] { return write_finite_aabb(geom, aabb); }) != 0) return;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// What spaces ask of a geom before they call dCollide.
+// The callbacks by which spaces cull pairs before they call dCollide.
 #pragma once
 
 #include <ode/ode.h>

@@ -15,7 +15,7 @@ dMessageFunction* other_handler = nullptr;
 
 extern "C" void on_debug(int number, const char* message, va_list arguments) {
   if (way_back != nullptr) std::longjmp(*way_back, 1);  // NOLINT(modernize-avoid-setjmp-longjmp)
-  // Some other thread's failure in the meantime: what would have happened without us. ODE aborts after it.
+  // Another thread's failure in the meantime has the consequences that it would have without us. ODE aborts after it.
   if (other_handler != nullptr) {
     other_handler(number, message, arguments);
     return;

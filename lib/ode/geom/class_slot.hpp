@@ -1,11 +1,11 @@
-// ODE's table of user classes: taking a slot of it, and finding out whether ours is still ours.
+// ODE's table of user classes: taking a slot of it, and finding out whether ours is still registered.
 #pragma once
 
 #include <ode/ode.h>
 
 namespace supernormal::ode {
 
-/// dCreateGeomClass, but -1 instead of abort() when the process has no slot left. ODE must be initialised.
+/// Calls dCreateGeomClass, but returns -1 instead of calling abort() when the process has no slot left. ODE must be initialised.
 int take_class_slot(const dGeomClass& geom_class);
 
 /// Leaves a mark in ODE that vanishes when ODE is closed for good, by its last dCloseODE, and with it all user classes.

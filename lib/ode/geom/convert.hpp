@@ -1,4 +1,4 @@
-// Between ODE's types and the core's: dReal may be float, the core is double throughout.
+// Conversions between ODE's types and the core's: dReal may be float, the core is double throughout.
 #pragma once
 
 #include <ode/ode.h>
@@ -18,7 +18,7 @@ inline void from_vector(const Vector3& v, dReal* out) {
   for (int i = 0; i < 3; ++i) out[i] = to_real(v[i]);
 }
 
-/// Row-major rows of four, as ODE keeps rotations; the numbers as they are.
+/// Reads a row-major matrix with rows of four, as ODE keeps rotations, without correcting it.
 inline Matrix3 to_rotation(const dReal* R) {
   Matrix3 rotation;
   for (int row = 0; row < 3; ++row) {
@@ -30,10 +30,11 @@ inline Matrix3 to_rotation(const dReal* R) {
 /// The rotation of a placeable geom, orthonormal to rounding (rotation.hpp).
 inline Matrix3 rotation_of(dGeomID geom) { return orthonormal(to_rotation(dGeomGetRotation(geom)), geom); }
 
-/// Where a placeable geom is now. Asked anew in every call: inside a dGeomTransform ODE swaps the pose for the time of the call.
+/// The current pose of a placeable geom. It is read anew in every call: inside a dGeomTransform ODE swaps the pose for the time
+/// of the call.
 inline Pose pose_of(dGeomID geom) {
   Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
-  if (!is_orthonormal(pose.rotation)) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare: nothing is copied else
+  if (!is_orthonormal(pose.rotation)) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare; otherwise nothing is copied
   return pose;
 }
 

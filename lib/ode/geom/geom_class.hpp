@@ -10,10 +10,10 @@ namespace supernormal::ode {
 /// Our class number; -1 while the class is not registered.
 int geom_class() noexcept;
 
-/// What geom_class() is from now on.
+/// Changes what geom_class() returns.
 void set_geom_class(int number) noexcept;
 
-/// "a dBox", "a geom of this library's class", …: for messages.
+/// A name for messages: "a dBox", "a geom of this library's class", ...
 std::string geom_class_name(dGeomID geom);
 
 }  // namespace supernormal::ode

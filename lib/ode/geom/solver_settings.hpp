@@ -1,11 +1,11 @@
-// Solver settings of geoms, of pairs and the default.
+// Solver settings of geoms and of pairs, and their defaults.
 #pragma once
 
 #include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal::ode {
 
-/// Of the geoms created from now on; any thread may ask and set them.
+/// The settings of geoms that are created from now on; any thread may read and set them.
 Settings default_settings();
 void set_default_settings(const Settings& settings);
 

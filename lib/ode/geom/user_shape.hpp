@@ -1,4 +1,4 @@
-// A body described by the callbacks of the C interface.
+// A body defined by the callbacks of the C interface.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,8 @@
 
 namespace supernormal::ode {
 
-/// Tries the callbacks out; std::invalid_argument when they do not describe a convex body. Copies *shape; does not call `release`.
+/// Tests the callbacks; throws std::invalid_argument when they do not define a convex body. Copies *shape; does not call
+/// `release`.
 std::shared_ptr<const Shape> make_user_shape(const snShape* shape);
 
 }  // namespace supernormal::ode

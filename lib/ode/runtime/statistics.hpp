@@ -1,4 +1,4 @@
-// What this thread's queries did.
+// Counts of what this thread's queries did.
 #pragma once
 
 #include "supernormal/proximity/proximity.hpp"
@@ -6,17 +6,19 @@
 
 namespace supernormal::ode {
 
-/// A pair of bodies was solved; `warm`: it started from a remembered normal.
+/// Counts a pair of bodies that was solved; `warm`: it started from a remembered normal.
 void count_query(const Proximity& result, bool warm) noexcept;
 
-/// A pair was settled without iteration.
+/// Counts a pair that was settled without iteration.
 void count_closed_form() noexcept;
 
 void count_contact() noexcept;
 
+/// The counts of this thread so far.
 snStatistics thread_statistics() noexcept;
 
-/// Replaces this thread's counts and returns what they were: what is counted for another thread is taken out here and added there.
+/// Replaces this thread's counts and returns the old ones: jobs that are done for another thread are taken out here and added
+/// there.
 snStatistics exchange_statistics(const snStatistics& statistics) noexcept;
 void add_statistics(const snStatistics& more) noexcept;
 

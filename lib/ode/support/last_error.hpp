@@ -1,4 +1,4 @@
-// Why a call was refused, and the fence that keeps exceptions out of C.
+// The reason why a call was refused, and the fence that keeps exceptions out of C.
 #pragma once
 
 #include <exception>
@@ -12,7 +12,7 @@ void set_last_error(const char* function, const char* message) noexcept;
 /// The text of this thread's last set_last_error(); "" if there was none.
 const char* last_error() noexcept;
 
-/// What every function that C or ODE calls does its work in: returns what `work` returns, or, when it throws, `refusal` with the
+/// Wraps the work of every function that C or ODE calls: returns what `work` returns, or, when it throws, `refusal` with the
 /// exception's text as the last error. ODE is compiled without exceptions; one that crossed it would leave its spaces locked.
 template <typename Result, typename Work>
 Result guarded(const char* function, Result refusal, Work&& work) noexcept {

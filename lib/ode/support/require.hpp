@@ -14,7 +14,7 @@ inline void require_not_null(const char* name, const void* pointer) {
   if (pointer == nullptr) throw std::invalid_argument(std::string(name) + " = NULL, but must point to something");
 }
 
-/// Infinity and NaN are outside.
+/// Refuses values that are not positive and finite, NaN included.
 inline double require_positive(const char* name, double value, const char* unit) {
   if (value > 0 && std::isfinite(value)) return value;
   throw std::invalid_argument(std::string(name) + " = " + to_text(value) + " " + unit + " is outside (0, inf) " + unit);
@@ -26,14 +26,14 @@ inline Vector3 require_finite(const char* name, const Vector3& value) {
                               to_text(value.z()) + ") is not finite");
 }
 
-/// Of a point, m: the refusal names the coordinate and the range that can be computed with.
+/// Refuses a point (m) outside of the range that can be computed with, and names the coordinate and the range.
 inline Vector3 require_place(const Vector3& point) {
   const char* const names[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) require_in(names[axis], point[axis], -kFarthest, kFarthest, "m");
   return point;
 }
 
-/// What is wrong where the core refuses a query, after whose pose it may be.
+/// The rest of a message after the word "pose", for queries that the core refuses.
 inline std::string no_answer_because() {
   return ", or what a user-defined body returned, is not finite, or a position is not within " + to_text(kFarthest) + " m";
 }

@@ -9,13 +9,14 @@
 namespace supernormal {
 namespace {
 
-// The error is the geometric series of the iteration's contraction; this is the slowest contraction that is believed.
+// The remaining error is summed as the geometric series of the iteration's contraction; no slower contraction than this is
+// believed.
 constexpr double kSlowestContraction = 0.95;
 
-// The contraction seen last is not yet the one to come.
+// Safety factor on the gain, because the next contraction may differ from the last.
 constexpr double kGainSafety = 2;
 
-// Two normals closer than this (radians) do not tell a curvature: the boundary points differ by rounding only.
+// Two normals closer than this (radians) do not determine a radius of curvature: the boundary points differ by rounding only.
 constexpr double kSmallestTurn = 1e-9;
 
 /// The outward normal line of one body at its boundary point, and the centre of curvature estimated on it.
@@ -26,7 +27,7 @@ class NormalLine {
     if (!has_previous_) {
       radius_ = support;
     } else {
-      // The point of this line nearest to the previous one; nearly parallel lines keep the radius.
+      // The new centre is the point of this line nearest to the previous one; nearly parallel lines keep the radius.
       const Vector3 across = normal.cross(normal_);
       const double squared = across.squaredNorm();
       if (squared > kSmallestTurn * kSmallestTurn) radius_ = -across.dot((point_ - point).cross(normal_)) / squared;

@@ -8,7 +8,7 @@
 namespace supernormal {
 namespace {
 
-// The predicted gain is half the slope times the step; twice that allows for the curvature's change over the step.
+// The predicted gain is half the slope times the step; twice that allows for the change of the Hessian over the step.
 constexpr double kGainSafety = 2;
 
 }  // namespace
@@ -21,7 +21,7 @@ Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3
     gap.evaluate(n, Order::Hessian, jet);
     if (settings.stop_when_apart && jet.s > 0) return answer(gap, settings, jet, 0, Status::Apart);
 
-    // The step that zeroes the two tangential components of d, whatever kind of stationary point it leads to.
+    // The step makes the two tangential components of d zero, whatever kind of stationary point it leads to.
     const LocalModel local = LocalModel::of(gap, jet);
     const Vector2 step = local.model.A.solve(local.model.g);
     if (!all_finite(step)) return answer(gap, settings, jet, 0, local.model.g.norm() == 0 ? Status::Converged : Status::Diverged);

@@ -7,24 +7,25 @@
 
 namespace accuracy_cost {
 
-/// Some lines of a table, measured together.
+/// A task: some lines of a table, measured together.
 struct Task {
   std::string name;                               ///< unique in its part
   std::function<std::vector<std::string>()> run;  ///< lines of CSV
 };
 
-/// A table of the atlas: <name>.csv.
+/// A part of the atlas: the table <name>.csv.
 struct Part {
   std::string name;
-  std::string header;  ///< of the CSV
+  std::string header;  ///< header line of the CSV file
   std::vector<Task> tasks;
 };
 
-/// A line of CSV.
+/// Joins cells to a line of CSV.
 std::string joined(const std::vector<std::string>& cells);
 
-/// Does the tasks that `folder` does not have the lines of, with a progress bar on stderr. A file begins with where and with what
-/// it was measured; each task's lines are on the disk before the next task starts. Throws when they cannot be written.
+/// Does those tasks whose lines `folder` does not have yet, with a progress bar on stderr. A file begins with the machine and the
+/// libraries that it was measured with; each task's lines are on the disk before the next task starts. Throws when they cannot be
+/// written.
 void run_parts(const std::vector<Part>& parts, const std::string& folder);
 
 }  // namespace accuracy_cost

@@ -1,4 +1,5 @@
-// What an answer costs: our solvers and libccd on the same pairs of bodies, with the same support function, in the same run.
+// Measures the cost of a query: our solvers and libccd on the same pairs of bodies, with the same support function, in the same
+// run.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -20,9 +21,9 @@ namespace {
 
 using namespace accuracy_cost;
 
-constexpr std::size_t kAtlasPairs = 240;     // of each class and situation: 6000 in all
+constexpr std::size_t kAtlasPairs = 240;     // for each class and situation: 6000 in all
 constexpr std::size_t kAtlasMeshPairs = 12;  // each is four meshes at every size
-constexpr std::size_t kAtlasPoses = 100;     // at each collider
+constexpr std::size_t kAtlasPoses = 100;     // for each collider
 
 struct Options {
   std::size_t pairs = 6000;

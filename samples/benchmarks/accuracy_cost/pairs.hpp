@@ -1,4 +1,4 @@
-// The pairs of bodies that every method is asked about.
+// The pairs of bodies that every method solves.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace accuracy_cost {
 
-/// What kind of bodies: exponents 2; 1.3…5; 6…20; 1.1…1.3; 2…5, uniform. Half-axes 0.5…1.5 m each; of a needle two are a tenth of
-/// that.
+/// Classes of bodies, by their exponents: 2; 1.3...5; 6...20; 1.1...1.3; 2...5, uniform. Half-axes are 0.5...1.5 m each; two of
+/// those of a needle are a tenth of that.
 enum class BodyClass { Ellipsoid, Moderate, Boxy, Octahedral, Needle };
 inline constexpr std::array kBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy};
 inline constexpr std::array kAllBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy, BodyClass::Octahedral,
                                                BodyClass::Needle};
 
-/// How they lie; shares are of the smallest half-axis of the two.
+/// Relative poses; shares are of the smallest half-axis of the two bodies.
 enum class Situation { Shallow, Deep, Near, Far, Touching };  // 1 % overlap, 30 % overlap, 1 % apart, 1…5 m apart, 0
 inline constexpr std::array kSituations = {Situation::Shallow, Situation::Deep, Situation::Near, Situation::Far};
 inline constexpr std::array kAllSituations = {Situation::Touching, Situation::Shallow, Situation::Deep, Situation::Near,
@@ -42,15 +42,15 @@ struct Pair {
   std::array<supernormal::Vector3, kNormalsPerPair> normals;  ///< body 1's frame; within 0.1 rad of the answer, to time evaluations
 };
 
-/// About `count` pairs, equally many of each class and situation, mixed. Same seed, same pairs, on every machine. The bodies touch
-/// along a random normal and are then moved along it, so that they lie the given distance apart unless that normal is not the best
-/// one.
+/// Draws about `count` pairs, equally many of each class and situation, mixed. Same seed, same pairs, on every machine. The
+/// bodies touch along a random normal and are then moved along it, so that they lie the given distance apart unless that normal
+/// is not the best one.
 std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed);
 
-/// `count` pairs of one class and situation.
+/// Draws `count` pairs of one class and situation.
 std::vector<Pair> draw_pairs_of(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed);
 
-/// Climbs from a world-frame normal at tolerance 1e-14 and raises pair.gap, with its normal, if that leads higher.
+/// Climbs from a world-frame normal at tolerance 1e-14 and raises pair.gap, with its normal, if the ascent leads higher.
 void improve_reference(Pair& pair, const supernormal::Vector3& world_normal);
 
 }  // namespace accuracy_cost

@@ -15,8 +15,8 @@ namespace {
 
 using supernormal::Solver;
 
-// Exponents of ten: of our tolerance, which is relative, and of libccd's, which is in metres for bodies of about a metre. With
-// less than that EPA goes round in circles, and it has no limit of iterations.
+// Exponents of ten of the tightest tolerances: ours is relative, libccd's is in metres for bodies of about a metre. With a
+// tighter one EPA goes round in circles, and it has no limit of iterations.
 constexpr int kOurTightest = 14;
 constexpr int kEpaTightest = 7;
 constexpr int kMprTightest = 10;
@@ -45,7 +45,7 @@ Methods all_methods(BodyClass body_class) {
   add_sweep(methods, kEpaTightest, [](double tolerance) { return ccd_epa("libccd GJK+EPA", tolerance); });
   add_sweep(methods, kMprTightest, [](double tolerance) { return ccd_mpr("libccd MPR", tolerance); });
   add(methods, bullet_methods());
-  if (body_class == BodyClass::Ellipsoid) {  // the only bodies of ours that they know
+  if (body_class == BodyClass::Ellipsoid) {  // the only bodies of ours that the libraries have
     add(methods, fcl_methods());
     add(methods, simbody_methods());
   }
@@ -56,7 +56,7 @@ Methods all_methods(BodyClass body_class) {
 }
 
 std::string line(const Method& method, BodyClass body_class, Situation situation, Statistics s) {
-  if (is_unit_of_cost(method)) {  // not a question: the time of one
+  if (is_unit_of_cost(method)) {  // the method measures a time and solves no query
     s.time /= static_cast<double>(kNormalsPerPair);
     s.slow_time /= static_cast<double>(kNormalsPerPair);
     s.evaluations = 1;

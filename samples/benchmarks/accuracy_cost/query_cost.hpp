@@ -1,4 +1,4 @@
-// What each digit costs: every method swept over its own accuracy.
+// The cost of each digit: every method swept over its own accuracy.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace accuracy_cost {
 
-/// All solvers at all their tolerances, a task for each class of bodies and situation, each with `pairs` pairs.
+/// Measures all solvers at all their tolerances, in a task for each class of bodies and situation, each with `pairs` pairs.
 Part query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
-/// ODE's dConvex and dTriMesh over their number of vertices beside our solver, likewise.
+/// Measures ODE's dConvex and dTriMesh over their number of vertices beside our solver, likewise.
 Part mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
 }  // namespace accuracy_cost

@@ -8,10 +8,10 @@ namespace accuracy_cost {
 
 double uniform(falling_particles::Random& random, double low, double high);
 
-/// Unit vectors, uniform over the sphere.
+/// A unit vector, uniform over the sphere.
 supernormal::Vector3 random_normal(falling_particles::Random& random);
 
-/// Rotations, uniform.
+/// A rotation, uniform.
 supernormal::Matrix3 random_attitude(falling_particles::Random& random);
 
 }  // namespace accuracy_cost

@@ -1,3 +1,4 @@
+// A bed of grains that is stepped with a choice of effects, and the time that this takes.
 #pragma once
 
 #include <supernormal/effects.hpp>
@@ -8,19 +9,19 @@
 
 namespace effects_cost {
 
-/// What a step of a scene cost, on average; seconds of the processor.
+/// The mean cost of a step of a scene, in seconds of the processor.
 struct Outcome {
-  double seconds = 0;  ///< whole
-  double set_up = 0;   ///< s, contacts and forces made ready: the effects' passes and the joints
+  double seconds = 0;  ///< s, whole step
+  double set_up = 0;   ///< s, preparing contacts and forces: the effects' passes and the joints
   double solver = 0;   ///< s, dWorldQuickStep
   double contacts = 0;
   double rows = 0;
 };
 
-/// Lets the scene run to its end; where its grains lie then.
+/// Runs the scene to its end and returns where its grains lie then.
 std::vector<falling_particles::Placement> settle(const falling_particles::Scene& scene);
 
-/// Steps from there, at rest, with other effects. Few steps: the bed is to stay what it is.
+/// Steps from there, from rest, with other effects. The steps must be few, so that the bed stays as it is.
 Outcome run(falling_particles::Scene scene, const std::vector<falling_particles::Placement>& start,
             const std::vector<supernormal::effects::Effect>& effects, int steps);
 

@@ -1,4 +1,4 @@
-// The three solvers on the pairs with known answers, as a Markdown table: how often each fails, and what it costs when it does not.
+// The three solvers on the pairs with known answers, as a Markdown table: how often each fails, and its cost when it does not.
 //
 //     solver_table [superellipsoid_pairs.csv]
 #include <Eigen/Geometry>
@@ -25,10 +25,11 @@ using namespace supernormal;
 constexpr double kWrong = 1e-6;
 constexpr int kMaxEvaluations = 200;
 
-// Deeper than this share of the smallest half-axis is overlapped, the rest touching: the file's groups are 1e-3 and 2e-2.
+// A pair with a gap below minus this share of the smallest half-axis counts as overlapping, the rest as touching: the file's
+// groups are 1e-3 and 2e-2.
 constexpr double kTouching = 5e-3;
 
-// class; half-axes and exponents of both; position and attitude of body 2; gap; normal, points, two marks
+// The columns are: class; half-axes and exponents of both; position and attitude of body 2; gap; normal, points, two marks.
 constexpr std::size_t kNumbers = 29;
 constexpr std::size_t kGap = 17;
 
@@ -81,7 +82,7 @@ struct Tally {
 
 struct Row {
   Tally apart, overlapping;
-  std::vector<int> evaluations;  // of the successes
+  std::vector<int> evaluations;  // one number for each success
 
   /// The number of evaluations that `share` of the successes do not exceed.
   std::string percentile(double share) {

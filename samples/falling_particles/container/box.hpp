@@ -1,3 +1,4 @@
+// A box that grains fall into.
 #pragma once
 
 #include <array>

@@ -22,8 +22,8 @@ double lowest_start(const Container& container) {
 
 bool has_room(const Container& container, const Point& lower, const Point& size) {
   const Hopper* hopper = std::get_if<Hopper>(&container);
-  if (hopper == nullptr) return true;  // what stands in the way of a cell above it are walls, which the plan leaves out
-  // A hopper does not narrow upwards: the cell's lower end decides, and of it the corner farthest from the axis.
+  if (hopper == nullptr) return true;  // only walls can be in the way of a cell above it, and the plan leaves them out
+  // A hopper does not narrow upwards: the cell's lower end decides, at its corner farthest from the axis.
   const double x = std::max(std::abs(lower[0]), std::abs(lower[0] + size[0]));
   const double y = std::max(std::abs(lower[1]), std::abs(lower[1] + size[1]));
   return std::hypot(x, y) <= hopper->radius_at(lower[2]);

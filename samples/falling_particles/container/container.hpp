@@ -1,3 +1,4 @@
+// The container of a scene: a box, a hopper, a terrain or a periodic cell.
 #pragma once
 
 #include <variant>
@@ -12,19 +13,19 @@ namespace falling_particles {
 
 using Container = std::variant<Box, Hopper, Terrain, Periodic>;
 
-/// "box", "hopper", "terrain" or "periodic": as the scene file calls it.
+/// The name in the scene file: "box", "hopper", "terrain" or "periodic".
 const char* kind_of(const Container& container);
 
 /// The rectangle above which grains may start.
 Rectangle plan_of(const Container& container);
 
-/// The lowest z at which grains may start, m: nowhere in the container is the floor above it, the cone of a hopper excepted.
+/// The lowest z at which grains may start, m: nowhere in the container is the floor above it, except for the cone of a hopper.
 double lowest_start(const Container& container);
 
-/// Whether nothing but air is in the cell, and above it: the cell lies within the plan and above lowest_start().
+/// Whether there is only air in the cell and above it: the cell lies within the plan and above lowest_start().
 bool has_room(const Container& container, const Point& lower, const Point& size);
 
-/// Whether a point is where the centre of a grain may be. Not a number is nowhere.
+/// Whether a point may be the centre of a grain. False for a NaN.
 bool contains(const Container& container, const Point& point);
 
 }  // namespace falling_particles

@@ -1,3 +1,4 @@
+// Points, rectangles and meshes of containers.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@ namespace falling_particles {
 
 using Point = std::array<double, 3>;  ///< m
 
-/// Upright, seen from above.
+/// An upright rectangle, seen from above.
 struct Rectangle {
   std::array<double, 2> corner;  ///< m, the one with the lowest x and y
   std::array<double, 2> width;   ///< m, along x and y
@@ -18,7 +19,7 @@ struct Rectangle {
   }
 };
 
-/// Single-sided: the side on which bodies are is the one from which a triangle's corners run anticlockwise.
+/// A triangle mesh, single-sided: bodies are on the side from which a triangle's corners run anticlockwise.
 struct Mesh {
   std::vector<std::array<float, 3>> vertices;          ///< m; ODE keeps meshes in single precision
   std::vector<std::array<unsigned int, 3>> triangles;  ///< corners, as indices of vertices

@@ -9,7 +9,7 @@ namespace {
 
 double angle_of(int side, int segments) { return 2 * std::numbers::pi * side / segments; }
 
-/// A horizontal ring of corners, midway between the directions of the sides.
+/// Appends a horizontal ring of corners, midway between the directions of the sides.
 void append_ring(Mesh& mesh, int segments, double radius, double z) {
   const double to_corner = radius / std::cos(std::numbers::pi / segments);
   for (int side = 0; side < segments; ++side) {
@@ -19,7 +19,7 @@ void append_ring(Mesh& mesh, int segments, double radius, double z) {
   }
 }
 
-/// The band between two successive rings, seen from inside.
+/// Appends the band between two successive rings, seen from inside.
 void append_band(Mesh& mesh, unsigned int segments, unsigned int lower_ring) {
   const unsigned int lower = lower_ring * segments;
   const unsigned int upper = lower + segments;
@@ -31,7 +31,7 @@ void append_band(Mesh& mesh, unsigned int segments, unsigned int lower_ring) {
 }
 
 struct Moments {
-  double volume = 0, first = 0;  // up to the polygon's constant factor
+  double volume = 0, first = 0;  // without the polygon's constant factor
 };
 
 /// Adds the part from height a to b, over which the radius is linear: Simpson's rule is then exact.
@@ -56,7 +56,7 @@ double Hopper::radius_at(double z) const {
 }
 
 bool Hopper::is_within(double x, double y, double radius) const {
-  const double side = std::round(std::atan2(y, x) / angle_of(1, segments));  // the nearest one
+  const double side = std::round(std::atan2(y, x) / angle_of(1, segments));  // the nearest side
   const double angle = side * angle_of(1, segments);
   return x * std::cos(angle) + y * std::sin(angle) < radius;
 }

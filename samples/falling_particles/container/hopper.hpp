@@ -1,3 +1,4 @@
+// A hopper with an outlet over a tray, and an optional dish on which the grains form a heap.
 #pragma once
 
 #include <optional>
@@ -6,8 +7,8 @@
 
 namespace falling_particles {
 
-/// A round, flat dish with a low rim, solid down to the floor: what is poured on it forms a heap, and what finds no room there
-/// falls off.
+/// A round, flat dish with a low rim, solid down to the floor: grains that are poured on it form a heap, and those that find no
+/// room there fall off.
 struct Dish {
   double diameter;  ///< m, within the rim
   double height;    ///< m, of its bottom above the floor of the tray
@@ -33,21 +34,21 @@ struct Hopper {
 
   double cone_height() const;                               ///< m
   double top() const;                                       ///< m, z of the upper rim
-  double radius_at(double z) const;                         ///< m, from the outlet upwards; the cylinder's beyond the rim
-  bool is_within(double x, double y, double radius) const;  ///< of the regular polygon with that inscribed circle
+  double radius_at(double z) const;                         ///< m, from the outlet upwards; above the rim it is the cylinder's
+  bool is_within(double x, double y, double radius) const;  ///< whether it is in the regular polygon with that inscribed circle
   bool is_in_tray(const Point& p) const;                    ///< below the outlet
   double mean_height(double level) const;                   ///< m, of the volume between outlet and z = level, above the outlet
 
   Rectangle plan() const { return {{-diameter / 2, -diameter / 2}, {diameter, diameter}}; }
   double lowest() const { return clearance; }
-  /// In the hopper, above it within the cylinder's continuation, or in the tray.
+  /// Whether the point is in the hopper, above it within the cylinder's continuation, or in the tray.
   bool contains(const Point& p) const;
 };
 
-/// The cone and the cylinder, closed but for outlet and top; bodies are inside.
+/// The mesh of the cone and the cylinder, closed but for outlet and top; bodies are inside.
 Mesh make_mesh(const Hopper& hopper);
 
-/// Its surface, with as many sides; bodies are above and around.
+/// The mesh of the dish's surface, with as many sides; bodies are above and around.
 Mesh make_mesh(const Dish& dish, int segments);
 
 }  // namespace falling_particles

@@ -14,8 +14,8 @@ constexpr std::array kRelativeAmplitudes = {1.0, 1.0 / 4, 1.0 / 16};
 constexpr std::array kRelativeLengths = {1.0, 1.0 / 2, 1.0 / 4, 1.0};  // of the three waves and of the ridges
 
 struct Cell {
-  std::size_t index;  // of the lower sample
-  double share;       // of the way to the next one
+  std::size_t index;  // index of the lower sample
+  double share;       // share of the distance to the next sample
 };
 
 Cell find_cell(double x, double spacing, std::size_t per_side) {

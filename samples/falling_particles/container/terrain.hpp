@@ -1,3 +1,4 @@
+// A hilly ground between walls.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ struct TerrainParameters {
   double wavelength;            ///< m, of the longest wave, and the distance between the ridges
   double ridge_height;          ///< m
   int samples;                  ///< from wall to wall, along x and along y
-  std::uint64_t seed;           ///< of the directions and the phases
+  std::uint64_t seed;           ///< for the directions and the phases
 };
 
 /// The landscape that the samples are taken of:
@@ -39,8 +40,8 @@ class Landscape {
   std::array<Wave, 4> waves_;
 };
 
-/// The ground: triangles over a landscape's samples on a grid, as ODE lays them (a cell is parted by the diagonal from its lowest x
-/// and y to its highest), between walls at x = 0, x = width[0], y = 0 and y = width[1] without upper end. The grid has one more
+/// The ground: triangles over a landscape's samples on a grid, as ODE lays them (a cell is parted by the diagonal from its lowest
+/// x and y to its highest), between walls at x = 0, x = width[0], y = 0 and y = width[1] without upper end. The grid has one more
 /// sample beyond each wall, so that no grain meets the end of the ground.
 class Terrain {
  public:
@@ -53,7 +54,7 @@ class Terrain {
   double height(double x, double y) const;  ///< m, of the triangles; between the walls
 
   Rectangle plan() const { return {{0, 0}, parameters_.width}; }
-  double lowest() const { return highest_; }  ///< of where grains may start, m: above the peaks
+  double lowest() const { return highest_; }  ///< m, lowest height at which grains may start: above the peaks
   bool contains(const Point& p) const;
 
  private:

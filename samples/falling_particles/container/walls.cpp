@@ -11,8 +11,8 @@ namespace {
 
 static_assert(sizeof(unsigned int) == sizeof(dTriIndex));
 
-/// ODE lays a heightfield's samples out along its x and z, y up: turned by 90 degrees about x, y is up in the world too, but z runs
-/// against the world's y.
+/// Reorders the samples for ODE, which lays them out along its x and z, y up: turned by 90 degrees about x, y is up in the world
+/// too, but z runs against the world's y.
 std::vector<double> rows_along_z(const Terrain& terrain) {
   const std::size_t n = terrain.samples_per_side();
   std::vector<double> heights;
@@ -46,7 +46,7 @@ void Walls::open_outlet() {
 }
 
 void Walls::add_sides(const Rectangle& plan) {
-  // A plane's solid side is where its normal points away from: a x + b y + c z < d.
+  // A plane's solid side is the one opposite to its normal: a x + b y + c z < d.
   add_plane(1, 0, 0, plan.corner[0]);
   add_plane(-1, 0, 0, -(plan.corner[0] + plan.width[0]));
   add_plane(0, 1, 0, plan.corner[1]);
@@ -82,7 +82,7 @@ void Walls::add(const Terrain& terrain) {
   const auto [dx, dy] = terrain.spacing();
   constexpr int kCopy = 1;
   constexpr int kNoWrap = 0;
-  constexpr double kThickness = 0;  // beyond the lowest sample
+  constexpr double kThickness = 0;  // m, below the lowest sample
   ground_data_ = dGeomHeightfieldDataCreate();
   dGeomHeightfieldDataBuildDouble(ground_data_, rows_along_z(terrain).data(), kCopy, (samples - 1) * dx, (samples - 1) * dy,
                                   samples, samples, 1, 0, kThickness, kNoWrap);

@@ -1,3 +1,4 @@
+// The walls of a container as geoms of ODE.
 #pragma once
 
 #include <ode/ode.h>
@@ -9,10 +10,11 @@
 
 namespace falling_particles {
 
-/// ODE's geoms of a container.
+/// The geoms of a container.
 class Walls {
  public:
-  /// They collide with what has a bit of `collide_bits`, and have `category_bits`. The space must outlive this object.
+  /// The geoms collide with those that have a bit of `collide_bits`, and have `category_bits`. The space must outlive this
+  /// object.
   Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits);
   ~Walls();
   Walls(const Walls&) = delete;
@@ -20,7 +22,7 @@ class Walls {
 
   const std::vector<dGeomID>& geoms() const { return geoms_; }
 
-  /// Takes the lid off a hopper's outlet; once.
+  /// Takes the lid off a hopper's outlet; call it once.
   void open_outlet();
 
  private:
@@ -30,14 +32,14 @@ class Walls {
   void add(const Box& box);
   void add(const Hopper& hopper);
   void add(const Terrain& terrain);
-  static void add(const Periodic&) {}  // has none
+  static void add(const Periodic&) {}  // it has no walls
 
   dSpaceID space_;
   std::vector<dGeomID> geoms_;
-  dGeomID lid_ = nullptr;                     // of geoms_
+  dGeomID lid_ = nullptr;                     // one of geoms_
   std::deque<Mesh> meshes_;                   // ODE refers to them
-  std::vector<dTriMeshDataID> mesh_data_;     // of a hopper and its dish
-  dHeightfieldDataID ground_data_ = nullptr;  // of a terrain
+  std::vector<dTriMeshDataID> mesh_data_;     // meshes of a hopper and its dish
+  dHeightfieldDataID ground_data_ = nullptr;  // samples of a terrain
 };
 
 }  // namespace falling_particles

@@ -17,7 +17,7 @@ constexpr std::size_t kPointsPerAxis = 48;  // 110 592 points in a box: standard
 
 using Aabb = std::array<dReal, 6>;  // x, x, y, y, z, z
 
-/// The grains that may hold a point, by columns of the container: a bed is much wider than a grain, and not high.
+/// Finds the grains that may hold a point, by columns of the container: a bed is much wider than a grain, and not high.
 class Columns {
  public:
   Columns(const World& world, const Rectangle& plan) : plan_(plan), cells_(kPerAxis * kPerAxis) {
@@ -76,7 +76,7 @@ double bed_height(const World& world, const Box&) { return 2 * mean_z(world); }
 
 double bed_height(const World& world, const Hopper& hopper) {
   const double mean = mean_z(world) - hopper.clearance;
-  // Between a cone's from its tip, 4/3 of the mean height, and a cylinder's.
+  // The height lies between that of a cone on its tip, 4/3 of the mean height, and that of a cylinder.
   double low = 4.0 / 3 * mean;
   double high = 2 * mean;
   constexpr int kHalvings = 60;

@@ -1,3 +1,4 @@
+// Beverloo's law for the flow of grains through an outlet.
 #pragma once
 
 namespace falling_particles {

@@ -19,7 +19,7 @@ void Discharge::after_step(double time) {
   for (std::size_t i = 0; i < has_passed_.size(); ++i) {
     const Body& body = world_.bodies()[i];
     const Point p = body.position();
-    // One that comes down beside the outlet has not come through it: that is a leak (leaks.hpp).
+    // A grain that comes down beside the outlet has not come through it: that is a leak (leaks.hpp).
     if (has_passed_[i] || !(p[2] < hopper_.clearance) || !hopper_.is_within(p[0], p[1], hopper_.outlet / 2)) continue;
     has_passed_[i] = true;
     passages_.push_back({time, mass() + body.mass.mass});
@@ -47,7 +47,7 @@ std::optional<double> Discharge::mass_flow() const {
   if (!charge_) return std::nullopt;
   const Passage* from = find_passage(kSteadyFrom);
   const Passage* to = find_passage(kSteadyTo);
-  // All in one step (a handful of grains): no flow to speak of.
+  // All grains have passed in one step (there are a handful), so there is no flow.
   if (to == nullptr || !(to->time > from->time)) return std::nullopt;
   return (to->total_mass - from->total_mass) / (to->time - from->time);
 }

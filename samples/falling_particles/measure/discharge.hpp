@@ -1,3 +1,4 @@
+// The discharge of a hopper.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,8 @@
 
 namespace falling_particles {
 
-/// The part of the discharge that counts as steady, in shares of the charge: after the start, and while the outlet is well covered.
+/// The part of the discharge that counts as steady, in shares of the charge: after the start, and while the outlet is well
+/// covered.
 constexpr double kSteadyFrom = 0.2;
 constexpr double kSteadyTo = 0.6;
 
@@ -19,7 +21,7 @@ constexpr double kSteadyTo = 0.6;
 struct Charge {
   double time;            ///< s
   double mass;            ///< kg, of all grains
-  double grain_diameter;  ///< m, of the sphere of the grains' mean volume
+  double grain_diameter;  ///< m, diameter of the sphere of the grains' mean volume
   Bed bed;
 };
 
@@ -30,18 +32,18 @@ class Discharge {
 
   void after_step(double time);
 
-  const std::optional<Charge>& charge() const { return charge_; }  ///< empty: still closed
+  const std::optional<Charge>& charge() const { return charge_; }  ///< empty while the outlet is closed
   std::size_t count() const { return passages_.size(); }
   double mass() const { return passages_.empty() ? 0 : passages_.back().total_mass; }    ///< kg
   double last_passage() const { return passages_.empty() ? 0 : passages_.back().time; }  ///< s
 
-  /// kg/s, mean of the steady part; empty when less than that was discharged.
+  /// kg/s, the mean over the steady part; empty if less than that was discharged.
   std::optional<double> mass_flow() const;
 
  private:
   struct Passage {
     double time;
-    double total_mass;  // with this one
+    double total_mass;  // up to and including this grain
   };
   void open(double time);
   const Passage* find_passage(double share) const;

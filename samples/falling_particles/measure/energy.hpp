@@ -1,3 +1,4 @@
+// Energies of grains.
 #pragma once
 
 #include "scene/scene.hpp"

@@ -1,3 +1,4 @@
+// The angle of repose of a heap.
 #pragma once
 
 #include <array>
@@ -8,7 +9,7 @@
 
 namespace falling_particles {
 
-/// The part of a heap's flank that counts, in shares of its base's radius: without the rounded top and the foot.
+/// The part of a heap's flank that is measured, in shares of its base's radius: without the rounded top and the foot.
 constexpr double kFlankFrom = 0.25;
 constexpr double kFlankTo = 0.85;
 
@@ -16,11 +17,11 @@ struct Heap {
   double angle;           ///< degrees, of repose: between flank and horizontal, mean of the sectors
   double standard_error;  ///< degrees, from the scatter of the sectors
   double height;          ///< m, at the axis, of the straight flank above the base
-  std::size_t grains;     ///< whose centre is above the base
+  std::size_t grains;     ///< number of grains whose centre is above the base
 };
 
-/// The heap on a horizontal, round base: vertical rays find the surface, the mean height on each of a sector's arcs is fitted by a
-/// straight line in the distance from the axis. `centre` and `radius` of the base in m.
+/// Measures the heap on a horizontal, round base: vertical rays find the surface, and the mean height on each of a sector's arcs
+/// is fitted by a straight line in the distance from the axis. `centre` and `radius` of the base are in m.
 Heap measure_heap(const World& world, const Point& centre, double radius);
 
 }  // namespace falling_particles

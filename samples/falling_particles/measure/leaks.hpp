@@ -1,3 +1,4 @@
+// Grains that have left the container.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,7 @@ class LeakWatch {
 
   void after_step(double time);
 
-  std::size_t count() const { return count_; }  ///< of the grains that have been outside at any time
+  std::size_t count() const { return count_; }  ///< number of grains that have been outside at any time
   const std::optional<Leak>& first() const { return first_; }
 
  private:

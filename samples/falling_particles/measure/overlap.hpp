@@ -1,3 +1,4 @@
+// The overlaps of grains with one another and with walls.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +9,15 @@
 namespace falling_particles {
 
 struct Overlap {
-  double depth = 0;             ///< m, the deepest of all pairs, walls included; 0 when nothing overlaps
+  double depth = 0;             ///< m, of the deepest of all pairs, walls included; 0 when nothing overlaps
   double relative_to_pair = 0;  ///< the largest of depth / smallest half-axis of the pair's grains
-  std::size_t pairs = 0;        ///< that overlap
+  std::size_t pairs = 0;        ///< number of pairs that overlap
 };
 
-/// Over every pair whose bounding boxes meet (others cannot overlap), by snGeomProximity.
+/// Measures every pair whose bounding boxes meet (others cannot overlap), by snGeomProximity.
 Overlap measure_overlap(const World& world);
 
-/// Grains whose centre is beyond a wall or the floor, or nowhere (not a number).
+/// The number of grains whose centre is beyond a wall or the floor, or not a number.
 std::size_t count_outside(const World& world, const Container& container);
 
 }  // namespace falling_particles

@@ -1,3 +1,4 @@
+// The CSV files of a run.
 #pragma once
 
 #include <array>
@@ -16,8 +17,8 @@ inline constexpr std::string_view kSummaryFile = "summary.toml";
 inline constexpr std::string_view kDischargeFile = "discharge.csv";
 inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile, kSummaryFile, kDischargeFile};
 
-/// trajectory.csv: a line per frame and body. Numbers are the shortest text that reads back exactly. This and the other files are
-/// handed over to the system frame by frame: a run that is killed leaves whole frames.
+/// trajectory.csv has a line per frame and body. Numbers are the shortest text that reads back exactly. All files are handed over
+/// to the system frame by frame: a run that is killed leaves whole frames.
 class Trajectory {
  public:
   explicit Trajectory(const std::filesystem::path& path);
@@ -29,7 +30,7 @@ class Trajectory {
   std::ofstream stream_;
 };
 
-/// energies.csv: a line per frame.
+/// energies.csv has a line per frame.
 class Energies {
  public:
   explicit Energies(const std::filesystem::path& path);
@@ -41,11 +42,11 @@ class Energies {
   std::ofstream stream_;
 };
 
-/// discharge.csv, of a hopper: a line per frame.
+/// discharge.csv, of a hopper, has a line per frame.
 class DischargeFile {
  public:
   explicit DischargeFile(const std::filesystem::path& path);
-  void write(double time, double mass, std::size_t count);  ///< s; kg and grains that have passed the outlet up to then
+  void write(double time, double mass, std::size_t count);  ///< s; kg and number of the grains that have passed the outlet so far
   void close();                                             ///< throws when anything could not be written
 
  private:

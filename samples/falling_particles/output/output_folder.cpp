@@ -31,7 +31,7 @@ bool is_output_file(const fs::directory_entry& entry) {
   return std::ranges::find(kOutputFiles, entry.path().filename().string()) != kOutputFiles.end();
 }
 
-/// Nothing of the user's is ever deleted: a folder is replaced only when everything in it was written by a run.
+/// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run.
 void refuse_foreign(const fs::path& target) {
   if (!fs::exists(fs::symlink_status(target))) return;
   if (!fs::is_directory(fs::symlink_status(target))) {
@@ -54,15 +54,15 @@ int open_mark(const fs::path& folder, int flags) {
 
 bool lock(int mark) { return flock(mark, LOCK_EX | LOCK_NB) == 0; }
 
-/// Whether another run took the mark for a leftover's before we had locked it: that run holds the lock, or has removed the file.
+/// Whether another run took the mark for a leftover's before it was locked: that run holds the lock, or has removed the file.
 bool is_taken_away(int mark) {
-  // Where the file system has no locks nobody removes anything, and what is left behind stays.
+  // If the file system has no locks, nobody removes anything, and leftovers stay.
   if (!lock(mark)) return errno == EWOULDBLOCK;
   struct stat status {};
   return fstat(mark, &status) == 0 && status.st_nlink == 0;
 }
 
-/// Whether it holds our mark and, besides, nothing but what a run writes.
+/// Whether the folder holds our mark and, besides, only files that a run writes.
 bool is_unfinished_run(const fs::path& folder) {
   if (!fs::is_directory(fs::symlink_status(folder)) || !fs::is_regular_file(fs::symlink_status(folder / kMarkFile))) return false;
   return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
@@ -70,7 +70,7 @@ bool is_unfinished_run(const fs::path& folder) {
   });
 }
 
-/// What runs that were killed have left beside `target`.
+/// Removes the folders that killed runs have left beside `target`.
 void remove_leftovers(const fs::path& target) {
   if (!fs::is_directory(target.parent_path())) return;
   std::vector<fs::path> folders;
@@ -82,7 +82,7 @@ void remove_leftovers(const fs::path& target) {
     const int mark = open_mark(folder, 0);
     if (mark < 0) continue;
     std::error_code ignored;
-    if (lock(mark)) fs::remove_all(folder, ignored);  // else its run is alive
+    if (lock(mark)) fs::remove_all(folder, ignored);  // otherwise its run is alive
     close(mark);
   }
 }
@@ -129,7 +129,7 @@ void OutputFolder::discard() {
   std::error_code error;
   if (!staging_.empty()) {
     fs::remove_all(staging_, error);
-    // Folders above that this object has created go too, if nobody else has put anything into them.
+    // Folders above that this object has created are removed too, unless somebody else has put anything into them.
     fs::path folder = target_.parent_path();
     for (std::size_t i = 0; i < created_parents_ && fs::remove(folder, error); ++i) folder = folder.parent_path();
   }

@@ -1,3 +1,4 @@
+// The folder of a run's results.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +8,9 @@
 namespace falling_particles {
 
 /// The folder of a run's results, all or nothing: files are written into a folder beside it, NAME.unfinished-1 (or -2, if another
-/// run of the scene is on its way, and so on), that takes the final name in commit(); without commit() it vanishes, and results of
-/// an earlier run stay as they were. A run that is killed leaves its unfinished folder behind, for whoever wants to look at it; the
-/// next one with the same name removes it.
+/// run of the scene is on its way, and so on), that takes the final name in commit(); without commit() it vanishes, and results
+/// of an earlier run stay as they were. A run that is killed leaves its unfinished folder behind for inspection; the next one
+/// with the same name removes it.
 class OutputFolder {
  public:
   /// Throws InputError when `parent`/`name` exists and holds anything but an earlier run's files, or cannot be created.

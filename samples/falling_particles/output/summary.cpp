@@ -11,7 +11,7 @@
 namespace falling_particles {
 namespace {
 
-/// key = value with the values of all lines in one column and the comments in another.
+/// Lines of the form key = value, with the values of all lines in one column and the comments in another.
 class Lines {
  public:
   void section(const char* name) { text_ += (text_.empty() ? "[" : "\n[") + std::string(name) + "]\n"; }
@@ -24,7 +24,7 @@ class Lines {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", value);
     std::string number = buffer;
-    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float, whatever the value
+    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float needs one, whatever the value
     add(key, number, comment);
   }
   const std::string& text() const { return text_; }
@@ -100,7 +100,7 @@ void add_end_state(Lines& lines, const Summary& s) {
   if (s.bed) add_bed(lines, *s.bed, "m, twice the mean height of the grains' volume");
 }
 
-/// Against Beverloo's law. Keys whose value does not exist (nothing discharged, say) are left out.
+/// Adds the mass flow beside that of Beverloo's law. Keys without a value (nothing discharged, say) are left out.
 void add_mass_flow(Lines& lines, const Scene& scene, const Hopper& hopper, const Discharge& discharge) {
   const Charge& charge = *discharge.charge();
   const std::optional<double> flow = discharge.mass_flow();
@@ -165,8 +165,8 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 
-/// What each effect that the scene names cost; rigid contact itself comes first. Seconds are those of its own passes and, by rows,
-/// its share of the solver's.
+/// Adds the cost of each effect that the scene names; rigid contact itself comes first. Seconds are those of its own passes and,
+/// by rows, its share of the solver's.
 void add_effect_costs(Lines& lines, const Summary& s) {
   unsigned long long rows = 0;
   for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;

@@ -1,3 +1,4 @@
+// The summary of a run.
 #pragma once
 
 #include <supernormal/supernormal.h>
@@ -20,32 +21,32 @@ namespace falling_particles {
 /// The bed counts as settled when its kinetic energy would lift it by less than this share of the smallest half-axis.
 constexpr double kSettledHeight = 1e-3;
 
-/// What a run has done and how it ended.
+/// The work and the results of a run.
 struct Summary {
   const Scene& scene;
   bool interrupted;
   int steps;
   double simulated_seconds;
-  double real_seconds;  ///< of the steps and their output; not of the measurements at the end
+  double real_seconds;  ///< for the steps and their output; not for the measurements at the end
   const StepCosts& costs;
-  snStatistics statistics;  ///< of the steps
+  snStatistics statistics;  ///< counts of the steps
   Axis sweep_axis;
   std::size_t contacts_at_end;
-  double deepest_contact;         ///< m, of all steps
+  double deepest_contact;         ///< m, over all steps
   double kinetic_height;          ///< m
-  double largest_kinetic_energy;  ///< J, of a grain
+  double largest_kinetic_energy;  ///< J, of a single grain
   const EnergyWatch& energy;
   Overlap overlap;
-  std::size_t outside;             ///< at the end
-  std::size_t leaked;              ///< at any time
-  std::optional<Bed> bed;          ///< of a box
-  const Discharge* discharge;      ///< of a hopper, or null
-  std::optional<Packing> packing;  ///< of a compression
-  std::optional<Heap> heap;        ///< of a hopper's dish
+  std::size_t outside;             ///< grains outside at the end
+  std::size_t leaked;              ///< grains that have been outside at any time
+  std::optional<Bed> bed;          ///< for a box
+  const Discharge* discharge;      ///< for a hopper, otherwise null
+  std::optional<Packing> packing;  ///< for a compression
+  std::optional<Heap> heap;        ///< for a hopper's dish
   std::vector<supernormal::effects::Cost> effects;
 };
 
-/// As TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.
+/// Writes TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.
 std::string to_toml(const Summary& summary);
 
 }  // namespace falling_particles

@@ -9,7 +9,7 @@ namespace falling_particles {
 std::string toml_string(const std::string& text) {
   const toml::value<std::string> value(text);
   std::ostringstream stream;
-  // Neither literal nor multi-line strings.
+  // The flags exclude literal and multi-line strings.
   stream << toml::toml_formatter(value, toml::format_flags::allow_unicode_strings);
   return stream.str();
 }

@@ -5,7 +5,7 @@
 namespace falling_particles {
 namespace {
 
-// Millimetres typed in as metres are the usual slip; nothing that one pours is larger than this.
+// Larger lengths are millimetres typed in as metres, the usual slip: nothing that one pours is larger than this.
 constexpr double kLargestHalfAxis = 1;  // m
 // Osmium is the densest solid there is: 22 590 kg/m^3.
 constexpr double kLargestDensity = 23000;  // kg/m^3
@@ -13,7 +13,7 @@ constexpr double kLargestDensity = 23000;  // kg/m^3
 constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
 Grain read_grain(const TomlTable& table, const std::string& name) {
-  // The range of snCreateSuperellipsoid.
+  // The range is that of snCreateSuperellipsoid.
   const Interval exponents = Interval::closed(1.01, 1000, "");
   Grain grain{name, {}, 2, 2, 0, 0, {}};
   const std::vector<double> axes = table.numbers("half_axes", 3, Interval::positive(kLargestHalfAxis, "m"));
@@ -35,7 +35,7 @@ std::vector<Grain> load_catalogue(const std::string& path) {
   const TomlTable root = TomlFile(path, "grain catalogue").root();
   std::vector<Grain> grains;
   for (const std::string& name : root.names()) {
-    // Names go into CSV files as they are.
+    // Names are written into CSV files without quotes.
     if (name.find_first_not_of(kNameCharacters) != std::string::npos) {
       root.fail(name, "grain name \"" + name + "\"; allowed: letters, digits, _ and -");
     }

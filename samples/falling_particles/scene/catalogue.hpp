@@ -1,3 +1,4 @@
+// Catalogues of grains.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace falling_particles {
 
-/// The grains of a catalogue file, one table a grain, in the order of the file. Throws InputError.
+/// Loads the grains of a catalogue file, one table a grain, in the order of the file. Throws InputError.
 std::vector<Grain> load_catalogue(const std::string& path);
 
 }  // namespace falling_particles

@@ -6,8 +6,8 @@
 namespace falling_particles {
 namespace {
 
-/// Distance of the farthest point of |x/a|^n + |y/b|^n = 1 from the centre: on an axis for n <= 2; by Hoelder's inequality the norm
-/// of (a, b) with exponent 2 n / (n - 2) beyond. Nesting it gives the superellipsoid's.
+/// The distance of the farthest point of |x/a|^n + |y/b|^n = 1 from the centre: it is on an axis for n <= 2; by Hoelder's
+/// inequality it is the norm of (a, b) with exponent 2 n / (n - 2) beyond. Nesting it gives the superellipsoid's.
 double farthest(double a, double b, double exponent) {
   if (exponent <= 2) return std::max(a, b);
   const double dual = 2 * exponent / (exponent - 2);

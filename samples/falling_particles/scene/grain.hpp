@@ -1,3 +1,4 @@
+// A kind of grain.
 #pragma once
 
 #include <array>
@@ -13,10 +14,10 @@ struct Grain {
   double epsilon;                   ///< exponent along z
   double rounding;                  ///< m, radius; 0: none
   double density;                   ///< kg/m^3
-  std::string source;               ///< of the dimensions; "typical" when there is no published one
+  std::string source;               ///< where the dimensions come from; "typical" when there is no published source
 
   double smallest_half_axis() const;
-  /// m; of the smallest sphere about the centre that holds the grain.
+  /// m; the radius of the smallest sphere about the centre that holds the grain.
   double bounding_radius() const;
 };
 

@@ -1,3 +1,4 @@
+// The exception for mistakes in the user's input.
 #pragma once
 
 #include <stdexcept>
@@ -5,7 +6,7 @@
 
 namespace falling_particles {
 
-/// The user's input is wrong. what() is the whole message for the user: file, line, value and what is allowed.
+/// Thrown when the user's input is wrong. what() is the whole message for the user: file, line, value and what is allowed.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,3 +1,4 @@
+// Ranges of numbers for input checks.
 #pragma once
 
 #include <limits>
@@ -5,7 +6,7 @@
 
 namespace falling_particles {
 
-/// A range of real numbers for input checks. No bound, open or closed, ever admits infinity or NaN.
+/// A range of real numbers. No bound, open or closed, ever admits infinity or NaN.
 struct Interval {
   double lower;
   double upper;
@@ -14,7 +15,7 @@ struct Interval {
   const char* unit;  ///< "" for pure numbers
 
   static Interval positive(double upper, const char* unit) { return {0, upper, false, true, unit}; }
-  /// Any number; `note` says what somebody else will allow.
+  /// Admits any finite number; `note` tells what a later check will allow.
   static Interval finite(const char* note) {
     return {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), true, true, note};
   }

@@ -10,7 +10,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;  // m, of all lengths
+constexpr double kLargest = 1000;  // m, upper bound of all lengths
 constexpr std::int64_t kMostSegments = 10'000;
 constexpr std::int64_t kMostSamples = 4096;
 
@@ -69,7 +69,7 @@ Periodic read_periodic(const TomlTable& table) {
   return {table.number("side", Interval::positive(kLargest, "m"))};
 }
 
-/// The lattice needs room for one cell at least, whatever the attitude of the largest grain.
+/// The lattice needs room for at least one cell, whatever the attitude of the largest grain.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   const double narrowest = std::min(plan.width[0], plan.width[1]);

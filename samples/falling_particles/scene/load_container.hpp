@@ -1,3 +1,4 @@
+// Reads the [container] section of a scene file.
 #pragma once
 
 #include "scene.hpp"
@@ -5,7 +6,7 @@
 
 namespace falling_particles {
 
-/// The [container] of a scene file. Throws InputError.
+/// Reads the [container] of a scene file. Throws InputError.
 Container read_container(const TomlTable& root, const Time& time);
 
 /// Throws InputError unless the grains of the scene find room in its container at the start.

@@ -11,10 +11,10 @@ namespace {
 
 namespace fx = supernormal::effects;
 
-/// Of the list, to which each reader adds what its section says.
+/// The list of effects, to which each reader adds those of its section.
 using List = std::vector<fx::Effect>;
 
-/// The section of an effect. The library knows the ranges and refuses what is outside.
+/// The section of an effect. The library knows the ranges and refuses values outside.
 class Section {
  public:
   Section(TomlTable table, const char* ranges) : table_(std::move(table)), allowed_(Interval::finite(ranges)) {}

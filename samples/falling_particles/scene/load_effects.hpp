@@ -1,3 +1,4 @@
+// Reads the sections of a scene file that name effects.
 #pragma once
 
 #include <string>
@@ -8,11 +9,11 @@
 
 namespace falling_particles {
 
-/// The sections that name effects: those of supernormal::effects, each with its own name.
+/// The names of the sections of effects: those of supernormal::effects.
 std::vector<std::string> effect_sections();
 
-/// The effects whose sections the file has. Throws InputError. `smallest_half_axis`, m, is what [surface_layer] refers to; `step`,
-/// s, is that of the scene.
+/// Loads the effects whose sections the file has. Throws InputError. `smallest_half_axis`, m, is the length that [surface_layer]
+/// refers to; `step`, s, is that of the scene.
 std::vector<supernormal::effects::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step);
 
 }  // namespace falling_particles

@@ -20,7 +20,7 @@ namespace {
 constexpr std::int64_t kMostBodies = 1'000'000;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
 
-/// The catalogue that the scene names, relative to the scene's folder.
+/// Reads the catalogue that the scene names, relative to the scene's folder.
 std::vector<Grain> read_catalogue(const TomlTable& root, const std::string& scene_path) {
   const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
   const std::string allowed = "; allowed: a grain catalogue, its path relative to the scene file";
@@ -41,7 +41,7 @@ const Grain& find_grain(const std::vector<Grain>& catalogue, const TomlTable& en
   entry.fail("name", "unknown grain \"" + name + "\"" + did_you_mean(name, names) + "; allowed (the catalogue's): " + join(names));
 }
 
-/// Whole numbers in the ratio of `fractions` that sum to `total`: rounded down, then the largest remainders up.
+/// Whole numbers in the ratio of `fractions` that sum to `total`: all are rounded down, then the largest remainders up.
 std::vector<int> apportion(const std::vector<double>& fractions, int total) {
   std::vector<int> counts;
   std::vector<std::pair<double, std::size_t>> remainders;
@@ -66,7 +66,7 @@ std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const Tom
     fractions.push_back(entry.number("fraction", Interval::positive(1, "")));
     sum += fractions.back();
   }
-  // As typed in by hand: 0.333 three times is one.
+  // Fractions may be rounded as people type them: 0.333 three times is one.
   if (std::abs(sum - 1) > 0.005) {
     entries.front().fail("fraction", "the fractions of the grains sum to " + shortest(sum) + "; allowed: a sum of 1");
   }
@@ -168,7 +168,7 @@ std::optional<Axis> read_sweep_axis(const TomlTable& root) {
   return Axis::Z;
 }
 
-/// The keys of the top of the file.
+/// The names of the sections at the top of the file.
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed", "catalogue", "container",   "drop",       "grain",
                                     "time", "solver",    "compression", "broad_phase"};

@@ -1,3 +1,4 @@
+// The materials of grains and walls.
 #pragma once
 
 #include <supernormal/effects.hpp>

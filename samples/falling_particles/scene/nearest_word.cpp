@@ -9,7 +9,8 @@
 namespace falling_particles {
 namespace {
 
-/// Letters to insert, delete, replace or swap with their neighbour (optimal string alignment): swaps are the usual slip.
+/// The number of letters to insert, delete, replace or swap with their neighbour (optimal string alignment): swaps are the usual
+/// slip.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last;
   std::vector<std::size_t> last;

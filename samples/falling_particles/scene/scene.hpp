@@ -1,3 +1,4 @@
+// A scene: the grains, their container, the effects and the settings of a run.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct GrainCount {
   int count;
 };
 
-/// How the grains start: on a lattice whose cells hold the largest grain in any attitude.
+/// The start of the grains: on a lattice whose cells hold the largest grain in any attitude.
 struct Drop {
   double height;  ///< m, of the lowest cells above the floor, a hopper's outlet or a terrain's highest peak
   double gap;     ///< free part of a cell, relative to the largest grain; the grains are placed at random within it
@@ -31,40 +32,40 @@ struct Time {
 };
 
 struct Solver {
-  int iterations;  ///< of quickstep
+  int iterations;  ///< iterations of quickstep
   double erp;      ///< share of an overlap that a step removes
   double cfm;      ///< s/kg: softness of all constraints
 };
 
-/// Of the grains in a periodic container, until they jam (compression.hpp).
+/// The compression of the grains in a periodic container until they jam (compression.hpp).
 struct Compression {
   double overlap;        ///< mean, relative to the distance of two grains that touch, that ends the compression; at the start
-  double final_overlap;  ///< and at the end
+  double final_overlap;  ///< the same at the end
   double damping;        ///< share of all velocities that a step takes away
 };
 
 struct Scene {
-  std::string name;  ///< of the file, without folder and extension
+  std::string name;  ///< name of the file, without folder and extension
   std::uint64_t seed;
   Container container;
   std::vector<GrainCount> grains;
   Drop drop;
   Time time;
   Solver solver;
-  std::vector<supernormal::effects::Effect> effects;  ///< those that the scene names; nothing else exists for it
-  std::optional<Compression> compression = {};        ///< of the grains in a periodic container
-  std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen from where the grains are if there is none
+  std::vector<supernormal::effects::Effect> effects;  ///< those that the scene names, and no others
+  std::optional<Compression> compression = {};        ///< for the grains in a periodic container
+  std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen by the positions of the grains if empty
 
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;
 
   int bodies() const;
-  double smallest_half_axis() const;       ///< m, of all grains
-  double largest_bounding_radius() const;  ///< m, of all grains
+  double smallest_half_axis() const;       ///< m, over all grains
+  double largest_bounding_radius() const;  ///< m, over all grains
   double smallest_cell() const;            ///< m, width and height of the cell that holds the largest grain
 };
 
-/// Throws InputError.
+/// Loads a scene file. Throws InputError.
 Scene load_scene(const std::string& path);
 
 }  // namespace falling_particles

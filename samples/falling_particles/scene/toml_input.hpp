@@ -1,3 +1,4 @@
+// TOML files as input, with every value checked.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace falling_particles {
 
-/// A table of a TOML file whose keys are known in advance. Every way of asking for a value checks it and throws InputError
-/// with file, line and what is allowed; so whoever has a value has a valid one. Valid as long as its TomlFile.
+/// A table of a TOML file whose keys are known in advance. Every function that reads a value checks it and throws InputError with
+/// file, line and what is allowed, so that a value that was read is valid. A table is valid as long as its TomlFile.
 class TomlTable {
  public:
   std::optional<std::string> find_text(std::string_view key) const;
@@ -26,7 +27,7 @@ class TomlTable {
 
   /// The table under `key`, which may hold `keys` and nothing else.
   TomlTable table(std::string_view key, std::vector<std::string> keys) const;
-  /// The table under `key`, for those whose keys depend on what is in it: refuse_unknown_keys() has to follow.
+  /// The table under `key`, if its valid keys depend on its content: refuse_unknown_keys() has to follow.
   TomlTable table(std::string_view key) const;
   std::optional<TomlTable> find_table(std::string_view key, std::vector<std::string> keys) const;
 
@@ -41,7 +42,7 @@ class TomlTable {
   /// Throws InputError at the line of `key` (at the line of the table when it has no such key).
   [[noreturn]] void fail(std::string_view key, const std::string& text) const;
 
-  /// "box.width": how messages call the key.
+  /// The name of the key in messages: "box.width".
   std::string full_name(std::string_view key) const;
 
  private:

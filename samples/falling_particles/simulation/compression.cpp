@@ -6,8 +6,8 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kRate = 0.2;      // strain of a step, at most, relative to the overlap that is aimed at
-constexpr double kRestFrom = 0.8;  // share of the duration: from then on the target stays, and nothing has inertia
+constexpr double kRate = 0.2;      // largest strain of a step, relative to the target overlap
+constexpr double kRestFrom = 0.8;  // share of the duration after which the target stays, and nothing has inertia
 
 }  // namespace
 
@@ -15,10 +15,10 @@ MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts) {
   double sum = 0;
   std::size_t count = 0;
   for (const dContactGeom& contact : contacts) {
-    if (!(contact.depth > 0)) continue;  // the corners of a wide contact
+    if (!(contact.depth > 0)) continue;  // a corner of a wide contact
     const dReal* p1 = dGeomGetPosition(contact.g1);
     const dReal* p2 = dGeomGetPosition(contact.g2);
-    double between = 0;  // ODE's normal points into g1
+    double between = 0;  // distance of the centres along the normal, which points into g1
     for (int i = 0; i < 3; ++i) between += (p1[i] - p2[i]) * contact.normal[i];
     sum += contact.depth / (between + contact.depth);
     ++count;
@@ -48,7 +48,8 @@ void Compressor::after_step(double time, std::span<const dContactGeom> contacts)
     dBodySetAngularVel(body.body, kept * w[0], kept * w[1], kept * w[2]);
   }
   const double target = compression_.overlap * std::pow(compression_.final_overlap / compression_.overlap, progress);
-  // A few grains that overlap among many that do not are no pressure: as if there were a contact for each grain at least.
+  // A few grains that overlap among many that do not are no pressure: the mean is taken as if there were a contact for each grain
+  // at least.
   const double share = std::min(1.0, static_cast<double>(overlap.contacts) / bodies);
   const double strain = kRate * target * std::clamp(1 - overlap.relative * share / target, -1.0, 1.0);
   cell_.scale(1 - strain);

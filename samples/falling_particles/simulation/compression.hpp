@@ -1,3 +1,4 @@
+// Compression of grains in a periodic cell until they jam.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,35 +11,35 @@
 
 namespace falling_particles {
 
-/// Where two grains overlap, by how much both would have to shrink to touch: depth / distance of their parallel tangent planes from
-/// centre to centre along the normal; mean over the contacts.
+/// The mean overlap of grains over their contacts: how much both grains of a contact would have to shrink to touch, depth /
+/// distance of their parallel tangent planes from centre to centre along the normal.
 struct MeanOverlap {
   double relative = 0;
-  std::size_t contacts = 0;  ///< that overlap
+  std::size_t contacts = 0;  ///< number of contacts that overlap
 };
 MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts);
 
 struct Packing {
   double side;             ///< m, of the cell
-  double volume_fraction;  ///< volume of the grains / of the cell: what two grains share counts twice
+  double volume_fraction;  ///< volume of the grains / that of the cell: volume that two grains share counts twice
   double at_contact;       ///< volume_fraction of grains shrunk, all alike, until they no longer overlap in the mean
   MeanOverlap overlap;
-  double contacts_per_grain;  ///< that overlap, each counted for both its grains; rattlers included
+  double contacts_per_grain;  ///< contacts that overlap, each counted for both its grains; rattlers included
 };
 
-/// Compresses the grains in a periodic cell until they jam. What moves them is the push out of their overlaps; of the speed that it
-/// leaves, every step takes a share away. The cell shrinks while the mean overlap is below its target and grows while it is above;
-/// the target falls, so that the end is approached from above, at the onset of jamming. For the last fifth of the time it stays,
-/// and all speed is taken away in every step, so that the forces find their balance.
+/// Compresses the grains in a periodic cell until they jam. They are moved by the push out of their overlaps, and every step
+/// takes away a share of the resulting speed. The cell shrinks while the mean overlap is below its target and grows while it is
+/// above; the target falls, so that the end is approached from above, at the onset of jamming. For the last fifth of the time it
+/// stays, and all speed is taken away in every step, so that the forces find their balance.
 ///
-/// C. S. O'Hern, L. E. Silbert, A. J. Liu, S. R. Nagel, Jamming at zero temperature and zero applied stress: the epitome of
-/// disorder, Phys. Rev. E 68 (2003) 011306, compress and relax so; G. W. Delaney, P. W. Cleary, The packing properties of
-/// superellipsoids, EPL 89 (2010) 34002, grow superellipsoids in a periodic cell.
+/// The method of compressing and relaxing is that of C. S. O'Hern, L. E. Silbert, A. J. Liu, S. R. Nagel, Jamming at zero
+/// temperature and zero applied stress: the epitome of disorder, Phys. Rev. E 68 (2003) 011306; G. W. Delaney, P. W. Cleary, The
+/// packing properties of superellipsoids, EPL 89 (2010) 34002, grow superellipsoids in a periodic cell.
 class Compressor {
  public:
   Compressor(const World& world, PeriodicCell& cell, const Compression& compression, double duration);
 
-  /// With the contacts that the step has resolved.
+  /// Adjusts the cell after a step; `contacts` are those that the step has resolved.
   void after_step(double time, std::span<const dContactGeom> contacts);
 
   const Packing& packing() const { return packing_; }
@@ -48,7 +49,7 @@ class Compressor {
   PeriodicCell& cell_;
   const Compression& compression_;
   double duration_;
-  double grain_volume_ = 0;  // m^3, of all
+  double grain_volume_ = 0;  // m^3, of all grains
   Packing packing_;
 };
 

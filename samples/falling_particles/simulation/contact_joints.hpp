@@ -1,3 +1,4 @@
+// The contact joints of a step.
 #pragma once
 
 #include <ode/ode.h>
@@ -21,8 +22,8 @@ class ContactJoints {
   ContactJoints& operator=(const ContactJoints&) = delete;
   ContactJoints& operator=(ContactJoints&&) = delete;
 
-  /// As the effects of the world set them up, in place of those of the last step. The contacts of a pair, at most kContactsPerPair,
-  /// follow one another.
+  /// Replaces the joints of the last step by those for `contacts`, as the effects of the world set them up. The contacts of a
+  /// pair, at most kContactsPerPair, are consecutive.
   void replace(std::span<const dContactGeom> contacts);
 
  private:

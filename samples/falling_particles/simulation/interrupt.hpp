@@ -1,3 +1,4 @@
+// Interruption of a run by the user.
 #pragma once
 
 namespace falling_particles {

@@ -1,3 +1,4 @@
+// The lattice on which grains start.
 #pragma once
 
 #include <array>
@@ -17,17 +18,17 @@ class Lattice {
   /// Indices of the next cell along x, y, z.
   std::array<std::size_t, 3> next();
 
-  const Point& corner() const { return corner_; }  ///< m, of cell 0, 0, 0
+  const Point& corner() const { return corner_; }  ///< m, lower corner of cell 0, 0, 0
   const Point& cell() const { return cell_; }      ///< m, size of a cell
-  std::size_t layers() const { return layers_; }   ///< that next() has used
+  std::size_t layers() const { return layers_; }   ///< number of layers that next() has used
 
-  double top() const { return corner_[2] + static_cast<double>(layers_) * cell_[2]; }  ///< m, of those layers
+  double top() const { return corner_[2] + static_cast<double>(layers_) * cell_[2]; }  ///< m, upper end of those layers
 
  private:
   const Container& container_;
   Point corner_;
   Point cell_;
-  std::array<std::size_t, 2> cells_;  // of a layer
+  std::array<std::size_t, 2> cells_;  // number of cells in a layer
   std::size_t visited_ = 0;
   std::size_t layers_ = 0;
 };

@@ -14,8 +14,8 @@ bool is_part_of(unsigned mask, unsigned whole) { return (mask & ~whole) == 0; }
 
 double shift_along(unsigned mask, unsigned axis, double side) { return ((mask >> axis) & 1U) != 0 ? side : 0; }
 
-/// Three rows: the velocities of the centres are equal. A ball joint whose anchors are the two centres, wherever these are: with
-/// ERP 0 it does not ask them to meet. (ODE's linear motor gives the bodies lever arms to the middle between them.)
+/// Makes the velocities of the centres equal, in three rows: a ball joint whose anchors are the two centres, wherever these are.
+/// With ERP 0 it does not pull them together. (ODE's linear motor would give the bodies lever arms to the middle between them.)
 dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
   dJointID ball = dJointCreateBall(world, nullptr);
   dJointAttach(ball, body, image);
@@ -27,7 +27,7 @@ dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
   return ball;
 }
 
-/// Three rows: the angular velocities are equal.
+/// Makes the angular velocities equal, in three rows.
 dJointID tie_spins(dWorldID world, dBodyID body, dBodyID image) {
   constexpr int kGlobal = 0;
   dJointID motor = dJointCreateAMotor(world, nullptr);
@@ -120,7 +120,7 @@ void PeriodicCell::place_images() {
     dGeomGetAABB(body.geom, aabb);
     const dReal* p = dBodyGetPosition(body.body);
     unsigned sticks_out = 0;
-    dReal inside[3];  // the grain's bounding box starts in the cell
+    dReal inside[3];  // position with the lower corner of the bounding box in the cell
     for (unsigned axis = 0; axis < 3; ++axis) {
       const double shift = side_ * std::floor(aabb[2 * axis] / side_);
       inside[axis] = p[axis] - shift;
@@ -168,7 +168,7 @@ void PeriodicCell::gather() {
     dBodySetPosition(grain, position[0], position[1], position[2]);
     dBodySetLinearVel(grain, velocity[0], velocity[1], velocity[2]);
     dBodySetAngularVel(grain, spin[0], spin[1], spin[2]);
-    dBodySetQuaternion(grain, attitude);  // which ODE normalizes
+    dBodySetQuaternion(grain, attitude);  // ODE normalizes it
   }
 }
 

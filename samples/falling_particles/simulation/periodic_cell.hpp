@@ -1,3 +1,4 @@
+// Periodic boundary conditions.
 #pragma once
 
 #include <ode/ode.h>
@@ -16,7 +17,7 @@ struct Body;
 /// every place where it comes in again, up to seven of them. Grain and images share mass and inertia evenly and are tied to one
 /// velocity and one spin by six constraint rows without lever arms; so forces on an image act on the grain, in the same step.
 ///
-/// A point of contact lies in the cell exactly once, whatever grains and images meet there: only contacts in the cell count.
+/// A point of contact lies in the cell exactly once, whichever grains and images meet there: only contacts in the cell count.
 class PeriodicCell {
  public:
   /// Throws std::runtime_error when the side is below twice the width of a grain: a grain might meet itself.
@@ -29,11 +30,12 @@ class PeriodicCell {
 
   bool contains(const dVector3 point) const;
 
-  /// Before collision: moves grains that have left into the cell, and sets up the images.
+  /// Moves grains that have left into the cell, and sets up the images; call it before collision.
   void place_images();
-  /// After a step: grains take the mean motion of themselves and their images, of which the solver leaves a small difference.
+  /// Gives grains the mean motion of themselves and their images, between which the solver leaves a small difference; call it
+  /// after a step.
   void gather();
-  /// Scales the cell and the centres of the grains in it; their sizes stay.
+  /// Scales the cell and the centres of the grains in it, but not their sizes.
   void scale(double factor);
 
  private:
@@ -43,11 +45,11 @@ class PeriodicCell {
     dJointID same_velocity;
     dJointID same_spin;
   };
-  static constexpr unsigned kMasks = 8;  // which axes an image is shifted along: bit 0 for x, 1 for y, 2 for z
+  static constexpr unsigned kMasks = 8;  // axes along which an image is shifted: bit 0 for x, 1 for y, 2 for z
   struct Family {
     std::array<std::optional<Image>, kMasks> images;  // [0], the grain itself, stays empty; made when first needed
     unsigned shown = 0;                               // axes along which the grain sticks out
-    unsigned size = 1;                                // the grain and its images that are in use
+    unsigned size = 1;                                // number of the grain and its images that are in use
   };
 
   Image make_image(const Body& body) const;
@@ -57,7 +59,7 @@ class PeriodicCell {
 
   const World& world_;
   double side_;
-  std::vector<Family> families_;  // as world's bodies
+  std::vector<Family> families_;  // in the order of the world's bodies
 };
 
 }  // namespace falling_particles

@@ -17,7 +17,7 @@ std::vector<std::size_t> shuffled_kinds(const Scene& scene, Random& random) {
   return kinds;
 }
 
-/// Points of an ideal gas: grains overlap, and are pushed apart in the first steps.
+/// Scatters grains like the points of an ideal gas: they overlap, and are pushed apart in the first steps.
 std::vector<Placement> scatter(const Scene& scene, double side, Random& random) {
   std::vector<Placement> placements;
   for (const std::size_t kind : shuffled_kinds(scene, random)) {
@@ -37,7 +37,7 @@ std::vector<Placement> place(const Scene& scene, Random& random) {
   std::vector<Placement> placements;
   for (const std::size_t kind : shuffled_kinds(scene, random)) {
     const std::array<std::size_t, 3> index = lattice.next();
-    // A grain may stand anywhere in its cell, its own bounding sphere inside.
+    // A grain may stand anywhere in its cell as long as its own bounding sphere is inside.
     const double own_radius = scene.grains[kind].grain.bounding_radius();
     Placement placement{kind, lattice.corner(), {}};
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,3 +1,4 @@
+// Start positions of the grains.
 #pragma once
 
 #include <array>
@@ -15,8 +16,8 @@ struct Placement {
   std::array<double, 4> quaternion;  ///< w, x, y, z
 };
 
-/// Where every grain starts: kinds shuffled, layer upon layer on a jittered lattice, random attitudes. No two touch, nor any a
-/// wall: each stays within its own cell. In a periodic container anywhere, overlaps and all.
+/// Places every grain: kinds are shuffled, layer upon layer on a jittered lattice, with random attitudes. No two touch, nor does
+/// any touch a wall: each stays within its own cell. In a periodic container grains are placed anywhere and may overlap.
 std::vector<Placement> place(const Scene& scene, Random& random);
 
 }  // namespace falling_particles

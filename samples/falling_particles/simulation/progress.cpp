@@ -35,7 +35,7 @@ void Progress::draw(int step, double simulated, std::size_t contacts) {
   std::string bar(kBarWidth, '.');
   bar.replace(0, static_cast<std::size_t>(share * static_cast<double>(kBarWidth)),
               static_cast<std::size_t>(share * static_cast<double>(kBarWidth)), '#');
-  // \033[K clears what a longer line has left behind.
+  // \033[K clears the rest of a longer line.
   std::fprintf(stream_, "\r[%s] %3.0f %%  t = %.3f s  %zu contacts  %.0f s left\033[K", bar.c_str(), 100 * share, simulated,
                contacts, seconds_left(step));
   std::fflush(stream_);

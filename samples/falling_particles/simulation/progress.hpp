@@ -1,3 +1,4 @@
+// A progress bar.
 #pragma once
 
 #include <chrono>
@@ -10,7 +11,7 @@ class Progress {
  public:
   Progress(std::FILE* stream, int steps);
 
-  /// After step `step` of `steps`: simulated seconds, contacts of the step.
+  /// Updates after step `step` of `steps`, with the simulated seconds and the contacts of the step.
   void update(int step, double simulated, std::size_t contacts);
   /// Ends the bar's line. Called once, also when the run stops early.
   void finish();

@@ -1,3 +1,4 @@
+// Random numbers that are the same on every machine.
 #pragma once
 
 #include <array>
@@ -6,7 +7,7 @@
 
 namespace falling_particles {
 
-/// Random numbers that are the same everywhere: the standard fixes the engine bit for bit but leaves its distributions to each
+/// Random numbers that are the same everywhere: the standard defines the engine bit for bit but leaves its distributions to each
 /// library, so the distributions are written out here.
 class Random {
  public:

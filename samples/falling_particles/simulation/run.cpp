@@ -25,7 +25,7 @@
 namespace falling_particles {
 namespace {
 
-/// What is looked at after every step.
+/// The watches that run after every step.
 struct Watches {
   Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene.container), energy(world, scene) {
     if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
@@ -40,11 +40,11 @@ struct Watches {
 
   LeakWatch leaks;
   EnergyWatch energy;
-  std::optional<Discharge> discharge;    // of a hopper
-  std::optional<Compressor> compressor;  // of a periodic cell
+  std::optional<Discharge> discharge;    // for a hopper
+  std::optional<Compressor> compressor;  // for a periodic cell
 };
 
-/// The frames of a run, written as it goes.
+/// Writes the frames of a run as it goes.
 class Recorder {
  public:
   Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const std::optional<Discharge>& discharge)
@@ -81,8 +81,8 @@ double time_after(int step, const Time& time) {
   return std::round(step * time.step * 1e9) / 1e9;  // 0.7 and not 0.7000000000000001
 }
 
-/// Steps until the end or until the user interrupts; a frame at the start, at every interval and at the end. Returns the steps
-/// done.
+/// Steps until the end or until the user interrupts, with a frame at the start, at every interval and at the end. Returns the
+/// number of steps done.
 int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& time, bool quiet) {
   const int steps = time.steps();
   std::optional<Progress> progress;
@@ -104,7 +104,7 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& 
   return step;
 }
 
-/// On the dish below a hopper.
+/// Measures the heap on the dish below a hopper, if there is one.
 std::optional<Heap> find_heap(const World& world, const Container& container) {
   const Hopper* hopper = std::get_if<Hopper>(&container);
   if (hopper == nullptr || !hopper->dish) return std::nullopt;
@@ -131,10 +131,10 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
   const auto start = std::chrono::steady_clock::now();
   const int steps = advance(stepper, watches, recorder, scene.time, quiet);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  snStatistics statistics;  // before the measurements at the end add to them
+  snStatistics statistics;  // taken before the measurements at the end add to them
   snGetStatistics(&statistics);
 
-  if (world.cell() != nullptr) world.cell()->place_images();  // where the grains have gone to
+  if (world.cell() != nullptr) world.cell()->place_images();  // the grains have moved since the last images were placed
   const bool early = steps < scene.time.steps();
   const Box* box = std::get_if<Box>(&scene.container);
   const Summary summary{scene,

@@ -1,3 +1,4 @@
+// The simulation of a scene from start to end.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +9,7 @@ namespace falling_particles {
 
 struct RunEnd {
   bool interrupted;
-  bool leaked;  ///< a grain was outside the container at some time
+  bool leaked;  ///< whether a grain was outside the container at some time
 };
 
 /// Simulates the scene, looking for contacts on `threads` (0: as many as the machine has), and writes `out`/<scene>/; prints the

@@ -58,7 +58,7 @@ void Stepper::collide_grains() {
   }
 }
 
-// One after the other: ODE's meshes and heightfields bear one thread at a time.
+// Walls collide one after the other, because only one thread at a time may use ODE's meshes and heightfields.
 void Stepper::collide_with_walls() {
   wall_pairs_.clear();
   {
@@ -74,13 +74,13 @@ void Stepper::collide_with_walls() {
   }
 }
 
-// The sweep names pairs in the order in which they lie along its axis. Quickstep's first iterations take the contacts in the order
-// of their joints, and would carry forces along the axis better than against it: so it gets them in the order of the bodies.
+// Sorts contacts by their bodies. The sweep names pairs in the order in which they lie along its axis; quickstep's first
+// iterations take the contacts in the order of their joints, and would carry forces along the axis better than against it.
 void Stepper::sort_contacts() {
   const auto bodies = [](const dContactGeom& contact) -> std::pair<const Body*, const Body*> {
     return std::minmax(body_of(contact.g1), body_of(contact.g2));
   };
-  // Stable: the contacts of a pair stay together, also where images of the same two bodies meet.
+  // A stable sort keeps the contacts of a pair together, also where images of the same two bodies meet.
   std::ranges::stable_sort(contacts_, [&bodies](const dContactGeom& a, const dContactGeom& b) { return bodies(a) < bodies(b); });
 }
 

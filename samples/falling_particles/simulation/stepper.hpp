@@ -1,3 +1,4 @@
+// Steps of a simulation.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,7 +14,7 @@
 
 namespace falling_particles {
 
-/// Where the time of the steps went, and how much was done in them.
+/// The time and the amount of work of all steps.
 struct StepCosts {
   Stopwatch collision;      ///< broad and narrow phase
   Stopwatch broad_phase;    ///< bounding boxes and pairs, within collision
@@ -27,7 +28,7 @@ struct StepCosts {
 /// Advances a world: find contacts, turn them into constraints, step.
 class Stepper {
  public:
-  /// `threads` that look for contacts, in [1, 256]; 0: as many as the machine has. The motion is the same with any number.
+  /// `threads`, in [1, 256], look for contacts; 0: as many as the machine has. The motion is the same with any number.
   Stepper(const World& world, const Scene& scene, int threads = 1);
   ~Stepper();
   Stepper(const Stepper&) = delete;
@@ -35,9 +36,9 @@ class Stepper {
 
   void step();
 
-  std::size_t contacts() const { return contacts_.size(); }                     ///< of the last step
-  const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< of the last step
-  double deepest_contact() const { return deepest_contact_; }                   ///< m, of all steps
+  std::size_t contacts() const { return contacts_.size(); }                     ///< number of contacts in the last step
+  const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< contacts of the last step
+  double deepest_contact() const { return deepest_contact_; }                   ///< m, over all steps
   const StepCosts& costs() const { return costs_; }
 
  private:
@@ -49,7 +50,7 @@ class Stepper {
 
   const World& world_;
   double step_;
-  bool may_sleep_;  // then pairs of which neither is awake are left alone
+  bool may_sleep_;  // if true, pairs without an awake body are skipped
   ContactJoints joints_;
   snBatchID batch_;
   std::vector<std::pair<dGeomID, dGeomID>> wall_pairs_;

@@ -1,3 +1,4 @@
+// Wall-clock time of parts of a program.
 #pragma once
 
 #include <chrono>
@@ -9,7 +10,7 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
 
  public:
-  /// Times its own life.
+  /// Adds the time from its construction to its destruction.
   class Lap {
    public:
     explicit Lap(Stopwatch& watch) : watch_(watch), start_(Clock::now()) {}
@@ -22,7 +23,7 @@ class Stopwatch {
     Clock::time_point start_;
   };
 
-  /// For an interval of which nobody knows that it ends: each lap() adds the time since start() or the last lap().
+  /// Starts an interval whose end is not known in advance: each lap() adds the time since start() or the last lap().
   void start() { last_ = Clock::now(); }
   void start_where_ended(const Stopwatch& other) { last_ = other.last_; }
   void lap() {

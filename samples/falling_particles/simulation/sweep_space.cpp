@@ -7,9 +7,10 @@
 namespace falling_particles {
 namespace {
 
-// To look takes less time than a sweep, and a bed takes hundreds of steps to change its shape.
+// Choosing takes less time than a sweep, and a bed takes hundreds of steps to change its shape.
 constexpr int kStepsBetweenChoices = 50;
-// In variance: the other axis has to spare a third of the tests, so that beds as wide as long do not go to and fro.
+// The variance along the other axis must be larger by this factor: it then spares a third of the tests, and beds as wide as long
+// keep their axis.
 constexpr double kWorthAMove = 2;
 
 constexpr unsigned long kMarkerBit = 1UL << 31U;
@@ -17,12 +18,12 @@ constexpr unsigned long kMarkerBit = 1UL << 31U;
 std::size_t index_of(Axis axis) { return static_cast<std::size_t>(axis); }
 
 dSpaceID create_space(const std::array<Axis, 3>& order) {
-  // As dSAP_AXES_XYZ and its permutations are made.
+  // The order is composed in the way of dSAP_AXES_XYZ and its permutations.
   return dSweepAndPruneSpaceCreate(nullptr,
                                    static_cast<int>(index_of(order[0]) | index_of(order[1]) << 2U | index_of(order[2]) << 4U));
 }
 
-/// A plane that meets nothing but its twin.
+/// Creates a plane that meets nothing but its twin.
 dGeomID create_marker(dSpaceID space) {
   dGeomID plane = dCreatePlane(space, 0.6, 0, 0.8, 0);
   dGeomSetCategoryBits(plane, kMarkerBit);
@@ -40,7 +41,7 @@ std::vector<dGeomID> geoms_of(dSpaceID space) {
 
 bool is_body(dGeomID geom) { return dGeomGetClass(geom) != dPlaneClass && dGeomIsEnabled(geom) != 0; }
 
-/// Of the positions of the bodies.
+/// The variances of the bodies' positions along the three axes.
 std::array<double, 3> variances(dSpaceID space) {
   std::array<double, 3> mean{};
   std::array<double, 3> squares{};
@@ -86,7 +87,7 @@ void SweepSpace::choose_axis() {
   const std::array<double, 3> spread = variances(space_);
   const auto spread_along = [&spread](Axis axis) { return spread[index_of(axis)]; };
   Order order = order_;
-  // Not a number is never larger.
+  // Comparisons are false for a NaN.
   if (spread_along(order[2]) > spread_along(order[1])) std::swap(order[1], order[2]);
   if (!(spread_along(order[1]) > kWorthAMove * spread_along(order[0]))) return;
   std::swap(order[0], order[1]);

@@ -1,3 +1,4 @@
+// ODE's sweep-and-prune space with a changing axis.
 #pragma once
 
 #include <ode/ode.h>
@@ -12,12 +13,12 @@ enum class Axis { X, Y, Z };
 /// "x", "y" or "z"
 const char* name_of(Axis axis);
 
-/// ODE's sweep-and-prune space with the axis that suits where the bodies are. A sweep tests every pair of bounding boxes that
-/// overlap along its axis; of N bodies spread over a length L these are about N^2 d / L, d their diameter, so the axis of the
-/// largest spread is the best (Ericson 2005, section 7.5.1). Grains that wait to fall form a tower, and settle to a bed that is
-/// wider than high: so the axis is chosen again as they go, from their positions alone.
+/// ODE's sweep-and-prune space along the axis that suits the positions of the bodies. A sweep tests every pair of bounding boxes
+/// that overlap along its axis. For N bodies spread over a length L these are about N^2 d / L, with d their diameter, so the axis
+/// of the largest spread is the best (Ericson 2005, section 7.5.1). Grains that wait to fall form a tower, and settle to a bed
+/// that is wider than high: so the axis is chosen again during a run, from their positions alone.
 ///
-/// For bodies with finite bounding boxes. What has none belongs outside: ODE would pair it with every other geom.
+/// It is for bodies with finite bounding boxes. Others belong outside: ODE would pair them with every other geom.
 class SweepSpace {
  public:
   /// Always sweeps along `axis`, if there is one.
@@ -26,13 +27,13 @@ class SweepSpace {
   SweepSpace(const SweepSpace&) = delete;
   SweepSpace& operator=(const SweepSpace&) = delete;
 
-  dSpaceID id() const { return space_; }  ///< until the axis is chosen again
+  dSpaceID id() const { return space_; }  ///< valid until the axis is chosen again
   Axis axis() const { return order_[0]; }
 
-  /// Before a step: chooses the axis in the first one and again now and then.
+  /// Chooses the axis in the first step and again now and then; call it before a step.
   void before_step();
 
-  /// In the near callback of dSpaceCollide: this is no pair of bodies, but says that none follows.
+  /// In the near callback of dSpaceCollide: whether this is no pair of bodies, but the mark after the last one.
   bool is_end_marker(dGeomID geom) const { return geom == markers_[0] || geom == markers_[1]; }
 
  private:

@@ -11,7 +11,7 @@ namespace {
 constexpr unsigned long kWallBit = 1;
 constexpr unsigned long kGrainBit = 2;
 
-/// What World::name_pairs passes through ODE.
+/// The data that World::name_pairs passes through ODE.
 struct PairCallback {
   const SweepSpace& sweep;
   void* data;
@@ -45,8 +45,8 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
   // Quickstep shuffles its constraints with ODE's global generator.
   dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
   set_parameters(scene);
-  // In no space: ODE pairs what has no upper end with all others, without a look at the bounding boxes. Each wall is held against
-  // the grains instead, which costs the comparison of their boxes.
+  // The walls are in no space: ODE pairs geoms without an upper end with all others, whatever their bounding boxes. Each wall is
+  // compared with the grains instead, at the cost of the comparison of their boxes.
   walls_.emplace(nullptr, scene.container, kWallBit, kGrainBit);
   bodies_.reserve(placements.size());
   for (const Placement& placement : placements) add_body(scene.grains[placement.kind].grain, placement);
@@ -80,7 +80,7 @@ void World::set_parameters(const Scene& scene) {
   dWorldSetQuickStepNumIterations(world_, scene.solver.iterations);
   dWorldSetERP(world_, scene.solver.erp);
   dWorldSetCFM(world_, scene.solver.cfm);
-  // Before the bodies are made, which take some settings from the world.
+  // The effects come before the bodies, which take some settings from the world.
   effects_ = std::make_unique<supernormal::effects::Effects>(scene.effects, scene.time.step);
   effects_->set_up(world_);
 }

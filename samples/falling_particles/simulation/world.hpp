@@ -1,3 +1,4 @@
+// The ODE world of a scene.
 #pragma once
 
 #include <ode/ode.h>
@@ -49,25 +50,25 @@ class World {
  public:
   /// Throws std::runtime_error when the library refuses a body.
   World(const Scene& scene, const std::vector<Placement>& placements);
-  World(const Scene&& scene, const std::vector<Placement>& placements) = delete;  // would be gone at once
+  World(const Scene&& scene, const std::vector<Placement>& placements) = delete;  // the scene would be gone at once
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   dWorldID id() const { return world_; }
-  /// Of the grains, and of their images; the walls are not in it.
+  /// The space of the grains and of their images; the walls are not in it.
   SweepSpace& sweep() const { return *sweep_; }
   const std::vector<Body>& bodies() const { return bodies_; }
-  /// Compiled from what the scene names.
+  /// The effects that the scene names, compiled.
   supernormal::effects::Effects& effects() const { return *effects_; }
   const Walls& walls() const { return *walls_; }
   /// Calls back for every pair of a grain and a wall whose bounding boxes meet.
   void name_wall_pairs(void* data, dNearCallback* callback) const;
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
   void name_pairs(void* data, dNearCallback* callback) const;
-  PeriodicCell* cell() const { return cell_.get(); }  ///< of a periodic container, or null
+  PeriodicCell* cell() const { return cell_.get(); }  ///< for a periodic container, otherwise null
 
-  /// Takes the lid off a hopper's outlet; once.
+  /// Takes the lid off a hopper's outlet; call it once.
   void open_outlet() { walls_->open_outlet(); }
 
  private:

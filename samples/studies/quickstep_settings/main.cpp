@@ -1,5 +1,5 @@
-// What the settings of ODE's quickstep do to Supernormal's bodies: one changed at a time, on small scenes, printed as Markdown
-// tables.
+// Measures the influence of quickstep's settings on Supernormal's bodies: one is changed at a time, on small scenes, and printed
+// as Markdown tables.
 
 #include <supernormal/supernormal.h>
 
@@ -65,7 +65,7 @@ std::vector<Variant> variants() {
   };
 }
 
-/// While all are kept awake.
+/// Prints the unrest of bodies that are all kept awake.
 void print_unrest() {
   const std::vector<Column> columns = {{"stack of 10, 5 cm", 0.05, 4, fill_stack},
                                        {"20 times heavier on 2, 5 cm", 0.05, 4, fill_heavy},

@@ -1,4 +1,4 @@
-// Small worlds to try settings on.
+// Small worlds on which settings are tried.
 #pragma once
 
 #include <ode/ode.h>
@@ -11,7 +11,7 @@ namespace quickstep_settings {
 /// Bodies over a floor, z = 0.
 class Scene {
  public:
-  /// `size`: smallest half-axis of the bodies, m.
+  /// `size` is the smallest half-axis of the bodies, m.
   explicit Scene(double size);
   ~Scene();
   Scene(const Scene&) = delete;

@@ -1,11 +1,11 @@
-// A scene, stepped with some settings, and what came of it.
+// A scene that is stepped with some settings, and the outcome.
 #pragma once
 
 #include "scenes.hpp"
 
 namespace quickstep_settings {
 
-/// ODE's defaults, and ODE's names unless said otherwise.
+/// ODE's defaults, with ODE's names unless said otherwise.
 struct Settings {
   double step = 2e-3;  ///< s
   int iterations = 20;
@@ -13,7 +13,7 @@ struct Settings {
   double softness = 0;             ///< CFM times the mass of a body, over the step: 0.1 makes a contact 10 % softer than rigid
   double surface_layer = 0;        ///< relative to the smallest half-axis
   double correcting_velocity = 0;  ///< m/s; 0: unlimited
-  double angular_damping = 0;      ///< of each step
+  double angular_damping = 0;      ///< share of the velocity that each step takes away
   bool auto_disable = false;
   int average_samples = 1;
   double linear_threshold = 0.01;   ///< m/s
@@ -24,7 +24,7 @@ struct Outcome {
   double speed;    ///< m/s, root mean square over the mass and over the second half of the time
   double overlap;  ///< the deepest in the second half, relative to the smallest half-axis
   double asleep;   ///< s, when the last body fell asleep; negative: never
-  double rise;     ///< how high a body's centre got above its start, relative to the smallest half-axis
+  double rise;     ///< largest height of a body's centre above its start, relative to the smallest half-axis
 };
 
 /// Steps the scene for a time, s.

@@ -14,7 +14,7 @@ constexpr double kLongest = 10;       // s
 constexpr double kFloorSize = 40;     // half-heights, from the middle to the border
 constexpr double kLeastTilt = 1;      // degrees
 constexpr double kGoldenAngle = 2.4;  // rad; no two drops turn about the same axis
-constexpr int kSamples = 9;           // of the heightfield, along each side
+constexpr int kSamples = 9;           // samples of the heightfield along each side
 
 /// The floor with its top at z = 0; ODE refers to the arrays of a mesh or a heightfield for as long as the geom lives.
 class Floor {
@@ -29,7 +29,7 @@ class Floor {
   Floor& operator=(const Floor&) = delete;
   Floor& operator=(Floor&&) = delete;
 
-  /// `size`: from the middle to the border, m.
+  /// `size` is the distance from the middle to the border, m.
   void lay(FloorKind kind, dSpaceID space, double size) {
     const auto s = static_cast<dReal>(size);
     switch (kind) {
@@ -81,7 +81,7 @@ class Floor {
 }  // namespace
 
 Rest drop(const Row& row, const Attitudes& attitudes, int number) {
-  Floor floor;  // outlives the geom that refers to it
+  Floor floor;  // it must outlive the geom that refers to it
   World world(dSimpleSpaceCreate(nullptr), row.step, row.room);
   floor.lay(row.floor, world.space(), kFloorSize * row.half_height);
   if (row.correcting_velocity > 0) dWorldSetContactMaxCorrectingVel(world.id(), static_cast<dReal>(row.correcting_velocity));

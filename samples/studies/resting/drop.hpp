@@ -1,4 +1,4 @@
-// One body that falls onto a floor, and how it comes to rest.
+// A body that falls onto a floor, and how it comes to rest.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,17 +10,17 @@ namespace resting {
 
 enum class FloorKind { Plane, Box, Mesh, Heightfield, Superellipsoid };
 
-/// A row of the matrix: everything that a program may choose, and the size of the body. Where it is silent, ODE's defaults hold.
+/// A row of the matrix: everything that a program may choose, and the size of the body. For everything else ODE's defaults hold.
 struct Row {
   FloorKind floor = FloorKind::Plane;
-  double exponent = 0;             ///< of both sections; 0: a dBox
+  double exponent = 0;             ///< exponent of both sections; 0: a dBox
   double half_height = 0.05;       ///< m; the half-axes are in the ratio 10 : 7 : 5
   double step = 0.01;              ///< s
   int room = 8;                    ///< contacts a pair
   double correcting_velocity = 0;  ///< m/s; 0: without limit
 };
 
-/// In which attitudes it is dropped.
+/// The attitudes in which it is dropped.
 struct Attitudes {
   int draw = 0;             ///< another number turns about other axes
   double largest_tilt = 6;  ///< degrees; the drops of a row are tilted by 1 degree to this
@@ -30,10 +30,10 @@ struct Attitudes {
 struct Rest {
   bool is_asleep = false;  ///< within ten seconds
   double time = 0;         ///< s; until it fell asleep
-  double height = 0;       ///< of the centre in the end, half-heights
+  double height = 0;       ///< height of the centre in the end, half-heights
 };
 
-inline constexpr int kDrops = 24;  ///< which start in different attitudes
+inline constexpr int kDrops = 24;  ///< they start in different attitudes
 
 /// Drops the body, number 0 to kDrops - 1, from three half-heights onto a floor of Coulomb friction 0.5.
 Rest drop(const Row& row, const Attitudes& attitudes, int number);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLongest = 10;  // s
 constexpr int kNeedles = 60;
 constexpr double kSlenderness = 40;  // half-length to half-thickness
-constexpr double kHeavy = 62;        // the mass of the body that three light ones carry, of one of them
+constexpr double kHeavy = 62;        // mass of the body that three light ones carry, in units of one of them
 
 struct Place {
   double x, y, z;     // m
@@ -83,7 +83,7 @@ class Scene {
     bodies_.push_back(body);
   }
 
-  /// From -largest to largest.
+  /// A random number from -largest to largest.
   double uniform(double largest) { return std::uniform_real_distribution<double>(-largest, largest)(random_); }
 
   HeapRow row_;

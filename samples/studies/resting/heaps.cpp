@@ -1,5 +1,5 @@
-// Whether heaps come to rest as those of dBoxes do: bundles of needles, needles across one another, and a heavy cube on three light
-// ones.
+// Tests whether heaps come to rest as those of dBoxes do: bundles of needles, needles across one another, and a heavy cube on
+// three light ones.
 
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
@@ -30,7 +30,7 @@ struct Options {
   int starts = 1;
 };
 
-// One line for each start.
+// Prints one line for each start.
 void print_row(const std::string& heap, const HeapRow& row, int starts) {
   for (int number = 0; number < starts; ++number) {
     const HeapRest rest = settle(row, number);

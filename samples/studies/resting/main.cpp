@@ -1,5 +1,5 @@
-// Whether flat bodies come to rest as a dBox does, whatever the step, the floor, the size and the room for contacts: drops each
-// body 24 times and prints every row that is worse than that of a dBox, then how many there are.
+// Tests whether flat bodies come to rest as a dBox does, whatever the step, the floor, the size and the room for contacts: drops
+// each body 24 times and prints every row that is worse than that of a dBox, then how many there are.
 
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
@@ -23,7 +23,7 @@ namespace {
 // A row is as good as that of the dBox when as many bodies sleep, after no more than twice the time, and none of those that the
 // dBox holds has sunk into the floor.
 constexpr double kSlower = 2;
-// Half-heights; how far down a dBox itself comes to rest decides where that is lower, but for a hundredth.
+// Half-heights; if a dBox itself comes to rest lower than that, its height less a hundredth is the limit.
 constexpr double kHeld = 0.9;
 constexpr double kSlack = 0.01;
 
@@ -44,11 +44,11 @@ struct Options {
   bool prints_all = false;
 };
 
-/// Of all drops of a row.
+/// The outcome of all drops of a row.
 struct Summary {
   int asleep = 0;
-  double median = 0;  ///< s; of those that never sleep, the whole time
-  double lowest = 0;  ///< of the centre at the end, half-heights
+  double median = 0;  ///< s; bodies that never sleep count with the whole time
+  double lowest = 0;  ///< lowest height of the centre at the end, half-heights
 };
 
 Summary summarise(const Row& row, const Attitudes& attitudes) {
@@ -75,7 +75,7 @@ class Matrix {
  public:
   explicit Matrix(const Options& options) : options_(options) {}
 
-  /// How many rows are worse.
+  /// Returns how many rows are worse.
   int run() {
     std::printf("floor, half-height m, step s, room, correcting m/s, exponent: asleep, median s, lowest (dBox: the same)\n");
     for (const std::string& floor : options_.floors) {

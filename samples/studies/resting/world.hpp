@@ -1,4 +1,4 @@
-// A world of bodies that fall, as a first program of ODE has it.
+// A world of bodies that fall, set up as a first program of ODE would.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,7 +10,7 @@ namespace resting {
 /// ODE's defaults, gravity along -z, auto-disable, and Coulomb friction of 0.5 between all surfaces.
 class World {
  public:
-  /// `space` is destroyed with the world; `step` in s; `room` for contacts a pair, 1 to 8.
+  /// `space` is destroyed with the world; `step` is in s, `room` for contacts a pair, 1 to 8.
   World(dSpaceID space, double step, int room);
   ~World();
   World(const World&) = delete;
@@ -21,13 +21,14 @@ class World {
   dWorldID id() const { return world_; }
   dSpaceID space() const { return space_; }
 
-  /// A superellipsoid with that exponent in both sections, or a dBox where it is 0; half-axes in m. Throws std::runtime_error.
+  /// Adds a superellipsoid with that exponent in both sections, or a dBox where it is 0; half-axes in m. Throws
+  /// std::runtime_error.
   dBodyID add(double exponent, const std::array<double, 3>& half_axes);
 
-  /// `number` seeds quickstep's order of rows, so that a run repeats.
+  /// Makes a step. `number` seeds quickstep's order of rows, so that a run repeats.
   void step(int number);
 
-  /// m; of the deepest contact in the last step.
+  /// m; the depth of the deepest contact in the last step.
   double overlap() const { return overlap_; }
 
  private:

@@ -29,7 +29,7 @@ class Lab {
   dSpaceID space() const { return space_; }
   double step_length() const { return step_; }
 
-  /// z = 0, frictionless or not as the effects say.
+  /// Adds the plane z = 0, with the friction that the effects give it.
   void add_floor();
   dBodyID add(dGeomID geom, double density);
   dBodyID add(dGeomID geom, const dMass& mass);

@@ -43,7 +43,7 @@ bool is_wanted(const char* name, int argc, char** argv) {
   return argc == 1;
 }
 
-/// Exit code 2 for a name that is not one of the experiments.
+/// Returns the exit code, which is 2 for a name that is not one of the experiments.
 int run_program(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     bool known = false;

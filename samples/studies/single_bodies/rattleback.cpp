@@ -12,7 +12,7 @@
 namespace single_bodies {
 namespace {
 
-/// The ellipsoid on a body of its own, at the origin.
+/// Creates the ellipsoid on a body of its own, at the origin.
 dBodyID create_body(dWorldID world, dSpaceID space) {
   const dGeomID geom = snCreateEllipsoid(space, dReal(0.2), dReal(0.03), dReal(0.02));
   if (geom == nullptr) throw std::runtime_error(snLastError());
@@ -35,7 +35,7 @@ void tilt(dBodyID body) {
   dBodySetRotation(body, attitude);
 }
 
-/// Of a body at the origin.
+/// The lowest point of a body at the origin.
 Vector3 lowest_point(dBodyID body) {
   const dVector3 down = {0, 0, -1, 0};
   dVector3 lowest;

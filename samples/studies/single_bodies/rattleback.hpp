@@ -10,11 +10,12 @@ namespace single_bodies {
 /// Half-axes 0.2, 0.03, 0.02 m, the centre of mass 0.01 m below the ellipsoid's; the attitude is R_x(alpha) R_y(beta) R_z(yaw).
 class Rattleback {
  public:
-  /// Let go on the plane z = 0 at alpha = beta = 0.5 degrees with a spin (rad/s) about its third axis, the contact point at rest.
-  /// The world keeps the body, the space the geom; both must outlive it. Throws std::runtime_error when the library refuses it.
+  /// Lets it go on the plane z = 0 at alpha = beta = 0.5 degrees with a spin (rad/s) about its third axis, the contact point at
+  /// rest. The world keeps the body, the space the geom; both must outlive this object. Throws std::runtime_error when the
+  /// library refuses it.
   Rattleback(dWorldID world, dSpaceID space, double spin);
 
-  /// Follows the yaw; after every step.
+  /// Follows the yaw; call it after every step.
   void follow();
 
   dBodyID body() const { return body_; }

@@ -13,7 +13,7 @@ fx::Gravity earth() { return {{0, 0, -kGravity}}; }
 /// Gravity on an incline that falls along x, seen from the incline.
 fx::Gravity incline_of(double angle) { return {{kGravity * std::sin(angle), 0, -kGravity * std::cos(angle)}}; }
 
-/// s; the mean of ten periods of an ellipsoid let go at a small tilt.
+/// s; the mean of ten periods of an ellipsoid that is let go at a small tilt.
 double rocking_period(const std::vector<fx::Effect>& effects) {
   const double tilt = 0.01;
   Lab lab(effects, 1e-4);
@@ -44,19 +44,19 @@ double rolling_ratio(double epsilon) {
   Lab lab({incline_of(angle), fx::Friction{0.8, {}}}, 1e-4);
   lab.add_floor();
   const dBodyID body = lab.add(snCreateSuperellipsoid(lab.space(), dReal(0.1), dReal(0.1), dReal(0.1), 2, dReal(epsilon)), 1000);
-  turn(body, Vector3::UnitX(), 90 * kDegree);  // rolls about its z
+  turn(body, Vector3::UnitX(), 90 * kDegree);  // it rolls about its z-axis
   set_position(body, {0, 0, 0.1});
   for (int step = 0; step < 10000; ++step) lab.step();
   return velocity(body).x() / (kGravity * std::sin(angle));
 }
 
-/// Degrees: the incline at which a body with a superelliptic section of equal half-axes turns over, steepened by a
+/// Degrees; the incline at which a body with a superelliptic section of equal half-axes turns over, when it gets steeper by a
 /// degree in ten seconds.
 double greatest_incline(double exponent, double start) {
   Lab lab({earth(), fx::Friction{2, {}}, fx::Damping{0, 5}}, 1e-3);
   lab.add_floor();
   const auto e = static_cast<dReal>(exponent);
-  // The section in xz; long across, so that it tips about y only.
+  // The section is in xz; the body is long across it, so that it tips about y only.
   const dBodyID body = lab.add(snCreateSuperellipsoid(lab.space(), dReal(0.1), dReal(0.3), dReal(0.1), e, e), 1000);
   set_position(body, {0, 0, 0.1});
   double angle = 0;
@@ -74,15 +74,15 @@ struct Flight {
   double time, x, top;
 };
 
-/// Where a point lands for the `landings`-th time, with linear drag of the time constant tau and restitution e: between impacts in
-/// closed form.
+/// The place where a point lands for the `landings`-th time, with linear drag of the time constant tau and restitution e, in
+/// closed form between impacts.
 Flight fly(double height, double speed, double tau, double e, int landings) {
   Flight flight{0, 0, height};
   double up = 0;
   double start = height;
   for (int landing = 0; landing < landings; ++landing) {
     const auto z = [&](double t) { return start + tau * (up + kGravity * tau) * (1 - std::exp(-t / tau)) - kGravity * tau * t; };
-    double low = up > 0 ? tau * std::log1p(up / (kGravity * tau)) : 0;  // the top
+    double low = up > 0 ? tau * std::log1p(up / (kGravity * tau)) : 0;  // the top of the flight
     flight.top = z(low);
     double high = low + 10;
     for (int i = 0; i < 100; ++i) {
@@ -118,7 +118,7 @@ Results incline() {
 }
 
 Results skipping_bean() {
-  // A bean that lies across its flight shows the same area and the same curvature wherever it flies in that plane.
+  // A bean that lies across its flight shows the same area and has the same curvature wherever it flies in that plane.
   const double radius = 0.004;
   const double viscosity = 0.05;
   const double e = 0.8;
@@ -144,7 +144,7 @@ Results skipping_bean() {
     ours.top = std::max(ours.top, position(bean).z() - radius);
     before = up;
   }
-  // Leith's diameter, with the surface of the prolate spheroid.
+  // The diameter is Leith's, with the surface of the prolate spheroid.
   const double pi = std::numbers::pi;
   const double c = 0.007;
   const double ecc = std::sqrt(1 - radius * radius / (c * c));

@@ -1,4 +1,4 @@
-// Bodies that turn against expectation.
+// Spinning bodies with unexpected motions.
 #include <algorithm>
 #include <cmath>
 
@@ -24,8 +24,8 @@ Results rattleback() {
           {"", "smallest yaw, rad", smallest, -6.81015, source}};
 }
 
-// A ball whose centre of mass lies below its centre turns upside down if its friction slides. Whatever the friction, the component
-// of the angular momentum along the line from the centre of mass to the contact is kept (Jellett 1872).
+// A ball whose centre of mass lies below its centre turns upside down if it slides with friction. Whatever the friction, the
+// component of the angular momentum along the line from the centre of mass to the contact is conserved (Jellett 1872).
 Results tippe_top() {
   const double radius = 0.02;
   const double offset = 0.3 * radius;

@@ -1,4 +1,4 @@
-// What flat bodies rest on.
+// Tests of the contact manifold, the points that flat bodies rest on.
 #include "supernormal/contact/contact_manifold.hpp"
 
 #include <doctest/doctest.h>
@@ -25,8 +25,8 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// How exactly corners are repeated, of the extent of the body: on a flat face the support point that they are seen from depends on
-// the last digits of the normal.
+// Tolerance of repeated corners, relative to the extent of the body: on a flat face the support point that they refer to depends
+// on the last digits of the normal.
 constexpr double kCornerTolerance = 1e-3;
 
 double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
@@ -56,7 +56,7 @@ ContactManifold manifold_of_stacked(const Shape& lower, const Shape& upper, doub
   return find_contact_manifold(lower, pose1, upper, pose2, find_proximity(lower, pose1, upper, pose2));
 }
 
-/// Smallest distance of a corner of one manifold to those of the other, the largest of these.
+/// The largest distance of a corner of one manifold from the nearest one of the other.
 double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
   double largest = 0;
   for (int i = 0; i < a.corner_count; ++i) {
@@ -90,7 +90,7 @@ TEST_CASE("ellipsoids have one contact, however deep") {
   }
 }
 
-TEST_CASE("bodies that are apart or only contact_tolerance have no corners") {
+TEST_CASE("bodies that are apart or only touch have no corners") {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
   CHECK(manifold_on_floor(brick, Matrix3::Identity(), -1e-3).corner_count == 0);
   CHECK(manifold_on_floor(brick, Matrix3::Identity(), 0).corner_count == 0);
@@ -121,15 +121,15 @@ TEST_CASE("a flat body has four corners on the floor, with little between them a
     for (const ManifoldCorner& corner : manifold.corners) {
       CHECK(corner.depth >= 0);
       CHECK(corner.depth <= depth * (1 + 1e-9));
-      // Up from below the body's deepest point.
+      // The ray starts below the body's deepest point and goes up.
       const Vector3 below = corner.point - 2 * manifold.margin * Vector3::UnitZ();
       const RayHit hit = find_ray_hit(body, pose, below, Vector3::UnitZ(), 1);
       REQUIRE(hit.hit);
       CHECK(hit.point.z() <= manifold.margin * (1 + 1e-6));
-      // The chord to the corner lies in the body, and its end not far within.
+      // The chord to the corner lies in the body, and its end is not far within.
       CHECK(hit.point.z() <= corner.point.z() + 1e-9 * half_axes.z());
     }
-    // They span most of the face.
+    // The corners span most of the face.
     CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
     CHECK((manifold.corners[3].point - manifold.corners[1].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
   }
@@ -143,7 +143,7 @@ TEST_CASE("a can rests on two points on its side and on four on its end") {
   REQUIRE(lying.corner_count == 2);
   const Vector3 between = lying.corners[1].point - lying.corners[0].point;
   CHECK(std::abs(between.y()) >= 0.1);
-  // On the line on which it rolls.
+  // The corners are on the line on which it rolls.
   CHECK(std::abs(between.x()) <= 1e-12);
   CHECK(std::abs(lying.corners[0].point.x() - lying.deepest.contact.x()) <= 1e-12);
 }
@@ -159,7 +159,7 @@ TEST_CASE("a body on a box has the corners that it has on a plane") {
     const ContactManifold on_box = find_contact_manifold(brick, pose, table, under, find_proximity(brick, pose, table, under));
     REQUIRE(on_plane.corner_count == 4);
     REQUIRE(on_box.corner_count == 4);
-    // Those on a plane are points of the body, the others in the plane of the contact.
+    // The corners on a plane are points of the body, the others are in the plane of the contact.
     for (ManifoldCorner& corner : on_plane.corners) corner.point.z() = on_box.corners[0].point.z();
     CHECK(distance_of_corners(on_plane, on_box) <= 1e-4);
   }
@@ -179,7 +179,7 @@ TEST_CASE("what hangs over is not supported") {
 
 TEST_CASE("the deepest point of a face that hangs over is on both bodies") {
   Random random(5);
-  // 1 on the surface of a superellipsoid, less inside.
+  // The gauge is 1 on the surface of a superellipsoid, and less inside.
   const auto gauge = [](const Superellipsoid& body, const Pose& pose, const Vector3& point) {
     const Vector3 local = (pose.rotation.transpose() * (point - pose.position)).cwiseQuotient(body.half_axes()).cwiseAbs();
     const double largest = local.maxCoeff();

@@ -79,7 +79,7 @@ TEST_CASE("what random polygons have in common is in both, in either order") {
       REQUIRE(distance_outside(second, common[k]) <= 1e-12);
     }
     REQUIRE(std::abs(area(common) - area(swapped)) <= 1e-12);
-    // A point in both is in what they have in common.
+    // A point in both polygons is in their intersection.
     for (int k = 0; k < 20; ++k) {
       const Vector2 point{place(random), place(random)};
       if (distance_outside(first, point) > 0 || distance_outside(second, point) > 0) continue;
@@ -98,7 +98,7 @@ TEST_CASE("the nearest point of a polygon is on its boundary, and no other one i
     const Vector2 point = (1.1 + std::abs(place(random))) * Vector2(std::cos(repetition), std::sin(repetition));
     const Vector2 nearest = shape.nearest_to(point);
     CHECK(distance_outside(shape, nearest) <= 1e-12);
-    // The line across the way to it separates the polygon from the point.
+    // The line across the segment to the nearest point separates the polygon from the point.
     const Vector2 way = point - nearest;
     for (int k = 0; k < shape.size(); ++k) CHECK(way.dot(shape[k] - nearest) <= 1e-12 * way.norm());
   }

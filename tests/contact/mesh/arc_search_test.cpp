@@ -1,4 +1,4 @@
-// All of an arc against dense sampling: bodies with edges have several maxima there.
+// Searches of a whole arc against dense sampling: bodies with edges have several maxima there.
 #include "contact/mesh/arc_search.hpp"
 
 #include <doctest/doctest.h>
@@ -50,7 +50,7 @@ TEST_CASE("a higher maximum is found where there is one, and none where there is
     const bool is_found = find_higher_maximum(probe, arc, low, high, known, 1e-11);
     CHECK(probe.evaluations() - before <= 62);
     if (highest > 0) {
-      CHECK(!is_found);  // apart
+      CHECK(!is_found);  // the bodies are apart
       continue;
     }
     if (!is_found) {

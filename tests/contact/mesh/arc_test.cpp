@@ -52,7 +52,7 @@ TEST_CASE("the maximum over an arc, against sampling") {
     const std::unique_ptr<Shape> body = draw.body();
     SupportProbe probe(*body, draw.rotation());
     Arc arc = random_arc(draw);
-    // So that the gap along the normal in the middle is this one, and the point nearly over the edge.
+    // The edge is placed so that the gap along the normal in the middle is this one, and the point is nearly over the edge.
     const ArcSample middle = arc.sample(0.5 * arc.end, probe);
     arc.edge_point = middle.point + draw.uniform(0, 0.03) * arc.normal(0.5 * arc.end) + 0.02 * draw.direction();
     const ArcSample low = arc.sample(0, probe);
@@ -70,13 +70,13 @@ TEST_CASE("the maximum over an arc, against sampling") {
     CHECK(found.converged);
     CHECK(found.error <= 1e-11);
     CHECK(found.gap <= 1e-11);
-    // Local, and over the edge: seen along the normal the point is on the edge's line.
+    // The maximum is local, and over the edge: seen along the normal the point is on the edge's line.
     CHECK(std::abs(found.normal.dot(found.point - arc.edge_point) - found.gap) < 1e-14);
     CHECK(std::abs(arc.from.cross(arc.towards).cross(found.normal).dot(found.point - arc.edge_point)) < 1e-9);
     CHECK(found.gap >= std::max(low.gap, high.gap));
     // The body is nowhere deeper.
     CHECK(std::abs(probe.deepest(found.normal).height - found.normal.dot(found.point)) < 2e-11);
-    // The highest there is, where there is one only.
+    // It is also the highest if there is only one.
     const auto* const ellipsoid = dynamic_cast<const Ellipsoid*>(body.get());
     if (ellipsoid != nullptr) CHECK(found.gap >= highest - 1e-11);
   }
@@ -89,7 +89,7 @@ TEST_CASE("a flat side across the edge: the point of it that is over the edge") 
   Arc arc;
   arc.from = Vector3(-0.6, 0, 0.8);
   arc.towards = Vector3(0.8, 0, 0.6);
-  arc.end = std::acos(0.28);  // to (0.6, 0, 0.8)
+  arc.end = std::acos(0.28);  // the other normal is (0.6, 0, 0.8)
   arc.edge_point = {0.3, 0, -0.45};
   const ArcMaximum found = maximize_between(probe, arc, arc.sample(0, probe), arc.sample(arc.end, probe), 1e-11, 1000);
   REQUIRE(!found.is_apart);

@@ -1,4 +1,4 @@
-// The box around a body.
+// Tests of the box around a body.
 #include "contact/mesh/body_box.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@
 using namespace supernormal;
 using namespace supernormal::test;
 
-TEST_CASE("which triangles contact_tolerance the box: as the distance of box and triangle says") {
+TEST_CASE("which triangles touch the box, according to the distance of box and triangle") {
   Draw draw(61);
   int touching = 0;
   for (int i = 0; i < 5000; ++i) {

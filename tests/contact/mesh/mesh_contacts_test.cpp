@@ -1,4 +1,4 @@
-// A body against triangles: as on a plane where the surface is flat, as against a solid hull where it is one.
+// Contacts of a body with triangles: those with a plane where the surface is flat, those with a solid hull where it is one.
 #include "contact/mesh/mesh_contacts.hpp"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ double separation_along(const Shape& shape1, const Pose& pose1, const Shape& sha
          shape2.support(pose2.rotation.transpose() * -normal);
 }
 
-// Of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a corner.
+// The nearest of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a corner.
 Vector3 nearest_point(const MeshTriangle& triangle, const Vector3& point, int& kind) {
   const Vector3 normal = normal_of(triangle);
   const std::array<Vector3, 3>& v = triangle.vertices;
@@ -47,7 +47,7 @@ Vector3 nearest_point(const MeshTriangle& triangle, const Vector3& point, int& k
   return nearest;
 }
 
-// Digit by digit.
+// Checks for the contact with the plane, digit by digit.
 void check_is_plane_contact(const std::vector<MeshContact>& contacts, const Proximity& plane) {
   if (plane.gap > 0) {
     CHECK(contacts.empty());
@@ -77,7 +77,7 @@ TEST_CASE("a tessellated floor is a plane: the same contact, the same digits") {
     const double smallest = body->half_extents().minCoeff();
     const double height = find_plane_proximity(*body, pose, up, 0).gap;
     pose.position.z() = draw.uniform(-0.3, 0.05) * smallest - height;
-    // The deepest point exactly above a vertex, and exactly above an edge.
+    // The deepest point is exactly above a vertex, and exactly above an edge.
     if (i % 4 == 1) pose = {{0.25 * (i % 3), -0.25 * (i % 5), 0.9 * body->half_extents().z()}, Matrix3::Identity()};
     if (i % 4 == 2) pose = {{draw.uniform(-1, 1), 0.25, 0.9 * body->half_extents().z()}, Matrix3::Identity()};
     const Proximity plane = find_plane_proximity(*body, pose, up, 0);
@@ -122,7 +122,7 @@ TEST_CASE("a rod deep in a fine floor, of which only what touches the rod's box 
     }
     const Proximity plane = find_plane_proximity(rod, pose, Vector3::UnitZ(), 0);
     if (plane.gap < -2 * rod.support(pose.rotation.transpose() * Vector3::UnitZ())) {
-      CHECK(contacts_of(rod, pose, near).empty());  // all of it is behind
+      CHECK(contacts_of(rod, pose, near).empty());  // the whole body is behind the plane
       continue;
     }
     ++standing;
@@ -144,7 +144,7 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
     const std::unique_ptr<Shape> body = draw.body();
     const double smallest = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
-    // On the way out from the middle to where the gap is the wanted one.
+    // The body moves out from the middle until the gap is the wanted one.
     Pose pose{mesh_pose.position, draw.rotation()};
     const double wanted = i % 5 == 0 ? 0 : draw.uniform(-0.1, 0.02) * smallest;
     const Vector3 way = draw.direction();
@@ -157,7 +157,7 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     }
     const Proximity expected = find_proximity(*body, pose, hull, mesh_pose);
     const std::vector<MeshContact> contacts = contacts_of(*body, pose, mesh.placed(mesh_pose));
-    if (std::abs(expected.gap) < 1e-9 * smallest) continue;  // to the tolerance neither apart nor overlapping
+    if (std::abs(expected.gap) < 1e-9 * smallest) continue;  // neither apart nor overlapping, to the tolerance
     if (expected.gap > 0) {
       CHECK(contacts.empty());
       continue;
@@ -167,9 +167,9 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     REQUIRE(contacts.size() == 1);
     const Proximity& contact = contacts[0].proximity;
     CHECK(std::abs(contact.gap - expected.gap) < 1e-9 * smallest);
-    // Two ways out may be equally long to that tolerance.
+    // Two separating translations may be equally long to that tolerance.
     CHECK(std::abs(separation_along(*body, pose, hull, mesh_pose, contact.normal) - expected.gap) < 1e-9 * smallest);
-    if (body->has_flat_faces()) continue;  // points of one support are many
+    if (body->has_flat_faces()) continue;  // one normal has many support points
     CHECK((contact.point1 - expected.point1).norm() < 1e-3 * smallest);
     CHECK((contact.point2 - expected.point2).norm() < 1e-3 * smallest);
   }
@@ -254,7 +254,7 @@ TEST_CASE("steps, T-junctions and borders make no ghosts") {
     check_is_plane_contact(contacts_of(body, pose, floor.placed()), find_plane_proximity(body, pose, Vector3::UnitZ(), 0));
   }
 
-  // A step down along x = 0: on the upper floor, beyond it, and at its edge.
+  // A step down is along x = 0: the body is on the upper floor, beyond it, and at its edge.
   TriangleMesh step;
   for (const double y : {-5.0, 5.0}) {
     step.add({-5, y, 0});
@@ -281,13 +281,13 @@ TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
   const std::vector<MeshTriangle> sheet = floor_mesh(4, 1).placed();
   CHECK(contacts_of(rod, {{0, 0, -2.001}, Matrix3::Identity()}, sheet).empty());
   CHECK(contacts_of(rod, {{0, 0, -1}, Matrix3::Identity()}, sheet).size() == 1);
-  // Leaning against the border, the lower end below the sheet: it touches the sheet from behind.
+  // The rod leans against the border, its lower end below the sheet: it touches the sheet from behind.
   const double offset = 0.1 * std::sqrt(2.0);
   const auto leaning = [](double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix(); };
   const double eighth = 0.25 * std::numbers::pi;
   CHECK(contacts_of(rod, {{2 + offset + 0.02, 0, 0}, leaning(eighth)}, sheet).empty());
   CHECK(contacts_of(rod, {{2 + offset - 0.02, 0, 0}, leaning(eighth)}, sheet).empty());
-  // The upper end above the sheet: against its border, from in front.
+  // Its upper end is above the sheet: it leans against the border from in front.
   CHECK(contacts_of(rod, {{2 + offset + 0.02, 0, 0}, leaning(-eighth)}, sheet).empty());
   const std::vector<MeshContact> contacts = contacts_of(rod, {{2 + offset - 0.02, 0, 0}, leaning(-eighth)}, sheet);
   REQUIRE(contacts.size() == 1);
@@ -295,7 +295,7 @@ TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
   CHECK((contacts[0].proximity.normal - Vector3(-1, 0, -1).normalized()).norm() < 0.01);
 }
 
-TEST_CASE("a plate: the shorter way out") {
+TEST_CASE("a plate: the shorter separating translation") {
   const Ellipsoid body({1, 1, 1});
   const std::vector<MeshTriangle> plate = box_mesh({20, 20, 0.1}).placed();
   for (const double height : {0.3, -0.2}) {
@@ -342,7 +342,7 @@ TEST_CASE("degenerate, repeated and unusable triangles") {
 }
 
 TEST_CASE("contacts come deepest first and name their triangle") {
-  // Four posts of different heights under a flat body.
+  // A flat body lies on four posts of different heights.
   std::vector<MeshTriangle> triangles;
   const Superellipsoid body({2, 2, 0.5}, 8, 8);
   for (int i = 0; i < 4; ++i) {

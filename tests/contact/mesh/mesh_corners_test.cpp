@@ -1,4 +1,4 @@
-// A body in the hollows of a mesh: one contact for each side that holds it.
+// A body in the concave parts of a mesh: one contact for each side that holds it.
 #include <doctest/doctest.h>
 
 #include "contact/mesh/mesh_samples.hpp"
@@ -11,7 +11,7 @@ using namespace supernormal::test;
 
 TEST_CASE("valleys and room corners: one contact for each side") {
   const Ellipsoid ball(Vector3::Ones());
-  // Two slopes at 90 degrees, the valley along y.
+  // Two slopes meet at 90 degrees, with the valley along y.
   TriangleMesh valley;
   for (const double x : {-4.0, 0.0, 4.0}) {
     for (const double y : {-3.0, 3.0}) valley.add({x, y, std::abs(x)});
@@ -39,10 +39,10 @@ TEST_CASE("valleys and room corners: one contact for each side") {
 
 namespace {
 
-// A rhombic bipyramid, all but for the exponents: its tip is the deepest point for all normals within 45 degrees of the axis.
+// Nearly a rhombic bipyramid: its tip is the deepest point for all normals within 45 degrees of the axis.
 const Superellipsoid kTip({0.5, 0.5, 1.5}, 1.02, 1.02);
 
-// With the tip along (1, 1, 1), nearly, that far beyond the planes x = 3, y = 4, z = 5.
+// The pose with the tip along (1, 1, 1), nearly, at these depths beyond the planes x = 3, y = 4, z = 5.
 Pose pressed_into_corner(Draw& draw, const Vector3& depths) {
   Pose pose;
   pose.rotation = z_axis_to(Vector3::Ones() + draw.in_box({0.1, 0.1, 0.1}));
@@ -69,7 +69,7 @@ void check_is_held_by_all_walls(const std::vector<MeshContact>& contacts, const 
 TEST_CASE("a sharp tip pressed into a corner of three walls is held by all of them") {
   Draw draw(5);
   const std::vector<MeshTriangle> room = box_mesh({3, 4, 5}, true).placed();
-  // The same walls, but each goes on behind the others: the mesh crosses itself.
+  // The walls are the same, but each goes on behind the others: the mesh crosses itself.
   std::vector<MeshTriangle> crossing;
   for (int axis = 0; axis < 3; ++axis) {
     Pose wall;

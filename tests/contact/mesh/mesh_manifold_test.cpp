@@ -1,4 +1,4 @@
-// Corners of a patch stay on the floor that they are on.
+// Tests that the corners of a contact manifold stay on the floor.
 #include "contact/mesh/mesh_manifold.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ using namespace supernormal;
 
 namespace {
 
-/// The rectangle from (x0, y0) to (x1, y1) at height z, in 2 * columns triangles.
+/// Adds the rectangle from (x0, y0) to (x1, y1) at height z, in 2 * columns triangles.
 void add_rectangle(double x0, double y0, double x1, double y1, double z, int columns, std::vector<MeshTriangle>& triangles) {
   for (int k = 0; k < columns; ++k) {
     const double left = x0 + (x1 - x0) * k / columns;
@@ -26,8 +26,8 @@ void add_rectangle(double x0, double y0, double x1, double y1, double z, int col
   }
 }
 
-/// Of a brick of half-axes 0.1, 0.07, 0.05 at rest on z = 0.
-ContactManifold patch_on_plane() {
+/// The manifold of a brick with half-axes 0.1, 0.07, 0.05 at rest on z = 0.
+ContactManifold manifold_on_plane() {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
   const Pose pose{Vector3(0, 0, 0.05 - 1e-5), Matrix3::Identity()};
   return find_plane_contact_manifold(brick, pose, find_plane_proximity(brick, pose, Vector3::UnitZ(), 0));
@@ -43,25 +43,25 @@ TEST_CASE("on a floor of triangles in any order all corners stay") {
   std::mt19937_64 random(1);
   for (int repetition = 0; repetition < 20; ++repetition) {
     std::shuffle(floor.begin(), floor.end(), random);
-    const ContactManifold plane = patch_on_plane();
-    ContactManifold patch = plane;
-    draw_in_corners(patch, floor);
-    REQUIRE(patch.corner_count == 4);
-    for (std::size_t k = 0; k < 4; ++k) CHECK(patch.corners[k].point == plane.corners[k].point);
+    const ContactManifold plane = manifold_on_plane();
+    ContactManifold manifold = plane;
+    draw_in_corners(manifold, floor);
+    REQUIRE(manifold.corner_count == 4);
+    for (std::size_t k = 0; k < 4; ++k) CHECK(manifold.corners[k].point == plane.corners[k].point);
   }
 }
 
 TEST_CASE("what hangs over the border of a table is drawn in to it") {
   std::vector<MeshTriangle> table;
   add_rectangle(-1, -1, 0.03, 1, 0, 7, table);
-  ContactManifold patch = patch_on_plane();
-  draw_in_corners(patch, table);
-  REQUIRE(patch.corner_count == 4);
+  ContactManifold manifold = manifold_on_plane();
+  draw_in_corners(manifold, table);
+  REQUIRE(manifold.corner_count == 4);
   double farthest = -1;
-  for (const ManifoldCorner& corner : patch.corners) {
+  for (const ManifoldCorner& corner : manifold.corners) {
     CHECK(corner.point.x() <= 0.03 + 1e-6);
-    CHECK(std::abs(corner.point.z()) <= patch.margin);
-    CHECK(corner.depth <= -patch.deepest.gap);
+    CHECK(std::abs(corner.point.z()) <= manifold.margin);
+    CHECK(corner.depth <= -manifold.deepest.gap);
     farthest = std::max(farthest, corner.point.x());
   }
   CHECK(farthest == test::relative(0.03).epsilon(1e-4));
@@ -72,23 +72,23 @@ TEST_CASE("not across a gap, nor onto a step") {
   add_rectangle(-1, -1, 0.03, 1, 0, 7, floor);
   add_rectangle(0.05, -1, 1, 1, 0, 7, floor);
   add_rectangle(0.03, -1, 0.05, 1, -0.01, 1, floor);
-  ContactManifold patch = patch_on_plane();
-  draw_in_corners(patch, floor);
-  for (int k = 0; k < patch.corner_count; ++k) CHECK(patch.corners[static_cast<std::size_t>(k)].point.x() <= 0.03 + 1e-6);
+  ContactManifold manifold = manifold_on_plane();
+  draw_in_corners(manifold, floor);
+  for (int k = 0; k < manifold.corner_count; ++k) CHECK(manifold.corners[static_cast<std::size_t>(k)].point.x() <= 0.03 + 1e-6);
 }
 
 TEST_CASE("without a face under the deepest point there are no corners") {
   std::vector<MeshTriangle> beside;
   add_rectangle(0.05, -1, 1, 1, 0, 7, beside);
-  ContactManifold patch = patch_on_plane();
-  draw_in_corners(patch, beside);
-  CHECK(patch.corner_count == 0);
+  ContactManifold manifold = manifold_on_plane();
+  draw_in_corners(manifold, beside);
+  CHECK(manifold.corner_count == 0);
   std::vector<MeshTriangle> slope;
   add_rectangle(-1, -1, 1, 1, 0, 1, slope);
   for (MeshTriangle& triangle : slope) {
     for (Vector3& vertex : triangle.vertices) vertex.z() = 0.01 * vertex.x();
   }
-  patch = patch_on_plane();
-  draw_in_corners(patch, slope);
-  CHECK(patch.corner_count == 0);
+  manifold = manifold_on_plane();
+  draw_in_corners(manifold, slope);
+  CHECK(manifold.corner_count == 0);
 }

@@ -1,5 +1,5 @@
-// Gaps of bodies and closed meshes, apart and overlapping, against branch and bound on the solid hull: nothing of lib/solvers is in
-// the reference.
+// Gaps of bodies and closed meshes, apart and overlapping, against branch and bound on the solid hull: no solver of lib/proximity
+// is in the reference.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr std::array kGaps = {0.5, 0.05, 0.01, 0.0, -0.01, -0.03, -0.1};  // of the smallest half-extent
+constexpr std::array kGaps = {0.5, 0.05, 0.01, 0.0, -0.01, -0.03, -0.1};  // relative to the smallest half-extent
 
-// Moved along `way` until the gap is about the wanted one.
+// The pose at which the body, moved along `way`, has about the wanted gap.
 Pose placed_at(double wanted, const Shape& body, const Shape& hull, const Pose& hull_pose, const Vector3& way,
                const Matrix3& turn) {
   Pose pose{hull_pose.position, turn};

@@ -56,8 +56,8 @@ inline TriangleMesh floor_mesh(int cells, double cell) {
   return mesh;
 }
 
-/// The closed surface of the hull of points in general position or with quadrangles: every supporting triangle, outward. For few
-/// points.
+/// The closed surface of the hull of points in general position or with quadrangles, from every supporting triangle, outward. It
+/// is slow for many points.
 inline TriangleMesh hull_mesh(const std::vector<Vector3>& points) {
   TriangleMesh mesh;
   mesh.vertices = points;
@@ -95,7 +95,7 @@ inline TriangleMesh icosahedron_mesh() {
   return hull_mesh(points);
 }
 
-/// `inward`: a room instead of a block.
+/// A box of triangles; with `inward` it is a room instead of a block.
 inline TriangleMesh box_mesh(const Vector3& half_lengths, bool inward = false) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -114,7 +114,7 @@ inline TriangleMesh box_mesh(const Vector3& half_lengths, bool inward = false) {
   return mesh;
 }
 
-/// The same numbers in every run.
+/// Random numbers, the same in every run.
 class Draw {
  public:
   explicit Draw(unsigned seed) : engine_(seed) {}
@@ -153,14 +153,14 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-/// Copied, from one query object that is used again and again.
+/// The contacts, copied from one query object that is used again and again.
 inline std::vector<MeshContact> contacts_of(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
   static MeshContacts query;
   const std::span<const MeshContact> found = query.find(shape, pose, triangles, {});
   return {found.begin(), found.end()};
 }
 
-/// Outward, unit.
+/// The outward unit normal.
 inline Vector3 normal_of(const MeshTriangle& t) {
   return (t.vertices[1] - t.vertices[0]).cross(t.vertices[2] - t.vertices[0]).normalized();
 }

@@ -1,6 +1,6 @@
-// A program that knows only what is installed: asks the C++ core and the C interface for the same gap, with a shape of its own too,
-// and catches an exception that the library throws. That takes the tables of virtual functions and the type information of the
-// library.
+// A program that has only what is installed: computes the same gap with the C++ core and the C interface, with a shape of its own
+// too, and catches an exception that the library throws. That takes the library's tables of virtual functions and type
+// information.
 #include <supernormal/supernormal.h>
 
 #include <cmath>

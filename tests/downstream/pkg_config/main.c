@@ -1,4 +1,4 @@
-/* An ODE program in C99 that knows only what is installed. */
+/* An ODE program in C99 that has only what is installed. */
 #include <math.h>
 #include <stdio.h>
 #include <supernormal/supernormal.h>

@@ -18,7 +18,7 @@ int main(void) {
   for (i = 0; i < kPebbles; ++i) {
     pebbles[i] = dGeomGetBody(drop(space));
     dBodySetPosition(pebbles[i], (dReal)0.01 * (i % 3), (dReal)0.008 * (i % 5), (dReal)0.05 * (i + 1));
-    /* Each turned another way. */
+    /* Each pebble turns in another way. */
     dBodySetAngularVel(pebbles[i], i % 7, -i % 4, i % 3);
   }
   for (time = 0; time < longest && awake > 0; time += step) {

@@ -1,4 +1,4 @@
-// How the cases are put together.
+// Functions that build cases.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,23 +7,24 @@
 
 namespace supernormal::samples {
 
-/// Body 1 at the origin, unrotated.
+/// A case with body 1 at the origin, unrotated.
 HardCase pair(std::string name, std::string reason, const Body& body1, const Body& body2, const Pose& pose2,
               std::optional<double> gap = {});
 
-/// Body 2 with attitude `rotation2` where its tangent plane of normal -n is `gap` m above body 1's of normal n and the two boundary
-/// points lie above one another: n is a common normal. Apart or touching it is the only one and the gap is known.
+/// A case in which body 2 has the attitude `rotation2`, its tangent plane of normal -n is `gap` m above body 1's of normal n, and
+/// the two boundary points lie above one another: n is a common normal. If the bodies are apart or touch it is the only one and
+/// the gap is known.
 HardCase on_normal(std::string name, std::string reason, const Body& body1, const Vector3& n, const Body& body2,
                    const Matrix3& rotation2, double gap);
 
-/// Unrotated at `position`.
+/// A pose at `position`, unrotated.
 inline Pose at(const Vector3& position) { return {position, Matrix3::Identity()}; }
 inline Pose at(const Vector3& position, const Matrix3& rotation) { return {position, rotation}; }
 
 /// The attitude turned about an axis (of any length) by an angle in radians.
 inline Matrix3 turned(const Vector3& axis, double angle) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
 
-/// Far from any symmetry.
+/// An attitude far from any symmetry.
 inline Matrix3 askew() { return Eigen::Quaterniond(0.3, -0.7, 0.2, 0.6).normalized().toRotationMatrix(); }
 
 inline constexpr double kQuarterTurn = 1.5707963267948966;

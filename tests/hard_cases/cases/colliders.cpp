@@ -19,7 +19,7 @@ std::vector<Smooth> smooth_bodies() {
           {"an octahedral body (1.05)", superellipsoid(kHalf, 1.05, 1.05)}};
 }
 
-/// Flat, in the plane z = 0; the origin is inside.
+/// A flat triangle in the plane z = 0; the origin is inside.
 Body triangle() { return polytope({{-0.75, -0.5, 0}, {1, -0.5, 0}, {0.25, 1, 0}}); }
 
 void add_on_faces(std::vector<HardCase>& cases, const Smooth& smooth) {
@@ -56,7 +56,7 @@ void add_of_two(std::vector<HardCase>& cases) {
   cases.push_back(pair("colliders: box on box, flush", reason, cube, cube, at({0, 0, 1.0625}), 0.0625));
   cases.push_back(pair("colliders: box in box, concentric", reason, cube, cube, {}, -1));
   for (const double tilt : {1e-16, 1e-8, 1e-2}) {
-    const double height = 0.5 * (std::cos(tilt) + std::sin(tilt));  // of the lowest corners, below the upper one's centre
+    const double height = 0.5 * (std::cos(tilt) + std::sin(tilt));  // distance of the lowest corners below the upper one's centre
     cases.push_back(pair("colliders: box on box, tilted by " + text(tilt), reason, box({1, 1, 0.5}), cube,
                          at({0.0625, 0, 1.125}, turned(Vector3::UnitX(), tilt)), 0.625 - height));
   }

@@ -1,4 +1,4 @@
-// Concentric, identical, aligned: the centre line has no direction, or every direction is as good.
+// Concentric, identical, aligned bodies: the centre line has no direction, or every direction is as good.
 #include <cmath>
 
 #include "builders.hpp"
@@ -21,7 +21,7 @@ void add_identical(std::vector<HardCase>& cases) {
   for (const auto& [delta, epsilon] : {std::pair{4., 4.}, {8., 20.}, {50., 2.}, {200., 200.}, {1000., 1000.}}) {
     add("superellipsoids " + text(delta) + ", " + text(epsilon), superellipsoid(kLengths, delta, epsilon), kGap);
   }
-  // Below exponent 2 the nearest planes lean towards (1, 1, 1): shared/reference/README.md.
+  // Below exponent 2 the nearest planes lean towards (1, 1, 1): tests/data/README.md.
   for (const double exponent : {1.01, 1.3, 1.9}) {
     add("superballs " + text(exponent), superball(0.7, exponent), -1.4 * std::pow(3, 0.5 - 1 / exponent));
   }
@@ -31,7 +31,7 @@ void add_nearly_concentric(std::vector<HardCase>& cases) {
   const std::string reason = "the centre line has a direction, but it is noise: far shorter than the bodies";
   for (const double offset : {1e-300, 1e-100, 1e-16, 1e-12, 1e-8, 1e-4}) {
     const Pose pose = at({0, 0, offset});
-    const double gap = kGap + offset;  // along z: out of the near side of both
+    const double gap = kGap + offset;  // along z, on the near side of both
     cases.push_back(pair("nearly concentric: ellipsoids " + text(offset) + " m apart", reason, ellipsoid(kLengths),
                          ellipsoid(kLengths), pose, gap));
     cases.push_back(pair("nearly concentric: boxy " + text(offset) + " m apart", reason, superellipsoid(kLengths, 20, 20),
@@ -58,7 +58,7 @@ void add_turned(std::vector<HardCase>& cases) {
                        ellipsoid({0.01, 1, 0.01}), {}, -0.02));
 }
 
-/// Homothetic aligned bodies touch where their common boundary says so: shared/reference/README.md.
+/// Homothetic aligned bodies touch where their common boundary says so: tests/data/README.md.
 void add_homothetic(std::vector<HardCase>& cases) {
   for (const double exponent : {1.05, 30.}) {
     for (const Vector3& direction : {Vector3(1, 1, 0), Vector3(1, 1, 1), Vector3(3, -2, 1)}) {

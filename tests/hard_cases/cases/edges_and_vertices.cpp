@@ -9,10 +9,10 @@ const Vector3 kLengths(1, 0.8, 0.5);  // m
 struct Meeting {
   const char* what;
   Vector3 n;
-  Matrix3 rotation2;  // what turns the edge or vertex towards the other body
+  Matrix3 rotation2;  // turns the edge or vertex towards the other body
 };
 
-/// Of bodies like boxes: edges and corners lie diagonally.
+/// Meetings of bodies like boxes: edges and corners lie diagonally.
 std::vector<Meeting> boxy_meetings() {
   const Vector3 edge(0, 1, 1), corner(1, 1, 1);
   return {
@@ -26,7 +26,7 @@ std::vector<Meeting> boxy_meetings() {
   };
 }
 
-/// Of bodies like octahedra: vertices lie on the axes, edges between two of them.
+/// Meetings of bodies like octahedra: vertices lie on the axes, edges between two of them.
 std::vector<Meeting> octahedral_meetings() {
   const Vector3 edge(0.8, 1, 0);
   return {

@@ -1,4 +1,4 @@
-// Exponents at the ends of their range, and beside 2, where the formulas change.
+// Exponents at the ends of their range, and near 2, where the formulas change.
 #include <cmath>
 
 #include "builders.hpp"

@@ -1,4 +1,4 @@
-// Far from the origin; normals and centre lines on and beside the coordinate planes; starts that lead nowhere.
+// Bodies far from the origin; normals and centre lines on and near the coordinate planes; starts that lead nowhere.
 #include "builders.hpp"
 
 namespace supernormal::samples {
@@ -23,11 +23,11 @@ void add_far_away(std::vector<HardCase>& cases, const Family& family) {
     for (Pose* pose : {&one.pose1, &one.pose2}) pose->position += place;
     cases.push_back(std::move(one));
   };
-  // Centres whose coordinates and their sums are exact.
+  // The coordinates of the centres and their sums are exact.
   const Body body = body_of(family);
   add("apart", pair("", "", body, body, at({0, 0, 1.0625}), 0.0625));
   add("touching", pair("", "", body, body, at({0, 0, 1}), 0));
-  // Octahedra leave one another sideways, which is shorter.
+  // Octahedra are separated sideways, which is shorter.
   const std::optional<double> known = family.delta < 2 ? std::nullopt : std::optional(-0.0625);
   add("overlapping", pair("", "", body, body, at({0, 0, 0.9375}), known));
   add("overlapping, askew", pair("", "", body, body, at({0.75, 0.5, 0.25}, askew())));
@@ -48,7 +48,7 @@ void add_beside_planes(std::vector<HardCase>& cases, const Family& family) {
   }
 }
 
-/// Of bodies apart, every start leads to the one maximum.
+/// For bodies apart, every start leads to the one maximum.
 void add_bad_starts(std::vector<HardCase>& cases, const Family& family) {
   const Body body = body_of(family);
   const auto add = [&](const std::string& what, const Vector3& first_normal) {

@@ -1,4 +1,4 @@
-// What has to be refused: parameters and poses with which nothing can be computed.
+// Input that has to be refused: parameters and poses with which nothing can be computed.
 #include <limits>
 
 #include "builders.hpp"
@@ -29,7 +29,7 @@ void refuse(std::vector<Refusal>& all, const std::string& name, const std::strin
   all.push_back({name, reason, [body] { make_shape(body); }});
 }
 
-/// Every parameter with one value.
+/// Refusals of every parameter with one value.
 void refuse_everywhere(std::vector<Refusal>& all, const Value& bad) {
   const std::string reason = "no number of a body may be " + std::string(bad.name);
   const double x = bad.value;
@@ -55,7 +55,7 @@ void refuse_everywhere(std::vector<Refusal>& all, const Value& bad) {
   add("half-length of a cylinder", cylinder(1, x));
 }
 
-/// Bodies described by the program.
+/// Refusals of bodies described by the program.
 void refuse_functions(std::vector<Refusal>& all, const Value& bad) {
   const std::string reason = "no number of a body may be " + std::string(bad.name);
   const double x = bad.value;

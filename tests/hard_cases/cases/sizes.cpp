@@ -1,4 +1,4 @@
-// Sizes: a grain of a micrometre against a body of a kilometre, and the ends of the range that shapes accept.
+// Extreme sizes: a grain of a micrometre against a body of a kilometre, and the ends of the range that shapes accept.
 #include "builders.hpp"
 
 namespace supernormal::samples {
@@ -24,7 +24,7 @@ void add_at_the_end(std::vector<HardCase>& cases, double unit) {
     const Body body = superellipsoid(half_axes, exponent, exponent);
     const std::string theme = "sizes: half-axes of " + text(unit) + " m (" + text(exponent) + ")";
     cases.push_back(on_normal(theme + ", apart", reason, body, Vector3(1, 1, 2), body, askew(), 0.125 * unit));
-    // Octahedra leave one another sideways, which is shorter.
+    // Octahedra are separated sideways, which is shorter.
     const std::optional<double> known = exponent < 2 ? std::nullopt : std::optional(-0.0625 * unit);
     cases.push_back(pair(theme + ", overlapping", reason, body, body, at({0, 0, 0.9375 * unit}), known));
   }

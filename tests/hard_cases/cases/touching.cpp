@@ -1,4 +1,4 @@
-// A gap of zero, or one unit in the last place beside it.
+// Gaps of zero, or of one unit in the last place above or below.
 #include <cmath>
 
 #include "builders.hpp"
@@ -30,7 +30,7 @@ std::vector<HardCase> touching_cases() {
     cases.push_back(on_normal("touching: " + std::string(family.name) + ", askew", "the gap is zero but for rounding", body,
                               Vector3(1, 2, -1), body, askew(), 0));
   }
-  // shared/reference/README.md: superballs of the LAMMPS unit tests.
+  // The LAMMPS unit tests have these superballs (tests/data/README.md).
   for (const double exponent : {2., 3.5, 8.}) {
     HardCase touching = pair("touching: LAMMPS superballs " + text(exponent), "published: touch at the origin",
                              superball(3.456, exponent), superball(3.456, exponent), at({3.456, 0, 0}), 0);

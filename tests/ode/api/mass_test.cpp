@@ -8,7 +8,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// Principal moments per mass from the second moments, and nothing off the diagonal.
+// Checks the principal moments per mass against the second moments, and that nothing is off the diagonal.
 void check_inertia(const dMass& mass, const Vec& squares) {
   const double m = mass.mass;
   CHECK(mass.I[0] == relative(m * (squares[1] + squares[2])).epsilon(within_rounding(1e-12)));
@@ -43,7 +43,7 @@ TEST_CASE("ellipsoid: the textbook") {
   for (const int i : {0, 5, 10}) CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-14)));
 }
 
-TEST_CASE("superellipsoids: the values of shared/reference/README.md, 'Volume and inertia (closed form)'") {
+TEST_CASE("superellipsoids: the values of tests/data/README.md, 'Volume and inertia'") {
   OdeSession session;
   dMass mass;
   {
@@ -117,7 +117,7 @@ TEST_CASE("ODE accepts the mass of every body that it can hold") {
     dMass mass;
     REQUIRE(snMassSet(&mass, 1000, geom) == 1);
     CHECK(dMassCheck(&mass) == 1);
-    dBodySetMass(dBodyCreate(world), &mass);  // asserts
+    dBodySetMass(dBodyCreate(world), &mass);  // ODE asserts it
   }
   dWorldDestroy(world);
 }

@@ -18,8 +18,8 @@ snProximity proximity(dGeomID g1, dGeomID g2) {
   return answer;
 }
 
-// Signed distance from the surface where it is positive, by the formulas of the shapes; inside, some number that is not positive
-// and 0 on the surface.
+// The signed distance from the surface where it is positive, by the formulas of the shapes; inside, some number that is not
+// positive, and 0 on the surface.
 double distance_from(dGeomID collider, const Vec& point) {
   dVector3 local{};
   if (dGeomGetClass(collider) != dPlaneClass) {
@@ -55,7 +55,7 @@ double distance_from(dGeomID collider, const Vec& point) {
   }
 }
 
-// Of a dConvex we know no formula: a small sphere at the point touches it from the side of the normal.
+// There is no formula for a dConvex: a small sphere at the point touches it from the side of the normal.
 bool is_on(dGeomID collider, const Vec& point, const Vec& outward) {
   const double tolerance = within_rounding(3e-9);
   if (dGeomGetClass(collider) != dConvexClass) return std::abs(distance_from(collider, point)) < tolerance;
@@ -100,7 +100,7 @@ TEST_CASE("points on both surfaces, a gap apart along the normal; moved by the g
       const ColliderGeom collider(kind, random);
       place(body, random.uniform(3.2, 6) * random.direction());
       const snProximity apart = proximity(body, collider);
-      if (apart.gap < 0) continue;  // behind a plane
+      if (apart.gap < 0) continue;  // the body is behind a plane
       check_answer(body, collider, apart);
       CHECK(collide(body, collider).empty());
 

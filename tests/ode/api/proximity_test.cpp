@@ -14,7 +14,7 @@ snProximity proximity(dGeomID g1, dGeomID g2) {
   return answer;
 }
 
-// What every answer must satisfy by itself.
+// Checks conditions that every answer must satisfy by itself.
 void check_consistent(const snProximity& p, double rounding) {
   CHECK(norm(to_vec(p.normal)) == relative(1).epsilon(within_rounding(1e-14)));
   const Vec d = to_vec(p.point2) - to_vec(p.point1);
@@ -30,7 +30,7 @@ snStatistics statistics() {
 
 }  // namespace
 
-TEST_CASE("the published pair R1 of shared/reference/README.md") {
+TEST_CASE("the published pair R1 of tests/data/README.md") {
   OdeSession session;
   const Geom g1(snCreateSuperellipsoid(nullptr, 15, 10, 5, dReal(2 / 0.7), dReal(2 / 0.5)));
   const Geom g2(snCreateSuperellipsoid(nullptr, 5, 3, 2, dReal(2 / 0.2), dReal(2 / 1.25)));
@@ -125,7 +125,7 @@ TEST_CASE("the gap of the query and the depth of the contact agree") {
   CHECK(overlapping > 50);
 }
 
-TEST_CASE("certified: proved the shortest way out, and never longer than what the plain query finds") {
+TEST_CASE("certified: proved the minimum translation distance, and never longer than that of the plain query") {
   OdeSession session;
   Random random(61);
   int unproved = 0;

@@ -1,4 +1,4 @@
-// Bad parameters: refused with the parameter, its value and the range; nothing changes.
+// Tests that bad parameters are refused with the parameter, its value and the range, and that nothing changes.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -71,7 +71,7 @@ TEST_CASE("a refused change leaves the geom as it was") {
     check_error("snGeomSetRounding", "radius = ", "[0, 1e+30] m");
   }
   CHECK(Parameters(geom) == before);
-  dGeomSetPosition(geom, 0, 0, 0);  // has the box computed again
+  dGeomSetPosition(geom, 0, 0, 0);  // this has the box computed again
   dGeomGetAABB(geom, box_after);
   for (int i = 0; i < 6; ++i) CHECK(box_before[i] == box_after[i]);
 }
@@ -115,7 +115,7 @@ TEST_CASE("solver settings") {
   check_both(SN_SOLVER_HYBRID, kNan, 10, "tolerance = nan", "[1e-15, 1]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 0, "max_evaluations = 0", "[1, 1000000]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 1000001, "max_evaluations = 1000001", "[1, 1000000]");
-  // As C passes them: any int, before anything has looked at it.
+  // C passes any int, before anything has checked it.
   for (const int number : {3, 7, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
     check_both(static_cast<snSolver>(number), dReal(1e-9), 10, ("solver = " + std::to_string(number) + " ").c_str(),
                "SN_SOLVER_FIXED_POINT (2)");
@@ -135,7 +135,7 @@ TEST_CASE("mass, support, point, proximity") {
     check_error("snMassSetTotal", "total_mass = ", "(0, inf) kg");
   }
   const dReal largest = std::numeric_limits<dReal>::max();
-  CHECK(snMassSet(&mass, largest, geom) == 0);  // 4.19 m^3 of it
+  CHECK(snMassSet(&mass, largest, geom) == 0);  // the body has 4.19 m^3
   check_error("snMassSet", "mass = inf kg", "too heavy a body");
   CHECK(mass.mass == 3);
   CHECK(snMassSet(nullptr, 1, geom) == 0);

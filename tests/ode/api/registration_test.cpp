@@ -1,4 +1,4 @@
-// One class, registered once, whoever else opens and closes ODE.
+// Tests that the class is registered once, whoever else opens and closes ODE.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -126,7 +126,7 @@ TEST_CASE("no free class is a refusal, not an abort") {
   dSetDebugHandler(nullptr);
   CHECK(handler_is_back);
 
-  dCloseODE();  // ours was given back: this one really closes
+  dCloseODE();  // ours was given back: this one really closes ODE
   CHECK(works());
   snClose();
 }

@@ -1,4 +1,4 @@
-// A batch gives the contacts of one dCollide after the other, bit for bit, whoever solves what.
+// Tests that a batch gives the contacts of one dCollide after the other, bit for bit, whichever thread solves a pair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Crowd {
   dSpaceID space = dHashSpaceCreate(nullptr);
   std::vector<ColliderGeom> colliders;
   std::vector<dGeomID> geoms;
-  std::vector<std::size_t> numbers;  // theirs, as their data
+  std::vector<std::size_t> numbers;  // numbers of the geoms, as their data
   MeshGeom mesh;
   bool throws = false;
 
@@ -71,7 +71,7 @@ struct Crowd {
 };
 
 struct Line {
-  std::size_t number1, number2;  // of the geoms
+  std::size_t number1, number2;  // numbers of the geoms
   dContactGeom contact;
 };
 
@@ -109,7 +109,7 @@ bool same_bits(const std::vector<Line>& a, const std::vector<Line>& b) {
 
 constexpr int kRoom = 6;
 
-// What ODE's own geoms do among themselves is not our business.
+// Pairs of ODE's own geoms are ignored.
 int is_one_ours(void* /*lines*/, dGeomID g1, dGeomID g2) {
   return dGeomGetClass(g1) == snGeomClass() || dGeomGetClass(g2) == snGeomClass() ? 1 : 0;
 }
@@ -129,7 +129,7 @@ struct Account {
 
 using Collide = std::function<void(dSpaceID, std::vector<Line>&)>;
 
-// Three steps of a new crowd, in a new thread: it has forgotten all normals.
+// Makes three steps of a new crowd, in a new thread, which remembers no normals.
 Account account_of(const Collide& collide_space) {
   Account account;
   std::thread([&] {

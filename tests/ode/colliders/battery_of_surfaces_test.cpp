@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kRepetitions = 10000;
 
-/// Whether the pair touched: moves the body out by 0.96 of the depth, and by another 0.08.
-bool check_way_out(dGeomID body, dGeomID collider, bool body_first) {
+/// Moves the body out by 0.96 of the depth, and by another 0.08, and returns whether the pair touched.
+bool check_separation(dGeomID body, dGeomID collider, bool body_first) {
   const dGeomID g1 = body_first ? body : collider;
   const dGeomID g2 = body_first ? collider : body;
   const auto contacts = collide(g1, g2);
@@ -38,7 +38,7 @@ TEST_CASE("a block of triangles: out by 0.96 of the depth: still touching; by an
     const MeshGeom block(box_arrays(random.uniform(0.2, 1), random.uniform(0.2, 1), random.uniform(0.2, 1)));
     random.turn(block);
     overlap(body, block, random.uniform(0, 0.3) * size_of(body), random);
-    touching += check_way_out(body, block, i % 2 == 0);
+    touching += check_separation(body, block, i % 2 == 0);
   }
   CHECK(touching > 0.98 * kRepetitions);
 }
@@ -59,7 +59,7 @@ TEST_CASE("a heightfield domed upwards: out by 0.96 of the depth: still touching
     snProximity apart;
     REQUIRE(snGeomProximity(body, heightfield, &apart) == 1);
     move(body, (apart.gap + random.uniform(0, 0.3) * size_of(body)) * to_vec(apart.normal));
-    touching += check_way_out(body, heightfield, i % 2 == 0);
+    touching += check_separation(body, heightfield, i % 2 == 0);
   }
   CHECK(touching > 0.98 * kRepetitions);
 }

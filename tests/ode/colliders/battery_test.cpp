@@ -1,5 +1,5 @@
-// What ODE's own demo_collision.cpp asks of every pair of its classes (ode-facts section 5.1), asked of our bodies with every
-// convex collider and among themselves: 10 000 repetitions each.
+// The checks of ODE's own demo_collision.cpp for every pair of its classes, for our bodies with every convex collider and among
+// themselves: 10 000 repetitions each.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,8 +13,9 @@ namespace {
 
 constexpr int kRepetitions = 10000;
 
-// Of points on the surface: beside an edge as sharp as that of a superellipsoid with exponents 1.02…1.05 and 6 a point has several
-// ways out, of which the solver sometimes takes a wrong one: of bodies like that 0.4 %, off by up to 0.4 % of their size.
+// Allowed errors for points on the surface: near an edge as sharp as that of a superellipsoid with exponents 1.02...1.05 and 6 a
+// point has several separating translations, of which the solver sometimes takes a wrong one: for 0.4 % of such bodies, off by up
+// to 0.4 % of their size.
 constexpr double kMissedShare = 0.001;
 constexpr double kMissedMost = 0.01;
 
@@ -63,7 +64,7 @@ TEST_CASE("the depth of points: at the centre, on the surface, anywhere") {
     const double tolerance = within_rounding(2e-9 * size, 10);
     const auto depth_at = [&](const Vec& p) { return double{snGeomPointDepth(body, dReal(p[0]), dReal(p[1]), dReal(p[2]))}; };
 
-    // It contains the octahedron with the same half-axes, whose inscribed ball has no less than this radius.
+    // The body contains the octahedron with the same half-axes, whose inscribed ball has no less than this radius.
     CHECK(depth_at(centre) >= size / std::sqrt(3.0) - tolerance);
     CHECK(depth_at(centre) <= size * (1 + 1e-9));
 
@@ -77,7 +78,7 @@ TEST_CASE("the depth of points: at the centre, on the surface, anywhere") {
     const double out = random.uniform(0, 2);
     CHECK(std::abs(depth_at(to_vec(surface) + out * n) + out) <= tolerance);
 
-    // Depth is concave within the body: between the centre and the surface at least the share of the way.
+    // Depth is concave within the body: between the centre and the surface it is at least the share of the distance.
     const double share = random.uniform(0, 1);
     const Vec between = centre + share * (to_vec(surface) - centre);
     CHECK(depth_at(between) >= (1 - share) * depth_at(centre) - tolerance);

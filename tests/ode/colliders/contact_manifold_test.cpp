@@ -16,7 +16,8 @@ namespace {
 
 using Contacts = std::vector<dContactGeom>;
 
-/// What the contacts do to a body of unit weight that stands still: force, and torque about its centre over its longest half-axis.
+/// The load of the contacts on a body of unit weight that stands still: force, and torque about its centre over its longest
+/// half-axis.
 struct Load {
   Vec force{};
   Vec torque{};
@@ -24,15 +25,15 @@ struct Load {
 
 constexpr double kLongest = 0.1;  // half-axis of the bricks, m
 
-/// How a body is weighed. By default in a moment in which it hardly moves, without what pushes the bodies apart.
+/// Settings of the weighing. By default the body hardly moves in the step, and nothing pushes the bodies apart.
 struct Weighing {
-  int room = 8;        // for contacts
+  int room = 8;        // room for contacts
   double erp = 0;      // share of the depth that a step takes away
   double step = 1e-6;  // s
   int iterations = 300;
 };
 
-/// A body without neighbours but for what it stands on, held in one pose after the other.
+/// A body alone with the geom that it stands on, held in one pose after the other.
 class Scale {
  public:
   Scale(dGeomID geom, dGeomID under, const Weighing& how = {})
@@ -93,8 +94,8 @@ class Scale {
 
 double difference(const Load& a, const Load& b) { return std::max(norm(a.force - b.force), norm(a.torque - b.torque)); }
 
-/// The largest jump of the load at(x), x from 0 to 1: of each of the largest of so many steps what is left when it is halved until
-/// nothing continuous could change as much.
+/// The largest jump of the load at(x), x from 0 to 1: each of the largest of so many steps is halved until nothing continuous
+/// could change as much, and its rest is the jump.
 template <class LoadAt>
 double largest_jump(LoadAt at, int steps) {
   std::vector<std::pair<double, int>> differences;
@@ -130,7 +131,7 @@ void place(dGeomID body, dGeomID under, double angle, double direction, double d
   dRFromAxisAndAngle(rotation, dReal(std::cos(direction)), dReal(std::sin(direction)), 0, dReal(angle));
   dGeomSetRotation(body, rotation);
   double height = 10;
-  // Along z: exact for a plane, and after a few steps for the flat top of a body.
+  // The body moves along z: this is exact for a plane, and takes a few steps for the flat top of a body.
   for (int k = 0; k < 50; ++k) {
     dGeomSetPosition(body, 0, 0, dReal(height));
     snProximity proximity;
@@ -152,7 +153,7 @@ TEST_CASE("there are never more contacts than there is room for, the deepest fir
     const Contacts contacts = collide(brick, floor, room);
     REQUIRE(contacts.size() == static_cast<std::size_t>(std::min(room, 5)));
     CHECK(contacts[0].depth == relative(1e-4));
-    // It does not lean: the face is as deep as its deepest point.
+    // The body does not lean: the face is as deep as its deepest point.
     for (std::size_t k = 1; k < contacts.size(); ++k) CHECK(contacts[k].depth == relative(1e-4));
   }
 }
@@ -180,7 +181,7 @@ TEST_CASE("what carries a flat body does not jump while it tilts, nor while it c
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom box(dCreateBox(nullptr, dReal(0.5), dReal(0.5), dReal(0.2)));
   dGeomSetPosition(box, dReal(0.02), dReal(0.01), dReal(-0.1));
-  constexpr double kMost = 0.02;  // of the weight
+  constexpr double kMost = 0.02;  // relative to the weight
   constexpr int kSteps = 4000;
   for (const dGeomID under : {plane.operator dGeomID(), box.operator dGeomID()}) {
     for (const double exponent : {5.0, 8.0, 60.0}) {
@@ -220,7 +221,7 @@ TEST_CASE("no force jumps while a flat body tilts or comes in deeper, whatever t
       const Geom brick(
           snCreateSuperellipsoid(nullptr, dReal(kLongest), dReal(0.07), dReal(0.05), dReal(exponent), dReal(exponent)));
       Scale scale(brick, plane, {.room = room, .erp = 0.2, .step = 0.01, .iterations = 1000});
-      // From -5 to 40 degrees.
+      // The tilt goes from -5 to 40 degrees.
       const auto tilted = [&](double x) {
         place(brick, plane, 0.8 * x - 0.1, 1.1, 2e-3);
         return scale.weigh();

@@ -1,4 +1,4 @@
-// What dCollide promises: order, normal, depth, skip, flags, fields.
+// Tests of dCollide's contract: order, normal, depth, skip, flags, fields.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,14 +13,14 @@ using namespace supernormal::test;
 
 namespace {
 
-// Overlaps a body at the origin (half-axes 0.5…1.5) or stays just clear of it.
+// Makes a collider that overlaps a body at the origin (half-axes 0.5...1.5) or stays just clear of it.
 ColliderGeom make_collider(ColliderKind kind, Random& random) {
   ColliderGeom collider(kind, random);
   if (kind != ColliderKind::Plane) place(collider, random.uniform(0.6, 1.8) * random.direction());
   return collider;
 }
 
-// One of every kind, around a point.
+// Makes one collider of every kind, around a point.
 std::vector<ColliderGeom> make_colliders_at(const Vec& point) {
   Random random(7);
   std::vector<ColliderGeom> colliders;
@@ -31,7 +31,7 @@ std::vector<ColliderGeom> make_colliders_at(const Vec& point) {
   return colliders;
 }
 
-// Takes the unit normal into g1 and a depth at their word.
+// Checks that the normal is of unit length and points into g1, and that the depth is valid.
 void check_contact(const dContactGeom& contact, dGeomID g1, dGeomID g2) {
   CHECK(contact.g1 == g1);
   CHECK(contact.g2 == g2);
@@ -62,14 +62,14 @@ TEST_CASE("a contact moves the geoms apart, and nothing less does") {
         if (contacts.empty()) continue;
         ++overlapping;
         check_contact(contacts[0], g1, g2);
-        // The corners of a flat overlap.
+        // The other contacts are the corners of a flat overlap.
         for (std::size_t k = 1; k < contacts.size(); ++k) {
           CHECK(contacts[k].depth >= 0);
           CHECK(contacts[k].depth <= contacts[0].depth);
           CHECK(to_vec(contacts[k].normal) == to_vec(contacts[0].normal));
         }
 
-        // Move our body: along the normal when it is g1, against it otherwise.
+        // Our body is moved along the normal when it is g1, against it otherwise.
         const double sign = ours_first ? 1 : -1;
         const Vec out = sign * double{contacts[0].depth} * to_vec(contacts[0].normal);
         const Vec start = to_vec(dGeomGetPosition(body));

@@ -1,4 +1,4 @@
-// dConvex: its vertices as ODE tells them, whatever they are and wherever.
+// Tests of dConvex: its vertices as ODE tells them, whatever and wherever they are.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ snProximity proximity(dGeomID g1, dGeomID g2) {
   return answer;
 }
 
-// The reference: the points themselves, in the geom's frame.
+// The gap to the points themselves, in the geom's frame, as the reference.
 double gap_to_points(const Vector3& half_axes, dGeomID body, const std::vector<Vec>& points, dGeomID convex) {
   std::vector<Vector3> vertices;
   vertices.reserve(points.size());
@@ -53,7 +53,7 @@ std::vector<Vec> box_corners(double x, double y, double z) {
   return corners;
 }
 
-// Golden spiral.
+// Points on a golden spiral.
 std::vector<Vec> sphere_points(int count) {
   std::vector<Vec> points;
   for (int k = 0; k < count; ++k) {
@@ -90,8 +90,8 @@ TEST_CASE("all vertices are found, wherever the geom is") {
     const ConvexGeom convex(points);
     const double distance = i % 5 == 4 ? 1000 : 3;
     place(convex, {random.uniform(-distance, distance), random.uniform(-distance, distance), random.uniform(-distance, distance)});
-    if (i % 4 != 3) random.turn(convex);  // if not turned, many vertices are on the plane that they are listed by
-    // Next to a vertex, so that this one counts.
+    if (i % 4 != 3) random.turn(convex);  // in the others many vertices are on the plane that they are listed by
+    // The body is next to a vertex, so that this one counts.
     const Vec& vertex = points[static_cast<std::size_t>(i) % points.size()];
     dVector3 world;
     dGeomGetRelPointPos(convex, dReal(vertex[0]), dReal(vertex[1]), dReal(vertex[2]), world);
@@ -114,7 +114,7 @@ TEST_CASE("the corners of a box: as dBox") {
     random.turn(box);
     dGeomSetRotation(convex, dGeomGetRotation(box));
     const Geom body(random_body(random));
-    // In overlaps as well: the faces are found from the vertices.
+    // This holds in overlaps as well: the faces are found from the vertices.
     overlap(body, box, random.uniform(-0.5, 0.3) * std::min(size_of(body), size_of(box)), random);
     CHECK(std::abs(proximity(body, box).gap - proximity(body, convex).gap) < within_rounding(2e-9));
   }

@@ -1,5 +1,5 @@
-// One gap: snGeomProximity and dCollide say the same of a body and a mesh with hollows, and of balls what the distance of their
-// centre says.
+// Tests that there is one gap: snGeomProximity and dCollide agree on a body and a mesh with concave parts, and for balls both
+// agree with the distance of their centre.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 Vec cross(const Vec& a, const Vec& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
-/// A closed ring of flat faces: convex without, saddles within.
+/// A closed ring of flat faces: convex outside, with saddles inside.
 MeshArrays ring_arrays(double ring_radius, double tube_radius, unsigned around, unsigned about) {
   MeshArrays mesh;
   for (unsigned i = 0; i < around; ++i) {
@@ -35,7 +35,7 @@ MeshArrays ring_arrays(double ring_radius, double tube_radius, unsigned around, 
   return mesh;
 }
 
-/// A closed block with a step in its top, 2 x 1 x 1 with a quarter taken away: convex and hollow edges.
+/// A closed block with a step in its top, 2 x 1 x 1 with a quarter taken away: it has convex and concave edges.
 MeshArrays step_arrays() {
   MeshArrays mesh;
   const std::array<std::array<double, 2>, 6> outline = {{{-1, -0.5}, {1, -0.5}, {1, 0}, {0, 0}, {0, 0.5}, {-1, 0.5}}};
@@ -47,7 +47,7 @@ MeshArrays step_arrays() {
     mesh.triangles.push_back({k, next, next + 6});
     mesh.triangles.push_back({k, next + 6, k + 6});
   }
-  // Two convex pieces on each side.
+  // Each side consists of two convex pieces.
   const std::array<std::array<unsigned, 3>, 4> side = {{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}};
   for (const auto& [a, b, c] : side) {
     mesh.triangles.push_back({a, c, b});
@@ -66,7 +66,7 @@ std::array<Vec, 3> corners_of(const MeshArrays& mesh, std::size_t index) {
   return corners;
 }
 
-/// Of the point from the triangle: over the face, or else the nearest of the three sides.
+/// The distance of the point from the triangle: over the face, or else from the nearest of the three sides.
 double distance_from(const std::array<Vec, 3>& t, const Vec& p) {
   const Vec normal = cross(t[1] - t[0], t[2] - t[0]);
   bool is_over = true;
@@ -87,8 +87,8 @@ double distance_from(const MeshArrays& mesh, const Vec& p) {
   return least;
 }
 
-/// By the solid angle that the mesh fills (van Oosterom, Strackee: The solid angle of a plane triangle, IEEE Trans. Biomed. Eng.
-/// 30, 1983).
+/// Whether a point is inside, by the solid angle that the mesh fills (van Oosterom, Strackee: The solid angle of a plane
+/// triangle, IEEE Trans. Biomed. Eng. 30, 1983).
 bool is_within(const MeshArrays& mesh, const Vec& p) {
   double angle = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -130,7 +130,8 @@ TEST_CASE("a ball and a mesh with hollows: as far as its centre from the nearest
       REQUIRE(snGeomProximity(ball, mesh, &proximity) == 1);
       if (std::abs(gap) < 1e-9) continue;
       CHECK(contacts.empty() == (gap > 0));
-      if (gap < -0.1 * radius) continue;  // deeper, the planes on both sides of a hollow count farther than they are seen
+      if (gap < -0.1 * radius)
+        continue;  // if it is deeper, the planes on both sides of a concave edge extend farther than they are seen
       CHECK(std::abs(proximity.gap - gap) < within_rounding(1e-9) * radius);
       if (gap < 0) ++touching;
     }

@@ -17,11 +17,11 @@ constexpr double kRadius = 1.2;  // m; no point of the moving geom is farther fr
 
 struct Passage {
   int overlaps = 0;  // steps
-  int switches = 0;  // from one way out to another
+  int switches = 0;  // from one separating translation to another
   int returns = 0;   // to one that was left
 };
 
-/// Moves `moving` through `still`. On one way out no depth changes by more than the motion; on another it may be less at once.
+/// Moves `moving` through `still`. On one branch no depth changes by more than the motion; on another it may be less at once.
 Passage pass_through(dGeomID still, dGeomID moving) {
   const Vec direction = {2. / 3, -1. / 3, 2. / 3};
   const double motion = 2 * kReach / kSteps + kTurn / kSteps * kRadius;
@@ -54,7 +54,7 @@ Passage pass_through(dGeomID still, dGeomID moving) {
 
 }  // namespace
 
-TEST_CASE("geoms that pass slowly through one another keep their way out until another is clearly shorter, and do not return") {
+TEST_CASE("geoms that pass slowly through one another keep their translation until another is clearly shorter, and do not return") {
   const OdeSession session;
   for (int k = 0; k < 3; ++k) {
     const Geom still(k == 0   ? snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), 12, 20)

@@ -1,4 +1,4 @@
-// dRay: ODE's conventions, and its own battery for rays (demo_collision.cpp, test_ray_and_sphere) for our bodies.
+// Tests of dRay: ODE's conventions, and its own battery for rays (demo_collision.cpp, test_ray_and_sphere) for our bodies.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -28,7 +28,7 @@ Vec support(dGeomID geom, const Vec& n) {
 
 Vec centre_of(dGeomID geom) { return to_vec(dGeomGetPosition(geom)); }
 
-/// Both call orders, which must agree; the contact is returned as of dCollide(ray, body).
+/// Collides in both call orders, which must agree; the contact is returned as that of dCollide(ray, body).
 std::vector<dContactGeom> hit(dGeomID ray, dGeomID body) {
   auto contacts = collide(ray, body);
   const auto turned = collide(body, ray);
@@ -55,7 +55,7 @@ Vec orthogonal(Random& random, const Vec& n) {
   return (1 / norm(t)) * t;
 }
 
-/// Exponents 1.02…200 and aspect ratios up to 100, ellipsoids and rounded bodies among them.
+/// Draws a body with exponents 1.02...200 and aspect ratios up to 100, ellipsoids and rounded bodies among them.
 dGeomID any_body(Random& random, int k) {
   const auto between = [&](double low, double high) { return dReal(std::exp(random.uniform(std::log(low), std::log(high)))); };
   const bool is_needle = k % 4 == 0;
@@ -71,8 +71,8 @@ dGeomID any_body(Random& random, int k) {
   return geom;
 }
 
-/// On the boundary, not by the distance of the point (which overlapping has several local maxima) but by the plane with the
-/// contact's own normal, beyond which there is no body.
+/// Checks that the hit is on the boundary, not by the distance of the point (which overlapping has several local maxima) but by
+/// the plane with the contact's own normal, beyond which there is no body.
 void check_on_boundary(dGeomID body, const dContactGeom& contact, const Vec& direction) {
   const Vec pos = to_vec(contact.pos);
   const bool is_from_inside =
@@ -103,7 +103,7 @@ TEST_CASE("as dSphere against rays, from outside and inside") {
     const Vec start = where + random.uniform(0, 2.5) * radius * random.direction();
     aim(ray, start, random.direction(), random.uniform(0, 4 * radius));
 
-    // Where ODE's own formula loses digits, nothing can be compared.
+    // If ODE's own formula loses digits, nothing can be compared.
     const Vec q = start - where;
     dVector3 at, along;
     dGeomRayGet(ray, at, along);
@@ -139,28 +139,28 @@ TEST_CASE("ODE's ray battery for our bodies") {
     const Geom body(any_body(random, k));
     const Vec c = centre_of(body);
     const Vec n = random.direction();
-    const Vec p = support(body, n);  // its boundary point with normal n
+    const Vec p = support(body, n);  // the boundary point with normal n
     const auto scaled = [&](double share) { return c + share * (p - c); };
 
-    // Zero length, just inside and just outside.
+    // The ray has length zero, just inside and just outside.
     aim(ray, scaled(0.99), random.direction(), 0);
     CHECK(hit(ray, body).empty());
     aim(ray, scaled(1.01), random.direction(), 0);
     CHECK(hit(ray, body).empty());
 
-    // Wholly inside.
+    // The ray is wholly inside.
     const Vec q1 = scaled(0.99 * random.uniform(0, 1));
     const Vec q2 = c + 0.99 * random.uniform(0, 1) * (support(body, random.direction()) - c);
     aim(ray, q1, q2 - q1, norm(q2 - q1));
     CHECK(hit(ray, body).empty());
 
-    // Wholly outside, pointing away.
+    // The ray is wholly outside and points away.
     Vec away = random.direction();
     if (dot(away, n) < 0) away = -1.0 * away;
     aim(ray, scaled(1.01), away, 100);
     CHECK(hit(ray, body).empty());
 
-    // From outside towards the centre: too short by 0.01 %, then long enough by as much.
+    // The ray goes from outside towards the centre: too short by 0.01 %, then long enough by as much.
     const double distance = random.uniform(0.5, 2);
     const Vec inward = (1 / norm(c - p)) * (c - p);
     aim(ray, p - distance * inward, inward, 0.9999 * distance);
@@ -171,7 +171,7 @@ TEST_CASE("ODE's ray battery for our bodies") {
     CHECK(norm(to_vec(frontal[0].pos) - p) < within_rounding(1e-9) / std::abs(dot(inward, n)));
     CHECK(std::abs(frontal[0].depth - distance) < within_rounding(1e-9) / std::abs(dot(inward, n)));
 
-    // Random rays from inside and outside.
+    // Random rays start inside and outside.
     const Vec direction = random.direction();
     aim(ray, scaled(random.uniform(0.5, 1.5)), direction, 100);
     const auto random_hit = hit(ray, body);
@@ -181,7 +181,7 @@ TEST_CASE("ODE's ray battery for our bodies") {
       check_on_boundary(body, random_hit[0], direction);
     }
 
-    // Tangential: grazing past and into.
+    // Tangential rays graze past and into the body.
     const Vec tangent = orthogonal(random, n);
     aim(ray, scaled(1.01) - 10.0 * tangent, tangent, 20);
     CHECK(hit(ray, body).empty());

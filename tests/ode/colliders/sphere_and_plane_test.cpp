@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// ODE's normal is that of a way of this length (m), both of whose ends are rounded.
+/// ODE's normal is that of a vector of length `distance` (m), both of whose ends are rounded.
 void check_same(const std::vector<dContactGeom>& ours, const std::vector<dContactGeom>& theirs, double distance = 1) {
   REQUIRE(ours.size() == theirs.size());
   for (std::size_t i = 0; i < ours.size(); ++i) {
@@ -104,7 +104,7 @@ Vec half_lengths(dGeomID geom) {
   }
 }
 
-// A point near the geom, in its frame, and neither in a box nor in a cylinder, where ODE's answers are of another kind.
+// A point near the geom, in its frame, and not in a box or a cylinder, where ODE's answers are of another kind.
 Vec draw_near(dGeomID geom, double distance, Random& random) {
   const Vec half = half_lengths(geom);
   while (true) {
@@ -117,7 +117,7 @@ Vec draw_near(dGeomID geom, double distance, Random& random) {
   }
 }
 
-// Positions may differ along the normal, within the overlap: of sphere and cylinder ODE has them now on one, now on the other.
+// Positions may differ along the normal, within the overlap: for sphere and cylinder ODE puts them now on one, now on the other.
 void check_same_but_for_position(const std::vector<dContactGeom>& ours, const std::vector<dContactGeom>& theirs) {
   REQUIRE(ours.size() == theirs.size());
   for (std::size_t i = 0; i < ours.size(); ++i) {

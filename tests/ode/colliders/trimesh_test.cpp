@@ -1,4 +1,4 @@
-// Our bodies and dTriMesh.
+// Tests of our bodies and dTriMesh.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ void check_same_but_for_side(const std::vector<dContactGeom>& contacts, const st
   }
 }
 
-// Of ours, and of the mesh: ODE swaps what the collider wrote when it was asked the other way round.
+// Sides 1 and 2 are ours and the mesh's: ODE swaps what the collider wrote when it was called in the other order.
 void check_swapped(const std::vector<dContactGeom>& one, const std::vector<dContactGeom>& other) {
   REQUIRE(one.size() == other.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -77,7 +77,8 @@ TEST_CASE("a floor of triangles is a dPlane, in both orders") {
 
 namespace {
 
-/// Two equal bodies that slide in a running world of their own, one on a plane and one on a mesh, without gravity's help along it.
+/// Two equal bodies that slide in a running world of their own, one on a plane and one on a mesh, without gravity's help along
+/// it.
 struct Slide {
   dWorldID world = dWorldCreate();
   dJointGroupID joints = dJointGroupCreate(0);
@@ -126,7 +127,7 @@ dGeomID make_slider(const std::string& kind) {
 
 }  // namespace
 
-// With single precision micrometres are not to be seen over 10 m: they are the spacing of its numbers.
+// With single precision micrometres do not show over 10 m: they are the spacing of its numbers.
 TEST_CASE("10 m across 20 000 triangles: as on a plane" * doctest::skip(kIsSinglePrecision)) {
   OdeSession session;
   struct Case {
@@ -255,7 +256,7 @@ TEST_CASE("distances: the nearest triangle, however far") {
     CHECK(to_vec(one.normal) == -1.0 * to_vec(other.normal));
     CHECK(to_vec(one.point1) == to_vec(other.point2));
   }
-  // Between two distant blocks of one mesh, nearer to the one that is not in the first box looked at.
+  // The body is between two distant blocks of one mesh, nearer to the one that is not in the first box that is searched.
   MeshArrays two = box_arrays(0.5, 0.5, 0.5);
   const auto count = static_cast<dTriIndex>(two.vertices.size());
   const auto triangles = two.triangles;
@@ -287,7 +288,7 @@ TEST_CASE("a room: one contact for each wall, the deepest when there is room for
   const auto contacts = collide(body, room);
   REQUIRE(contacts.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) CHECK(contacts[i].depth == relative(std::array{0.25, 0.125, 0.0625}[i]));
-  CHECK(contacts[0].normal[2] == -1);  // into the body
+  CHECK(contacts[0].normal[2] == -1);  // the normal points into the body
   CHECK(contacts[1].normal[1] == 1);
   CHECK(contacts[2].normal[0] == -1);
   for (const int room_for : {1, 2}) {
@@ -295,7 +296,7 @@ TEST_CASE("a room: one contact for each wall, the deepest when there is room for
     REQUIRE(fewer.size() == static_cast<std::size_t>(room_for));
     for (std::size_t i = 0; i < fewer.size(); ++i) CHECK(fewer[i].depth == contacts[i].depth);
   }
-  // With a stride, nothing between the contacts is touched.
+  // With a stride, nothing between the contacts is written.
   struct Spaced {
     dContactGeom contact;
     std::array<char, 40> between;
@@ -317,7 +318,7 @@ TEST_CASE("meshes of one triangle, of none that is usable, and with repeated tri
   one.triangles.push_back({one.add(-2, -2, 0), one.add(2, -2, 0), one.add(0, 3, 0)});
   const MeshGeom triangle(one);
   check_same_but_for_side(collide(body, triangle), collide(body, plane));
-  place(body, {0.1, 0.2, -0.28});  // from behind: as deep as it is
+  place(body, {0.1, 0.2, -0.28});  // from behind the contact is as deep as the body
   check_same_but_for_side(collide(body, triangle), collide(body, plane));
   place(body, {0.1, 0.2, -0.31});
   CHECK(collide(body, triangle).empty());
@@ -383,7 +384,7 @@ TEST_CASE("the callbacks of the mesh are heard and left in place") {
     CHECK(dGeomTriMeshIsTCEnabled(floor, dBoxClass) == 1);
   }
   CHECK(even > 20);
-  // A distance is no collision to tell of.
+  // A query of the distance is no collision that callbacks are told of.
   told = {};
   snProximity proximity;
   REQUIRE(snGeomProximity(body, floor, &proximity) == 1);

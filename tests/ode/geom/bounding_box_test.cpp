@@ -1,4 +1,4 @@
-// The bounding box encloses the body, and no box along the same axes is smaller.
+// Tests that the bounding box encloses the body, and that no box along the same axes is smaller.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Box {
   explicit Box(dGeomID geom) { dGeomGetAABB(geom, side.data()); }
 };
 
-// Boundary points without our library: superquadric coordinates, rotated by hand.
+// Visits boundary points without our library: superquadric coordinates, rotated by hand.
 template <typename Visit>
 void visit_boundary(const Vec& axes, double delta, double epsilon, int steps, Visit visit) {
   const auto power = [](double base, double exponent) { return std::copysign(std::pow(std::abs(base), exponent), base); };

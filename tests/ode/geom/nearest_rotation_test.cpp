@@ -1,4 +1,4 @@
-// What the core is given for the rotation of a geom.
+// Tests of the rotations that the core gets for geoms.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -43,7 +43,7 @@ double orthonormality_error(const Matrix3& R) { return (R.transpose() * R - Matr
 
 TEST_CASE("the rotations of double precision that ODE makes are taken to the bit") {
   OdeSession session;
-  if (kRealEpsilon > 1e-10) return;  // those of single precision are not orthonormal to rounding
+  if (kRealEpsilon > 1e-10) return;  // rotations of single precision are not orthonormal to rounding
   Draw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (int k = 0; k < 100000; ++k) {
@@ -70,7 +70,7 @@ TEST_CASE("the nearest rotation: orthonormal to rounding, and no farther away th
       if (rotation_error(rough) > 9e-3) continue;
       const Matrix3 Q = orthonormal(rough, geom);
       CHECK(orthonormality_error(Q) <= 2e-15);
-      // Of a polar decomposition the other factor is symmetric.
+      // The other factor of a polar decomposition is symmetric.
       const Matrix3 stretch = Q.transpose() * rough;
       CHECK((stretch - stretch.transpose()).norm() <= 1e-14);
     }

@@ -1,4 +1,5 @@
-// Rotations that are less than orthonormal to rounding: of float's precision they are as good as any, far from a rotation refused.
+// Rotations that are not orthonormal to rounding: those of float's precision are as good as any, and those far from a rotation
+// are refused.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -19,9 +20,9 @@ namespace {
 
 constexpr int kPairs = 20000;
 constexpr double kExponent = 60;
-constexpr double kTolerance = 1e-9;  // of the smallest half-axis: what a query asks for unless told otherwise
+constexpr double kTolerance = 1e-9;  // relative to the smallest half-axis: the default of a query
 
-// Of the unit: two answers, and the rounding of one of them to dReal.
+// The allowed difference, relative to the unit: two answers, and the rounding of one of them to dReal.
 constexpr double kAllowed = 2 * kTolerance + 8 * double{std::numeric_limits<dReal>::epsilon()};
 
 Vector3 to_vector(const Vec& v) { return {v[0], v[1], v[2]}; }
@@ -40,7 +41,7 @@ void rotate(dGeomID geom, const Matrix3& R) {
   dGeomSetRotation(geom, rows);
 }
 
-/// By way of memory: at -O3 GCC 12 leaves some of the entries as they were.
+/// Rounds by way of memory: at -O3 GCC 12 leaves some of the entries as they were.
 Matrix3 rounded_to_float(Matrix3 R) {
   for (double& entry : R.reshaped()) {
     const volatile auto rounded = static_cast<float>(entry);
@@ -49,13 +50,13 @@ Matrix3 rounded_to_float(Matrix3 R) {
   return R;
 }
 
-/// The nearest rotation, by another way than the library's.
+/// The nearest rotation, by another method than the library's.
 Matrix3 polar_factor(const Matrix3& R) {
   const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-/// A body whose rotation has been rounded to float: as ODE knows it, and as the core does with the nearest rotation.
+/// A body whose rotation has been rounded to float: in ODE with that rotation, and in the core with the nearest one.
 struct RoughBody {
   supernormal::Superellipsoid shape;
   Geom geom;
@@ -99,7 +100,7 @@ TEST_CASE("rotations rounded to float: queries converge, to what the nearest rot
   OdeSession session;
   snSetWarmStart(0);
   Random random(60);
-  double largest_error = 0, largest_difference = 0;  // of the unit
+  double largest_error = 0, largest_difference = 0;  // relative to the unit
   int other_maxima = 0;
   for (int k = 0; k < kPairs; ++k) {
     CAPTURE(k);
@@ -112,7 +113,7 @@ TEST_CASE("rotations rounded to float: queries converge, to what the nearest rot
     if (rough.converged == 0) FAIL_CHECK("not converged: error ", rough.error);
     largest_error = std::max(largest_error, rough.error / unit);
     const double difference = std::abs(rough.gap - exact.gap) / unit;
-    // Of bodies that overlap in several ways, rounding may decide which is found.
+    // If bodies overlap in several ways, rounding may decide which is found.
     if (difference > kAllowed && rough.is_global == 0 && !exact.is_global) {
       ++other_maxima;
     } else {

@@ -1,4 +1,4 @@
-// In every kind of space, inside a dGeomTransform, with an offset: what collides is the same.
+// Tests that the same geoms collide in every kind of space, inside a dGeomTransform, with an offset.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ struct Found {
   Pairs near_pairs, touching;
 };
 
-// What ODE's own geoms do among themselves is not our business.
+// Pairs of ODE's own geoms are ignored.
 bool is_one_ours(dGeomID o1, dGeomID o2) { return dGeomGetClass(o1) == snGeomClass() || dGeomGetClass(o2) == snGeomClass(); }
 
 void near_callback(void* data, dGeomID o1, dGeomID o2) {
@@ -135,7 +135,7 @@ TEST_CASE("a box whose corner is in the bounding box but not near the body is pr
     dSpaceCollide(space, &count, [](void* n, dGeomID, dGeomID) { ++*static_cast<int*>(n); });
     return count;
   };
-  const double touching = 0.5 + 1 / std::sqrt(3.0);  // corner on the unit sphere
+  const double touching = 0.5 + 1 / std::sqrt(3.0);  // the corner is on the unit sphere
   const double aside = within_rounding(1e-9, 4);
   place(box, {touching - aside, touching - aside, touching - aside});
   CHECK(calls() == 1);
@@ -163,7 +163,7 @@ void wrap(dGeomID transform, dGeomID inner, dGeomID direct, Random& random) {
   place(direct, to_vec(p) + to_vec(dGeomGetPosition(transform)));
 }
 
-// Returns how many there are.
+// Returns the number of contacts.
 int check_same_contacts(dGeomID transform, dGeomID direct, dGeomID other) {
   const auto by_transform = collide(transform, other);
   const auto by_hand = collide(direct, other);

@@ -1,4 +1,4 @@
-// snCreateSuperovoid: tapered bodies through the C interface.
+// Tests of snCreateSuperovoid: tapered bodies through the C interface.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -98,7 +98,7 @@ TEST_CASE("superovoid: mass, and an egg that comes to rest on its side") {
   const double centroid = c * 2 * taper / 5 / (1 + taper * taper / 5);
   CHECK(mass.c[2] == relative(centroid).epsilon(1e-6));
 
-  // The centre of mass into the origin of the body, the geom as far below it.
+  // The centre of mass is moved into the origin of the body, the geom as far below it.
   dMassTranslate(&mass, 0, 0, -mass.c[2]);
   mass.c[0] = mass.c[1] = mass.c[2] = 0;
   const dBodyID body = world.add(egg, mass);
@@ -107,8 +107,8 @@ TEST_CASE("superovoid: mass, and an egg that comes to rest on its side") {
   turn(body, {1, 0, 0}, 1.2);
 
   for (int step = 0; step < 6000; ++step) world.exact_step(0.002);
-  // At rest the height of the centre of mass over the plane, h(n) + centroid n_z, is least: the axis leans a little, with the blunt
-  // end down, so that the centre of mass is over the contact point.
+  // At rest the height of the centre of mass over the plane, h(n) + centroid n_z, is least: the axis leans a little, with the
+  // blunt end down, so that the centre of mass is over the contact point.
   const dReal* R = dBodyGetRotation(body);
   const double axis_up = R[10];
   CHECK(std::abs(axis_up) < 0.5);

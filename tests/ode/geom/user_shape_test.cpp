@@ -1,4 +1,4 @@
-// snCreateConvex: a body that the program describes.
+// Tests of snCreateConvex: a body that the program describes.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// An ellipsoid given by the program, counting what happens to it.
+// An ellipsoid given by the program, which counts the calls.
 struct Egg {
   double a = 1, b = 0.8, c = 0.6;
   int released = 0;
@@ -52,7 +52,7 @@ snShape describe(Egg& egg, bool with_hessian) {
 
 TEST_CASE("collides as the built-in body of the same form") {
   OdeSession session;
-  // What the functions of a user's body return is as good as dReal: with single precision it converges to no more than that.
+  // The functions of a user's body return dReals: with single precision the query converges to no more than that.
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(within_rounding(1e-9, 100)), 1000);
   Random random(12);
   Egg egg;

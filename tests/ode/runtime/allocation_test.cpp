@@ -1,4 +1,4 @@
-// Colliders do not allocate. An executable of its own, because it replaces operator new for everybody in it.
+// Tests that colliders do not allocate. This is an executable of its own, because it replaces operator new for everything in it.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -53,7 +53,7 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
   {
     const long before = allocations;
     const Geom counted(snCreateEllipsoid(nullptr, 1, 1, 1));
-    REQUIRE(allocations > before);  // the counter sees what the library does
+    REQUIRE(allocations > before);  // the counter counts the library's allocations
   }
   Random random(26);
   std::vector<Geom> bodies;
@@ -116,7 +116,7 @@ TEST_CASE("no allocation in a batch after the first") {
     place(bodies.back(), random.uniform(0, 4) * random.direction());
   }
   dCreatePlane(space, 0, 0, 1, -1);
-  const snBatchID batch = snBatchCreate(1);  // of several, a thread might come too late for the warm-up
+  const snBatchID batch = snBatchCreate(1);  // with several, a thread might come too late for the warm-up
   int contacts_seen = 0;
   const auto collide_all = [&] {
     const auto count = [](void* seen, dGeomID, dGeomID, const dContactGeom*, int more) { *static_cast<int*>(seen) += more; };

@@ -1,4 +1,4 @@
-// Warm start with ODE's own geoms, which have no serial numbers: they are known by where they are.
+// Tests of warm start with ODE's own geoms, which have no serial numbers: they are recognised by their place.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ struct Scene {
     }
   }
 
-  // All contacts of some steps, in which the bodies turn and move a little.
+  // Returns all contacts of some steps, in which the bodies turn and move a little.
   std::vector<dContactGeom> run() {
     Random random(61);
     std::vector<dContactGeom> all;
@@ -80,7 +80,7 @@ TEST_CASE("a separated pair costs one evaluation from the second time on, with e
       move(body, 1e-3 * random.direction());
       snResetStatistics();
       CHECK(collide(body, collider).empty());
-      if (statistics().queries_warm == 0) continue;  // seen in another cell of directions now
+      if (statistics().queries_warm == 0) continue;  // it is now seen in another cell of directions
       ++remembered;
       CHECK(statistics().evaluations_warm == 1);
     }

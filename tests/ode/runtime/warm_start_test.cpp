@@ -1,4 +1,4 @@
-// Warm start saves evaluations and changes nothing else; without it results are a function of the poses.
+// Tests that warm start saves evaluations and changes nothing else, and that without it results are a function of the poses.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ snStatistics statistics() {
   return out;
 }
 
-// A lattice of turned bodies that touch their neighbours.
+// Makes a lattice of turned bodies that touch their neighbours.
 std::vector<Geom> make_pile(int per_side) {
   Random random(23);
   std::vector<Geom> pile;
@@ -33,7 +33,7 @@ std::vector<Geom> make_pile(int per_side) {
   return pile;
 }
 
-// Two steps: every pair of the pile, a small motion, every pair again. Returns all contacts.
+// Makes two steps: every pair of the pile, a small motion, every pair again. Returns all contacts.
 std::vector<dContactGeom> two_steps(std::vector<Geom>& pile) {
   std::vector<dContactGeom> all;
   for (int step = 0; step < 2; ++step) {
@@ -76,7 +76,7 @@ TEST_CASE("a separated pair costs one evaluation from the second time on") {
       move(g1, 1e-3 * random.direction());
       snResetStatistics();
       CHECK(collide(g1, collider).empty());
-      if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // seen in another cell of directions now
+      if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // it is now seen in another cell of directions
       spheres_remembered += collider == dGeomID(sphere) ? 1 : 0;
       CHECK(statistics().queries_warm == 1);
       CHECK(statistics().evaluations_warm == 1);
@@ -180,7 +180,7 @@ TEST_CASE("a pair that was moved by the program starts afresh and finds what it 
         place(collider, deep_inside);
         snResetStatistics();
         const auto moved = collide(g1, collider, 1);
-        // The sphere has an entry for each direction it was seen in, and may be back where it has been: the same answer,
+        // The sphere has an entry for each direction it was seen in, and may be back at an earlier place: the same answer,
         // remembered.
         if (collider == dGeomID(g2)) CHECK(statistics().queries_cold == 1);
         REQUIRE(moved.size() == 1);
@@ -225,7 +225,7 @@ TEST_CASE("a geom that takes a dead one's address does not take its memory") {
 
 namespace {
 
-// A scene of the thread's own (ODE computes poses lazily, inside the geom), from its creation to its contacts.
+// Runs a scene of the thread's own (ODE computes poses lazily, inside the geom), from its creation to its contacts.
 std::vector<dContactGeom> run_scene() {
   dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   auto pile = make_pile(4);

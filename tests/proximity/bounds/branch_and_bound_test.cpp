@@ -1,4 +1,5 @@
-// Deep overlaps: what is proved of the global maximum, and how the hybrid follows a maximum while bodies pass through one another.
+// Tests of deep overlaps: the proofs of the global maximum, and how the hybrid follows a maximum while bodies pass through one
+// another.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -35,7 +36,7 @@ double smallest_radius(const Shape& shape, const Vector3& n) {
   return 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
 }
 
-/// Body 1 is at the origin.
+/// Checks that the bodies are apart; body 1 is at the origin.
 void check_apart(const Shape& body1, const Shape& body2, const Pose& pose2) {
   const Proximity answer = find_proximity(body1, {}, body2, pose2, {});
   CHECK(answer.is_global);
@@ -114,7 +115,7 @@ TEST_CASE("a needle's tip on a vertex of another, 7e-11 m apart: where bodies ma
   CHECK(std::abs(answer.gap - 6.9003e-11) <= answer.error);
 }
 
-// Likewise; the first climb ends 3e-7 m deep.
+// The case is like the one before, but the first climb ends 3e-7 m deep.
 TEST_CASE("the edges of two flat needles at one another's ends, 2e-10 m apart: no search ends before the overlap is proved") {
   const Superellipsoid body1(Vector3(0.34214723099492178, 4.9050957934449073, 1.3734996802765909), 1.1442576482855413,
                              86.759944962975169);
@@ -213,7 +214,7 @@ struct Passage {
 Passage pass_through(const Shape& shape1, const Shape& shape2, const Vector3& direction, double reach) {
   constexpr int kSteps = 2000;
   constexpr int kCompareEvery = 100;
-  constexpr double kTurn = 0.5;  // of the motion in rad, over the whole way
+  constexpr double kTurn = 0.5;  // rad; rotation of the motion over the whole way
   Passage passage;
   std::vector<Vector3> left;
   Proximity before;
@@ -224,11 +225,11 @@ Passage pass_through(const Shape& shape1, const Shape& shape2, const Vector3& di
                     Eigen::AngleAxisd(kTurn * way, Vector3(1, 2, 2) / 3).toRotationMatrix()};
     const Proximity now = find_proximity(shape1, {}, shape2, pose, {}, step > 0 ? &normal : nullptr);
     const bool is_overlap = step > 0 && now.gap < 0 && before.gap < 0;
-    // One motion moves no point by more than this: nor does the gap on one branch.
+    // One motion moves no point by more than this, nor does it change the gap on one branch by more.
     const double motion = 2 * reach / kSteps + kTurn * 2 / kSteps * shape2.half_extents().norm();
     if (is_overlap && std::abs(now.gap - before.gap) > motion * (1 + 1e-6)) {
       ++passage.switches;
-      // Left for a way out that is shorter by a sixth only.
+      // The branch was left for a separating translation that is shorter by a sixth only.
       CHECK(now.gap >= before.gap - motion);
       for (const Vector3& n : left) passage.returns += n.dot(now.normal) > 0.97;
       left.push_back(normal);

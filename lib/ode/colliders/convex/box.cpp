@@ -14,7 +14,7 @@ ContactManifold query_box(dGeomID ours, dGeomID collider, Goal goal) {
   const Box box(0.5 * to_vector(lengths));
   const ColliderShape shape{box, pose_of(collider), collider_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
   ContactManifold manifold = solve_pair(ours, shape, goal);
-  // Onto the box, where ODE's own contacts of dSphere and dBox are.
+  // The contact is moved onto the box, where ODE's own contacts of dSphere and dBox are.
   const Vector3 onto_box = 0.5 * manifold.deepest.gap * manifold.deepest.normal;
   manifold.deepest.contact += onto_box;
   for (int k = 0; k < manifold.corner_count; ++k) manifold.corners[static_cast<std::size_t>(k)].point += onto_box;

@@ -9,7 +9,7 @@
 namespace supernormal::ode {
 namespace {
 
-/// This thread's, kept from query to query for the memory in it.
+/// This thread's vertices, kept from query to query for their memory.
 ConvexVertices& kept_vertices() {
   thread_local ConvexVertices kept;
   return kept;

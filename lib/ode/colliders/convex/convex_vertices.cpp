@@ -10,7 +10,7 @@ namespace supernormal::ode {
 namespace {
 
 constexpr std::size_t kFirstRoom = 256;
-constexpr std::size_t kMostRoom = 0xffff;  // that dCollide can be told of
+constexpr std::size_t kMostRoom = 0xffff;  // the largest number of contacts that dCollide accepts
 
 using Box = Eigen::AlignedBox3d;
 
@@ -34,8 +34,8 @@ ConvexVertices::ConvexVertices() : plane_(dCreatePlane(nullptr, 1, 0, 0, 0)), co
 
 ConvexVertices::~ConvexVertices() { dGeomDestroy(plane_); }
 
-// The plane and with it the order of the vertices follows from the box, which ODE computes when it needs it: inside a
-// dGeomTransform it may be that of an earlier pose. Then the first list, if it is one, serves to find the right one.
+// The plane, and with it the order of the vertices, follows from the box, which ODE computes when it needs it: inside a
+// dGeomTransform it may be that of an earlier pose. Then a first list, if it succeeds, serves to find the right box.
 bool ConvexVertices::read(dGeomID convex) {
   const Pose geom_pose = pose_of(convex);
   if (!geom_pose.position.allFinite() || !geom_pose.rotation.allFinite()) return false;
@@ -56,8 +56,8 @@ bool ConvexVertices::read(dGeomID convex) {
   return std::all_of(points_.begin(), points_.end(), [](const Vector3& point) { return point.allFinite(); });
 }
 
-// World frame; by a plane across the longest side of a box around them, which thus has vertices on both sides or on it. False, and
-// no points, when it has not: ODE has no contacts then.
+// Lists the vertices in the world frame, by a plane across the longest side of a box around them, which thus has vertices on both
+// sides or on it. Returns false, and no points, when it has none: ODE makes no contacts then.
 bool ConvexVertices::list(dGeomID convex, const Eigen::AlignedBox3d& box) {
   points_.clear();
   int axis = 0;
@@ -68,7 +68,7 @@ bool ConvexVertices::list(dGeomID convex, const Eigen::AlignedBox3d& box) {
   return false;
 }
 
-// The vertices v with side * v[axis] <= offset, or < if not `with_plane`.
+// Lists the vertices v with side * v[axis] <= offset, or < if not `with_plane`.
 bool ConvexVertices::list_below(dGeomID convex, int axis, double side, double offset, bool with_plane) {
   const Vector3 normal = side * Vector3::Unit(axis);
   dGeomPlaneSetParams(plane_, to_real(normal.x()), to_real(normal.y()), to_real(normal.z()), to_real(offset));

@@ -12,8 +12,9 @@
 
 namespace supernormal::ode {
 
-/// Collides the geom with a plane through its middle, from both sides: the contacts are all its vertices (ode-facts section 2.3).
-/// They are read anew for every query, because dGeomSetConvex may have changed them. Keeps its memory from one query to the next.
+/// Collides the geom with a plane through its middle, from both sides: the contacts are all its vertices (dCollideConvexPlane in
+/// ODE's convex.cpp). They are read anew for every query, because dGeomSetConvex may have changed them. Keeps its memory from one
+/// query to the next.
 class ConvexVertices {
  public:
   ConvexVertices();
@@ -23,15 +24,15 @@ class ConvexVertices {
   ConvexVertices& operator=(const ConvexVertices&) = delete;
   ConvexVertices& operator=(ConvexVertices&&) = delete;
 
-  /// False when the pose of the geom or one of its vertices is not finite. std::invalid_argument when ODE does not tell its
-  /// vertices: more than 65534 on one side, none at all, or a bounding box that dGeomSetConvex has left behind (dGeomMoved renews
-  /// it).
+  /// Returns false when the pose of the geom or one of its vertices is not finite. Throws std::invalid_argument when ODE does not
+  /// tell its vertices: more than 65534 on one side, none at all, or a bounding box that is out of date since dGeomSetConvex
+  /// (dGeomMoved renews it).
   bool read(dGeomID convex);
 
-  /// m; in the frame of pose(). Each vertex once, in an order that depends on nothing but vertices and pose.
+  /// The vertices, m, in the frame of pose(). Each is listed once, in an order that depends on nothing but vertices and pose.
   std::span<const Vector3> points() const { return points_; }
 
-  /// The axes of the geom, and the middle of its vertices.
+  /// The attitude of the geom, with the middle of its vertices as origin.
   const Pose& pose() const { return pose_; }
 
  private:
@@ -39,7 +40,7 @@ class ConvexVertices {
   bool list_below(dGeomID convex, int axis, double side, double offset, bool with_plane);
   void move_to_middle(const Pose& geom_pose);
 
-  dGeomID plane_;  // not in a space; outlives dCloseODE
+  dGeomID plane_;  // not in a space; it outlives dCloseODE
   std::vector<dContactGeom> contacts_;
   std::vector<Vector3> points_;
   Pose pose_;

@@ -1,7 +1,7 @@
 // Our bodies and dRay.
 //
 // ODE's contact of a ray is no overlap: `depth` is the distance along the ray, `pos` the hit, and the normal opposes the ray, so
-// that it is the outward one from outside and the inward one from inside. A ray of no length hits nothing. As with ODE's own
+// that it is the outward one from outside and the inward one from inside. A ray of length 0 hits nothing. As with ODE's own
 // convex geoms, firstContact, backfaceCull and closestHit make no difference.
 #include "supernormal/raycast/ray.hpp"
 
@@ -15,7 +15,7 @@
 namespace supernormal::ode {
 namespace {
 
-/// Not by the geom's rotation: dGeomRaySet writes one column of it only.
+/// A dRay, read without the geom's rotation: dGeomRaySet writes only one column of it.
 struct Ray {
   Vector3 origin, direction;
   double length;
@@ -28,7 +28,7 @@ struct Ray {
   }
 };
 
-/// The contact that the writer turns into ODE's.
+/// Describes the hit as the contact that the writer turns into ODE's.
 Proximity as_contact(const RayHit& hit) {
   Proximity contact;
   contact.gap = -hit.distance;

@@ -8,8 +8,9 @@
 
 namespace supernormal::ode {
 
-// However the sphere is turned, it is as good as turned with the body: so it has the same place as long as it has the same place on
-// the body. And the normals at which s has its maxima do not depend on the radius: any sphere that has come to this place will do.
+// However the sphere is turned, it may be considered as fixed to the body: so it has the same pose as long as it is at the same
+// place on the body. And the normals at which s has its maxima do not depend on the radius, so the last normal of any sphere at
+// this place will do.
 ContactManifold query_sphere(dGeomID ours, dGeomID collider, Goal goal) {
   const Sphere sphere(dGeomSphereGetRadius(collider));
   const Pose pose{to_vector(dGeomGetPosition(collider)), rotation_of(ours)};

@@ -18,10 +18,10 @@
 namespace supernormal::ode {
 namespace {
 
-// The region is wider than the body by this share of it: what touches it must not be lost by rounding.
+// The region is wider than the body by this share of it, so that rounding loses no triangle that touches it.
 constexpr double kMargin = 1e-6;
 
-// A heightfield that is not placeable has no pose that could be asked for.
+// A heightfield that is not placeable has no pose, and its frame is the world's.
 Pose pose_of_heightfield(dGeomID heightfield) {
   Pose pose;
   dVector3 column;
@@ -36,14 +36,14 @@ Pose pose_of_heightfield(dGeomID heightfield) {
   return pose;
 }
 
-/// The body in the frame of a heightfield, and its box.
+/// The body in the frame of a heightfield, and its bounding box.
 struct Visitor {
   const Shape& shape;
   Pose pose;
   Settings settings;
   BodyBox box;
-  Vector3 centre;   // of the box, m
-  Vector3 extents;  // of the box along the axes of the heightfield, from the centre, m
+  Vector3 centre;   // centre of the box, m
+  Vector3 extents;  // half-extents of the box along the axes of the heightfield, m
 
   Visitor(const Body& body, const Pose& world, const Pose& frame)
       : shape(body.shape()), settings(body.settings()), box(BodyBox::of(shape)) {
@@ -61,7 +61,7 @@ struct Visitor {
   }
 };
 
-/// What a thread keeps from query to query, for the memory in it.
+/// Objects that a thread keeps from query to query, for their memory.
 struct Scratch {
   HeightfieldPatch patch;
   MeshContacts mesh;
@@ -89,7 +89,8 @@ ContactManifold to_world(ContactManifold local, const Pose& frame) {
   return local;
 }
 
-// A body with none of the surface in it is above it or below. Below, it goes out the way of the plane above its middle.
+// A body without any surface in its box is above it or below. If it is below, it is moved out along the normal of the plane above
+// its middle.
 bool find_way_up(HeightfieldProbe& probe, const Visitor& visitor, Proximity& way_up) {
   Facet facet;
   if (!probe.find_facet(visitor.centre.x(), visitor.centre.z(), visitor.size(), facet)) return false;
@@ -103,7 +104,7 @@ bool is_above_all(const HeightfieldProbe& probe, const Visitor& visitor) {
   return visitor.centre.y() - visitor.extents.y() > probe.max_height();
 }
 
-/// In the frame of the heightfield.
+/// The contacts, in the frame of the heightfield.
 struct Found {
   std::span<const Proximity> contacts;  // deepest first
   std::span<const MeshTriangle> triangles;
@@ -125,8 +126,8 @@ Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
   return {kept.contacts, triangles};
 }
 
-// The nearest triangle of those below the body is not nearer than the nearest of all, which is therefore below the body widened by
-// that distance.
+// The nearest triangle of those below the body is at least as far away as the nearest of all, which is therefore below the body
+// widened by that distance.
 Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
   const Region region = visitor.region();
   Settings settings = visitor.settings;

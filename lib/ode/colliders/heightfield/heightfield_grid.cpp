@@ -8,14 +8,14 @@
 namespace supernormal::ode {
 namespace {
 
-// Three columns and rows of samples leave no doubt about their spacing.
+// Three columns and rows of samples determine their spacing without ambiguity.
 constexpr std::size_t kEnough = 3;
 
 // The first listing is for cells much smaller than the body, the last one for cells a million times larger.
 constexpr double kFirstRadius = 1.0 / 64;
 constexpr int kDoublings = 26;
 
-// Steps from a sample into the triangles around it, in cells.
+// Steps from a sample into the six triangles around it, in cells.
 constexpr std::array<std::array<double, 2>, 6> kIntoTriangles = {
     {{0.125, 0.125}, {-0.25, 0.125}, {-0.125, 0.25}, {0.125, -0.25}, {0.25, -0.125}, {-0.125, -0.125}}};
 
@@ -24,7 +24,8 @@ std::vector<double> distinct(const std::vector<Vector3>& samples, int axis) {
   coordinates.reserve(samples.size());
   for (const Vector3& sample : samples) coordinates.push_back(sample[axis]);
   std::sort(coordinates.begin(), coordinates.end());
-  coordinates.erase(std::unique(coordinates.begin(), coordinates.end()), coordinates.end());  // of a column they are the same bits
+  coordinates.erase(std::unique(coordinates.begin(), coordinates.end()),
+                    coordinates.end());  // equal coordinates have the same bits
   return coordinates;
 }
 
@@ -41,9 +42,9 @@ bool is_on(const SampleAxis& axis, const std::vector<double>& coordinates) {
   });
 }
 
-// From one border to the other there is a whole number of cells, which makes the spacing exact.
+// A whole number of cells lies between the borders, which makes the spacing exact.
 std::optional<SampleAxis> finite_axis(std::vector<double> coordinates, double half) {
-  std::erase_if(coordinates, [&](double x) { return std::abs(x) > half * (1 - kBorder); });  // the border, to rounding
+  std::erase_if(coordinates, [&](double x) { return std::abs(x) > half * (1 - kBorder); });  // the border itself, to rounding
   coordinates.push_back(half);
   coordinates.insert(coordinates.begin(), -half);
   const double cells = std::round(2 * half / smallest_step(coordinates));
@@ -53,7 +54,8 @@ std::optional<SampleAxis> finite_axis(std::vector<double> coordinates, double ha
   return axis;
 }
 
-// All samples are at whole multiples of half the spacing: the one farthest from the origin tells the spacing with the most digits.
+// All samples are at whole multiples of half the spacing: the one farthest from the origin determines the spacing to the most
+// digits.
 std::optional<SampleAxis> infinite_axis(const std::vector<double>& coordinates) {
   const double step = smallest_step(coordinates);
   const double baseline = coordinates.back() - coordinates.front();
@@ -79,7 +81,7 @@ std::optional<SampleGrid> grid_through(const HeightfieldProbe& probe, const std:
 
 enum class Verdict { Agrees, Disagrees, Unknown };
 
-// Rays at three places of each triangle: all of a triangle see one plane, and both planes meet at b and c.
+// Rays hit three places of each triangle: all of a triangle see one plane, and both planes meet at b and c.
 Verdict check_cell(HeightfieldProbe& probe, const SampleGrid& grid, std::int64_t i, std::int64_t j) {
   constexpr std::array<std::array<double, 2>, 6> kPlaces = {
       {{0.1, 0.1}, {0.8, 0.1}, {0.1, 0.8}, {0.9, 0.9}, {0.9, 0.2}, {0.2, 0.9}}};
@@ -122,12 +124,12 @@ bool is_confirmed(HeightfieldProbe& probe, const SampleGrid& grid, const Facet& 
   return agreeing > 0;
 }
 
-// All samples around, but for those that ODE keeps to itself from two different planes.
+// Lists all samples around, with those that ODE omits for the plane of one facet added from another facet.
 bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std::vector<Vector3>& samples) {
   if (!probe.list_samples(spot, radius, samples)) return false;
   if (samples.empty()) return true;
-  const Vector3 sample = samples[samples.size() / 2];  // not on the plane of the spot
-  // Beside it, also after rounding.
+  const Vector3 sample = samples[samples.size() / 2];  // off the plane of the spot
+  // The second facet is beside the sample, also after rounding.
   const double aside = std::max(1e-6 * radius, 16 * kRealEpsilon * (std::abs(sample.x()) + std::abs(sample.z())));
   for (const double step : {aside, -aside}) {
     Facet other;
@@ -138,7 +140,7 @@ bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std:
   return true;
 }
 
-// Where a rectangle holds no samples, its surface is a plane if its corners are on one: a kink would part them.
+// A rectangle without samples inside has a plane surface if its corners are on one, because any other would have a kink.
 bool is_plane_around(HeightfieldProbe& probe, const Facet& spot, double reach) {
   const double limit_x = probe.half_width() * kInside;
   const double limit_z = probe.half_depth() * kInside;

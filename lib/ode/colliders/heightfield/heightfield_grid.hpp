@@ -1,4 +1,4 @@
-// Where the samples of a dHeightfield are, which ODE does not tell.
+// The positions of a dHeightfield's samples, which ODE does not tell.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace supernormal::ode {
 
-/// Samples at k * spacing - half for k = 0 … count - 1, or for all k when count is 0 (m).
+/// Samples are at k * spacing - half for k = 0 ... count - 1, or for all k when count is 0 (m).
 struct SampleAxis {
   double spacing = 0;
   double half = 0;
@@ -16,7 +16,7 @@ struct SampleAxis {
 
   double at(std::int64_t k) const { return static_cast<double>(k) * spacing - half; }
 
-  /// The cell with x in it, k for the one from sample k to sample k + 1; beyond the border, the last one.
+  /// The cell that contains x: k for the one from sample k to sample k + 1; the last one beyond the border.
   std::int64_t cell_of(double x) const;
 };
 
@@ -24,16 +24,17 @@ struct SampleGrid {
   SampleAxis x, z;
 };
 
-/// A triangle with the sample (i, j) as a corner, found by a ray near it; of the cell (i, j), samples a (i, j), b (i + 1, j) and
-/// c (i, j + 1), if that one has a surface. (ODE's triangles are abc and dbc, with d (i + 1, j + 1).) Near and not at the
-/// sample: ODE then looks at one cell instead of four. False where none of the triangles around has a surface.
+/// Finds a triangle with the sample (i, j) as a corner, by a ray near it: that of the cell (i, j) with samples a (i, j), b (i +
+/// 1, j) and c (i, j + 1), if that one has a surface. (ODE's triangles are abc and dbc, with d (i + 1, j + 1).) The ray is near
+/// and not at the sample, where ODE would look at four cells instead of one. Returns false if none of the triangles around has a
+/// surface.
 bool find_facet_at_sample(HeightfieldProbe& probe, const SampleGrid& grid, std::int64_t i, std::int64_t j, Facet& facet);
 
-/// Whether two heights are one but for the rounding of the facet's plane. A kink below 1e-9 of the `extent` (m), the difference
+/// Whether two heights are equal but for the rounding of the facet's plane. A kink below 1e-9 of the `extent` (m), the difference
 /// of heights around, counts as rounding.
 bool is_same_height(double height1, double height2, const Facet& facet, double extent);
 
-/// The grid, found by listing samples around the spot, more and more of them, until they show one that the triangles around agree
+/// Finds the grid by listing samples around the spot, more and more of them, until they show one that the triangles around agree
 /// with. It may leave out samples that lie on the plane through their neighbours: the surface is the same. Empty when the surface
 /// is a plane at least as far as `reach` (m) from the spot along x and z, and shows no grid; or when there is none to be found,
 /// because of samples that are not numbers or cells more than a hundred times longer than wide: `is_plane` tells which.

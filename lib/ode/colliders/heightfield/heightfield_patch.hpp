@@ -16,10 +16,10 @@ struct Region {
   double x_low, x_high, z_low, z_high;
 
   Region widened(double by) const { return {x_low - by, x_high + by, z_low - by, z_high + by}; }
-  double reach() const;  ///< from the middle to the farther side
+  double reach() const;  ///< distance from the middle to the farther side
 };
 
-/// Reads triangles, in the heightfield's own frame. It owns the memory and what was learned of the grids: keep one per thread.
+/// Reads triangles, in the heightfield's own frame. It owns the memory and the grids found so far: keep one per thread.
 ///
 /// Samples are read anew in every query, because ODE lets the program change them at any time; whether they are where an earlier
 /// query found them is checked on the way. The triangles are exact when the grid is known, or when the surface is a plane there.
@@ -27,8 +27,8 @@ struct Region {
 /// along x or z, the triangles are those of 32 x 32, or 512 x 512, points of the surface.
 class HeightfieldPatch {
  public:
-  /// All triangles with a part above or below the region. The region is moved to the border where it lies beyond: there is at
-  /// least one triangle, unless samples are not numbers. Valid until the next call. std::domain_error when the region is so far
+  /// All triangles with a part above or below the region. The region is moved to the border if it lies beyond: there is at least
+  /// one triangle, unless samples are not numbers. Valid until the next call. Throws std::domain_error when the region is so far
   /// from the origin that ODE could not tell its cells apart.
   std::span<const MeshTriangle> read(HeightfieldProbe& probe, const Region& region);
 
@@ -44,9 +44,9 @@ class HeightfieldPatch {
   std::size_t node(std::size_t i, std::size_t j) const { return i * z_.size() + j; }
 
   std::unordered_map<dHeightfieldDataID, SampleGrid> grids_;
-  std::vector<double> x_, z_;    // m, ascending, of a lattice of points on the surface
-  std::vector<double> heights_;  // m, of the node (i, j); not a number where there is no surface
-  std::vector<Facet> facets_;    // one that meets the node; of the cell's triangle abc if it has one
+  std::vector<double> x_, z_;    // m, ascending; coordinates of a lattice of points on the surface
+  std::vector<double> heights_;  // m, at the node (i, j); not a number where there is no surface
+  std::vector<Facet> facets_;    // one that meets the node; that of the cell's triangle abc if it has one
   std::vector<MeshTriangle> triangles_;
 };
 

@@ -10,12 +10,12 @@
 namespace supernormal::ode {
 namespace {
 
-// Longer than any ray that has to get through a surface, and not infinite: ODE would multiply it by zero.
+// Longer than any ray that has to get through a surface, and finite, because ODE would multiply infinity by zero.
 constexpr double kRayLength = 1e18;
 
 constexpr int kMaxListed = 2048;
 
-// Heights are told from a ray's start minus the way to the surface: a start this many scales above the surface costs digits.
+// Heights are found as a ray's start minus the distance to the surface: a start this many scales above the surface costs digits.
 constexpr double kNear = 16;
 
 }  // namespace
@@ -59,7 +59,7 @@ bool HeightfieldProbe::cast_down(double x, double z, double start, Facet& facet)
   facet.normal = -to_vector(hit.normal);
   const double slope = std::hypot(facet.normal.x(), facet.normal.z()) / facet.normal.y();
   facet.rounding = kRealEpsilon * (std::abs(start) + std::abs(facet.height) + slope * (std::abs(x) + std::abs(z)));
-  // Of a start below all samples around ODE says that they are hit, though the ray goes down (heightfield.cpp, "totally under").
+  // For a start below all samples around, ODE reports a hit although the ray goes down (heightfield.cpp, "totally under").
   return facet.height < start && facet.normal.allFinite() && facet.normal.y() > 0;
 }
 
@@ -75,8 +75,8 @@ bool HeightfieldProbe::find_facet(double x, double z, double scale, Facet& facet
   return true;
 }
 
-// ODE lists the samples within the deep capsule, but for those of the triangle's planes that meet the capsule's lower end in that
-// very triangle (heightfield.cpp, "pass 2"); the points of these come first, far below.
+// ODE lists the samples within the deep capsule, except for those of the triangle's planes that meet the capsule's lower end in
+// that very triangle (heightfield.cpp, "pass 2"); the points of these come first, far below.
 bool HeightfieldProbe::list_samples(const Facet& facet, double radius, std::vector<Vector3>& samples) {
   const double reach = 1e9 * radius;
   dGeomCapsuleSetParams(capsule_, to_real(radius), to_real(2 * reach));

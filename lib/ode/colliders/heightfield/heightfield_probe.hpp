@@ -1,4 +1,4 @@
-// What can be learned of a dHeightfield through ODE's public interface: there is none to its samples, but ODE's own geoms may be
+// Queries of a dHeightfield through ODE's public interface: it has no function for the samples, but ODE's own geoms can be
 // collided with it.
 #pragma once
 
@@ -12,22 +12,22 @@
 
 namespace supernormal::ode {
 
-/// Of dReal: what ODE is told, and tells, is rounded to it.
+/// The precision of dReal: the numbers that ODE takes and returns are rounded to it.
 inline constexpr double kRealEpsilon = double{std::numeric_limits<dReal>::epsilon()};
 
-/// Of the extent: ODE 0.16 aborts on what reaches beyond the far border by a rounding error (heightfield.cpp,
-/// dIASSERT(nMinX < nMaxX)), and answers no rays on the border.
+/// Width of the border that is avoided, relative to the extent: ODE 0.16 aborts if a geom reaches beyond the far border by a
+/// rounding error (heightfield.cpp, dIASSERT(nMinX < nMaxX)), and finds no rays on the border.
 inline constexpr double kBorder = std::max(1e-9, 8 * kRealEpsilon);
 inline constexpr double kInside = 1 - 10 * kBorder;
 
 /// The plane of the triangle at some (x, z).
 struct Facet {
-  double x = 0, z = 0;                ///< m; where it was asked for
+  double x = 0, z = 0;                ///< m; the point at which the plane was found
   double height = 0;                  ///< m; y of the surface there
-  double rounding = 0;                ///< m; of the height, by what ODE adds up for it
+  double rounding = 0;                ///< m; rounding error of the height, from the terms that ODE adds up for it
   Vector3 normal = Vector3::UnitY();  ///< unit, upward
 
-  /// y of the plane above (at_x, at_z), m.
+  /// The height y of the plane at (at_x, at_z), m.
   double height_at(double at_x, double at_z) const {
     return height - (normal.x() * (at_x - x) + normal.z() * (at_z - z)) / normal.y();
   }
@@ -40,7 +40,7 @@ struct Facet {
 /// ODE keeps scratch memory in the heightfield data: at any time only one thread may collide anything with the same data.
 class HeightfieldProbe {
  public:
-  /// This thread's, looking at the samples of `heightfield`.
+  /// This thread's probe, with the samples of `heightfield`.
   static HeightfieldProbe& looking_at(dGeomID heightfield);
 
   HeightfieldProbe(const HeightfieldProbe&) = delete;
@@ -55,15 +55,15 @@ class HeightfieldProbe {
   double half_depth() const { return half_depth_; }
   bool is_infinite() const;
 
-  /// No sample is above it, m; infinite when ODE does not know (height callback without dGeomHeightfieldDataSetBounds).
+  /// An upper bound of the samples, m; infinite when ODE does not know (height callback without dGeomHeightfieldDataSetBounds).
   double max_height() const { return max_height_; }
 
-  /// False where there is no surface: beyond the border, on it (some 1e-9 of the extent), or where a sample is not a number.
-  /// `scale` (m) is the length that matters to the caller.
+  /// Returns false where there is no surface: beyond the border, on it (some 1e-9 of the extent), or where a sample is not a
+  /// number. `scale` (m) is the length that matters to the caller.
   bool find_facet(double x, double z, double scale, Facet& facet);
 
-  /// Adds samples within `radius` (m) of the facet's (x, z), at their exact places: as a rule all of them, but ODE keeps those of
-  /// some planes to itself, above all that of the facet. False when there are more than it can list.
+  /// Adds samples within `radius` (m) of the facet's (x, z), at their exact places: as a rule all of them, but ODE omits those of
+  /// some planes, above all that of the facet. Returns false when there are more than it can list.
   bool list_samples(const Facet& facet, double radius, std::vector<Vector3>& samples);
 
  private:

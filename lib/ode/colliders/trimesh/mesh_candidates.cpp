@@ -7,7 +7,7 @@
 namespace supernormal::ode {
 namespace {
 
-// The tree is searched in float: of the reach of the coordinates it may lose this share.
+// The tree is searched in float, which may lose this share of the reach of the coordinates.
 constexpr double kFloatMargin = 4e-6;
 
 std::array<Vector3, 3> vertices_of(dGeomID mesh, int index) {
@@ -16,14 +16,14 @@ std::array<Vector3, 3> vertices_of(dGeomID mesh, int index) {
   return {to_vector(v[0]), to_vector(v[1]), to_vector(v[2])};
 }
 
-// Has its capacity before ODE calls: nothing may be thrown through ODE.
+// The vector has its capacity before ODE calls: nothing may be thrown through ODE.
 int write_down(dGeomID /*mesh*/, dGeomID box, int index) {
   static_cast<std::vector<int>*>(dGeomGetData(box))->push_back(index);
-  return 0;  // no contacts, please
+  return 0;  // ODE is to make no contacts
 }
 
-/// Takes the callbacks off a mesh and puts them back. So too the memory of the box that was asked about last: ours is always the
-/// same one, elsewhere.
+/// Takes the callbacks off a mesh and puts them back. This also protects the mesh's memory of the box that it met last: ours is
+/// always the same one, elsewhere.
 class Interception {
  public:
   explicit Interception(dGeomID mesh)

@@ -12,10 +12,10 @@
 
 namespace supernormal::ode {
 
-/// Asks ODE's own tree of bounding volumes, with a dBox and a callback that writes down what it is asked about (ode-facts
-/// section 2.1): the callbacks of the mesh are replaced for that time and put back. As everything with a dTriMesh it is not
-/// for several threads at once. A mesh without such a tree (GIMPACT) is searched from end to end. Keeps its memory and its dBox
-/// from one query to the next, also when ODE is closed and initialised again in between.
+/// Searches ODE's own tree of bounding volumes, with a dBox and a callback that writes down the triangles that it is called for:
+/// the callbacks of the mesh are replaced for that time and put back. Like everything with a dTriMesh, it is not for several
+/// threads at once. A mesh without such a tree (GIMPACT) is searched from end to end. Keeps its memory and its dBox from one
+/// query to the next, also when ODE is closed and initialised again in between.
 class MeshCandidates {
  public:
   MeshCandidates();
@@ -26,8 +26,8 @@ class MeshCandidates {
   MeshCandidates& operator=(MeshCandidates&&) = delete;
 
   /// All triangles of the mesh that touch the box, and perhaps some more, in ODE's order; world frame. Valid until the next call.
-  /// When the program has set a dTriCallback, only those that it agrees to for the body `geom`; a dTriArrayCallback is told of all
-  /// of them first if `is_collision`.
+  /// When the program has set a dTriCallback, only those are listed that it accepts for the body `geom`; a dTriArrayCallback gets
+  /// all of them first if `is_collision`.
   std::span<const MeshTriangle> find(dGeomID mesh, dGeomID geom, const BodyBox& box, const Pose& pose, bool is_collision);
 
  private:

@@ -19,7 +19,7 @@
 namespace supernormal::ode {
 namespace {
 
-/// What a thread keeps from query to query, for the memory in it.
+/// Objects that a thread keeps from query to query, for their memory.
 struct Scratch {
   MeshCandidates candidates;
   MeshContacts contacts;
@@ -31,7 +31,7 @@ Scratch& scratch() {
   return kept;
 }
 
-/// One of our bodies at a mesh.
+/// One of our bodies and a mesh.
 struct Visit {
   dGeomID geom;
   dGeomID mesh;
@@ -42,7 +42,7 @@ struct Visit {
   Visit(dGeomID ours, dGeomID collider)
       : geom(ours), mesh(collider), body(require_body(ours)), pose(pose_of(ours)), box(BodyBox::of(body.shape())) {}
 
-  // ODE aborts on a box that is not one.
+  // ODE aborts on a box whose numbers are not finite.
   bool is_usable() const {
     return pose.position.allFinite() && pose.rotation.allFinite() && box.centre.allFinite() && box.half_lengths.allFinite() &&
            (box.half_lengths.array() > 0).all();
@@ -64,7 +64,7 @@ std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const M
   return found;
 }
 
-/// From the body's centre to the nearest and the farthest point of the mesh's box.
+/// Distances from the body's centre to the nearest and the farthest point of the mesh's box.
 struct Range {
   double least = 0;
   double greatest = 0;
@@ -86,8 +86,8 @@ struct Range {
   }
 };
 
-// Looks farther and farther until there is a triangle, then again as far as that one is away: a nearer one may be outside of the
-// box that the first was found in.
+// Searches a growing box until there is a triangle, then again as far as that one is away: a nearer one may be outside of the box
+// that the first was found in.
 MeshContact find_nearest(const Visit& visit) {
   const Range range(visit);
   const auto nearest_within = [&](double distance) {
@@ -109,8 +109,9 @@ MeshContact find_nearest(const Visit& visit) {
 
 }  // namespace
 
-// Of several contacts the deepest, as in dCollide. Where there is none, the distance of the nearest triangle from either side. It
-// is negative only for a body that touches the mesh from behind, at the border of a sheet: that makes no contact.
+// Returns the deepest of several contacts, as dCollide does, or, if there is none, the distance of the nearest triangle from
+// either side. That distance is negative only for a body that touches the mesh from behind, at the border of a sheet: that makes
+// no contact.
 ContactManifold query_trimesh(dGeomID ours, dGeomID collider, Goal /*goal*/) {
   const Visit visit(ours, collider);
   if (!visit.is_usable()) return {};
@@ -131,7 +132,7 @@ int collide_with_trimesh(dGeomID ours, dGeomID collider, int flags, dContactGeom
     std::vector<LocatedManifold>& manifolds = scratch().manifolds;
     manifolds.clear();
     std::span<const MeshTriangle> near;
-    double margin = -1;  // within which they were looked for
+    double margin = -1;  // margin within which the triangles were searched
     for (const MeshContact& contact : found) {
       manifolds.push_back({contact.proximity, contact.triangle});
       if (out.room() < 2) continue;

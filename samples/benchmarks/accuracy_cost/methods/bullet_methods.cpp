@@ -22,7 +22,7 @@ btTransform to_bullet(const supernormal::Pose& pose) {
   return btTransform(basis, to_bullet(pose.position));
 }
 
-/// One of our shapes without a margin.
+/// One of our shapes as a shape of Bullet, without a margin.
 class BulletShape final : public btConvexInternalShape {
  public:
   explicit BulletShape(const supernormal::Shape& shape) : shape_(shape) {
@@ -73,7 +73,8 @@ class BulletGjkEpa final : public Method {
     if (!found && !is_apart) return {Answer::Kind::None, 0, Vector3::UnitX(), evaluations};
     const Vector3 point1 = from_bullet(results.witnesses[0]);
     const Vector3 point2 = from_bullet(results.witnesses[1]);
-    // Its normal points from body 2 to body 1 when they are apart, as far as its two branches agree at all: told by the points.
+    // Bullet's normal points from body 2 to body 1 when they are apart, as far as its two branches agree at all, so the points
+    // decide.
     const Vector3 normal = (is_apart ? 1 : -1) * (point2 - point1).normalized();
     return {Answer::Kind::Gap, static_cast<double>(results.distance), normal, evaluations, 0.5 * (point1 + point2)};
   }

@@ -24,7 +24,7 @@ fcl::Transform3d to_fcl(const supernormal::Pose& pose) {
 
 sigjmp_buf way_back;
 
-/// Debian's FCL has its assertions on, and some fail: the way out of abort() for the time of a call.
+/// Leaves abort() for the time of a call: Debian's FCL has its assertions on, and some fail.
 class AbortCatcher {
  public:
   AbortCatcher() {
@@ -58,10 +58,10 @@ class FclDistance final : public Method {
   }
 
  private:
-  /// Outside the time that is measured: the first query of a pair is not timed.
+  /// Runs outside of the measured time: the first query of a pair is not timed.
   bool aborts(const Pair& pair) const {
     const AbortCatcher catcher;
-    if (sigsetjmp(way_back, 0) != 0) return true;  // what FCL had allocated is lost
+    if (sigsetjmp(way_back, 0) != 0) return true;  // memory that FCL had allocated is lost
     ask(pair);
     return false;
   }
@@ -73,7 +73,7 @@ class FclDistance final : public Method {
     double gap = std::numeric_limits<double>::quiet_NaN();
     try {
       gap = fcl::distance(&body1, to_fcl(pair.pose1), &body2, to_fcl(pair.pose2), request_, result);
-    } catch (const std::exception&) {  // of touching bodies: its two stages disagree
+    } catch (const std::exception&) {  // its two stages disagree on bodies that touch
     }
     if (!std::isfinite(gap)) return {};
     const auto& [point1, point2] = result.nearest_points;

@@ -13,9 +13,9 @@ static_assert(std::is_same_v<ccd_real_t, double>, "the comparison is with libccd
 
 constexpr double kEpaTolerance = 1e-6;
 constexpr double kMprTolerance = 1e-4;
-constexpr unsigned long kMaxIterations = 100;  // of GJK and MPR; libccd's EPA has no limit
+constexpr unsigned long kMaxIterations = 100;  // limit of GJK and MPR; libccd's EPA has none
 
-/// A body as libccd's callbacks see it.
+/// A body as libccd's callbacks need it.
 struct CcdBody {
   const supernormal::Shape& shape;
   const supernormal::Pose& pose;
@@ -27,7 +27,7 @@ void copy(const Vector3& from, ccd_vec3_t* to) { ccdVec3Set(to, from.x(), from.y
 void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
   const auto& body = *static_cast<const CcdBody*>(object);
   ++body.evaluations;
-  // libccd's directions are of any length. The point is the same for all of them, so libccd is spared the square root.
+  // libccd's directions have any length. The point is the same for all of them, so libccd is spared the square root.
   const Vector3 n = body.pose.rotation.transpose() * Vector3(direction->v[0], direction->v[1], direction->v[2]);
   supernormal::Jet jet;
   body.shape.evaluate(n, supernormal::Order::Point, jet);

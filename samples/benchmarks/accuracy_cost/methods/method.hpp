@@ -1,4 +1,4 @@
-// A way to answer the question of a pair.
+// A method that solves the query of a pair.
 #pragma once
 
 #include <memory>
@@ -13,20 +13,20 @@ namespace accuracy_cost {
 
 struct Answer {
   enum class Kind {
-    None,   ///< gave up
-    Apart,  ///< the bodies do not overlap; how far apart they are was not asked, or the method cannot tell
-    Gap,    ///< the signed gap
+    None,   ///< the method gave up
+    Apart,  ///< the bodies do not overlap; their distance was not asked for, or the method cannot tell
+    Gap,    ///< the signed gap is known
   };
   Kind kind = Kind::None;
   double gap = 0;                                               ///< m
-  supernormal::Vector3 normal = supernormal::Vector3::UnitX();  ///< from body 1 to body 2, world frame; of Kind::Gap
-  double evaluations = 0;                                       ///< of both bodies; 0: not counted
+  supernormal::Vector3 normal = supernormal::Vector3::UnitX();  ///< from body 1 to body 2, world frame; set for Kind::Gap
+  double evaluations = 0;                                       ///< evaluations of both bodies; 0: not counted
   std::optional<supernormal::Vector3> contact = std::nullopt;   ///< m; where the force acts
 };
 
 class Method {
  public:
-  /// `accuracy`: what its own knob of accuracy is set to.
+  /// `accuracy` is the value of the method's own parameter of accuracy.
   explicit Method(std::string name, std::string accuracy = "") : name_(std::move(name)), accuracy_(std::move(accuracy)) {}
   Method(const Method&) = delete;
   Method& operator=(const Method&) = delete;
@@ -42,7 +42,7 @@ class Method {
 
 using Methods = std::vector<std::unique_ptr<Method>>;
 
-/// A tolerance as text: "1e-06".
+/// Writes a tolerance as text: "1e-06".
 std::string power_of_ten(double tolerance);
 
 inline constexpr const char* kHybrid = "hybrid";
@@ -56,15 +56,15 @@ inline constexpr const char* kPointCost = "h and r";
 inline constexpr const char* kCurvatureCost = "h and r and H";  // no commas: they are cells of CSV
 inline constexpr const char* kFloorCost = "logarithms and exponentials";
 
-/// Measures the unit of cost and answers no question.
+/// Whether the method measures the unit of cost instead of solving a query.
 inline bool is_unit_of_cost(const Method& method) {
   return method.name() == kPointCost || method.name() == kCurvatureCost || method.name() == kFloorCost;
 }
 
-/// Our solvers, cold but for the one named warm, at the default tolerance of 1e-9.
+/// Our solvers, cold except for the one named warm, at the default tolerance of 1e-9.
 Methods supernormal_methods();
 
-/// libccd with our shapes as its support functions.
+/// libccd's methods with our shapes as support functions.
 Methods libccd_methods();
 
 /// One of our solvers that stops at `tolerance`, from the first guess or from Pair::warm_normal.
@@ -78,14 +78,14 @@ std::unique_ptr<Method> early_out(std::string name, Start start);
 std::unique_ptr<Method> ccd_epa(std::string name, double tolerance);
 std::unique_ptr<Method> ccd_mpr(std::string name, double tolerance);
 
-/// What a benchmark of others takes when its Debian package was found, with the version.
+/// A library whose methods are measured if its Debian package was found, with the version.
 struct Library {
   std::string name;
-  std::string version;  ///< "" when it was missing at the build
+  std::string version;  ///< "" if it was missing at the build
 };
 std::vector<Library> libraries();
 
-/// Bullet's GJK and EPA, with our shapes as its support functions; none when it is missing, and so on.
+/// Bullet's GJK and EPA, with our shapes as support functions; empty if Bullet is missing, and likewise below.
 Methods bullet_methods();
 
 /// Signed distance and contact of ellipsoids, by their own shapes, at several tolerances.
@@ -95,11 +95,11 @@ Methods simbody_methods();
 /// ODE's own colliders of polyhedra whose vertices are on the bodies. A query without contacts says that the bodies are apart.
 Methods ode_mesh_methods();
 
-/// Not a question but its unit of cost: the gap function at Pair::normals, up to this order.
+/// The unit of cost instead of a query: the gap function at Pair::normals, up to this order.
 std::unique_ptr<Method> evaluation_cost(supernormal::Order order);
 
-/// The eight logarithms and eight exponentials, of the C library, that an evaluation of two superellipsoids cannot do without (a
-/// power is one of each): the floor of its cost.
+/// The floor of the cost: the eight logarithms and eight exponentials, of the C library, that an evaluation of two
+/// superellipsoids needs (a power is one of each).
 std::unique_ptr<Method> floor_cost();
 
 }  // namespace accuracy_cost

@@ -38,7 +38,7 @@ class OdeMeshes final : public Method {
   }
 
  private:
-  /// Made and placed once, outside the time that is measured: the first query of a pair is not timed.
+  /// The geom is made and placed once, outside of the measured time: the first query of a pair is not timed.
   dGeomID geom(const Pair& pair, const std::shared_ptr<const supernormal::Shape>& shape, const supernormal::Pose& pose) const {
     const auto known = geoms_.find(shape.get());
     if (known != geoms_.end()) return known->second.geom.id();
@@ -49,7 +49,7 @@ class OdeMeshes final : public Method {
   }
 
   struct Kept {
-    std::shared_ptr<const supernormal::Shape> shape1, shape2;  // so that no other can have their addresses
+    std::shared_ptr<const supernormal::Shape> shape1, shape2;  // kept, so that no other shape can have their addresses
     OdeGeom geom;
   };
   GeomMaker (*maker_)(const Mesh&);

@@ -1,4 +1,4 @@
-// Simbody behind plain numbers: its headers are not C++20, which all of ours are.
+// Simbody behind an interface of plain numbers: its headers are not C++20, which all of ours are.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 namespace accuracy_cost {
 
 struct SimbodyPose {
-  std::array<double, 9> rotation;  ///< by rows
+  std::array<double, 9> rotation;  ///< row-major
   std::array<double, 3> position;  ///< m
 };
 
@@ -23,7 +23,7 @@ class SimbodyEllipsoid {
  public:
   explicit SimbodyEllipsoid(const std::array<double, 3>& half_axes);
 
-  /// What its tracker of convex implicit surfaces does: MPR for a start, then Newton's method on the two points.
+  /// The method of its tracker of convex implicit surfaces: MPR for a start, then Newton's method on the two points.
   SimbodyContact meet(const SimbodyPose& pose, const SimbodyEllipsoid& other, const SimbodyPose& other_pose, double accuracy) const;
 
  private:

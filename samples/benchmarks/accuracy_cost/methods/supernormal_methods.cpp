@@ -15,7 +15,7 @@ using supernormal::Status;
 Answer::Kind kind_of(Status status) {
   switch (status) {
     case Status::Converged:
-    case Status::Stalled:  // an answer too; its error is measured like that of the others
+    case Status::Stalled:  // a stalled solver answers too; its error is measured like that of the others
       return Answer::Kind::Gap;
     case Status::Apart:
       return Answer::Kind::Apart;
@@ -79,7 +79,7 @@ class Floor final : public Method {
   }
 
  private:
-  static constexpr int kPowers = 8;  // of two bodies with two norms each
+  static constexpr int kPowers = 8;  // two bodies have two norms each
 };
 
 }  // namespace

@@ -14,8 +14,8 @@
 namespace accuracy_cost {
 namespace {
 
-constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m; and as far apart
-constexpr double kRayShare = 0.5;                    // of the distance at which a ray grazes
+constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m; depth of the overlap, and distance when apart
+constexpr double kRayShare = 0.5;                    // share of the distance at which a ray grazes
 
 enum class Lie { Overlap, Apart };
 constexpr std::array kLies = {Lie::Overlap, Lie::Apart};
@@ -27,7 +27,7 @@ double distance_of(Lie lie, ColliderClass collider, double touching) {
   return collider == ColliderClass::Ray ? kRayShare * touching : touching - kDepth;
 }
 
-/// Of one body in one row of the table.
+/// The measurements of one body in one row of the table.
 struct Cell {
   std::vector<double> times, contacts;
 };
@@ -35,7 +35,7 @@ struct Cell {
 struct Row {
   ColliderClass collider = ColliderClass::Plane;
   Lie lie = Lie::Overlap;
-  std::vector<Cell> cells;  // of ode_bodies()
+  std::vector<Cell> cells;  // one for each of ode_bodies()
 };
 
 /// The bodies and the colliders that they meet in two rows of the table.
@@ -43,7 +43,7 @@ class Meeting {
  public:
   explicit Meeting(ColliderClass collider) : collider_(collider), bodies_(ode_bodies()) {
     for (const OdeBody& body : bodies_) geoms_.push_back(body.make());
-    // One collider for all, so that a mesh is in the caches for all or for none.
+    // All bodies meet one collider, so that a mesh is in the caches for all or for none.
     const std::size_t count = collider == ColliderClass::Itself ? bodies_.size() : 1;
     for (std::size_t k = 0; k < count; ++k) colliders_.push_back(make_collider(collider, bodies_[k]));
   }

@@ -22,7 +22,7 @@ const falling_particles::Grain& body() {
   return grain;
 }
 
-/// Without the number of triangles.
+/// The name without the number of triangles.
 std::string short_name(ColliderClass collider) {
   const std::string name = name_of(collider);
   return name.substr(0, name.find(','));
@@ -33,7 +33,7 @@ struct Contender {
   bool is_warm;
   OdeGeom geom;
   std::vector<double> times, errors, contacts;
-  std::size_t misses = 0;  // no contact
+  std::size_t misses = 0;  // queries without a contact
 };
 
 std::vector<Contender> contenders() {
@@ -48,7 +48,7 @@ std::vector<Contender> contenders() {
   return all;
 }
 
-/// m; of the deepest contact, at the first pose; not a number when there is none.
+/// m; the depth of the deepest contact at the first pose; NaN when there is none.
 double depth_of(const OdeQuery& query) {
   std::array<dContactGeom, kMaxContacts> contacts;
   query.pair.move_body(query.poses[0]);
@@ -58,7 +58,7 @@ double depth_of(const OdeQuery& query) {
   return depth;
 }
 
-/// All bodies at the pose in which the exact one overlaps.
+/// Measures all bodies at the pose in which the exact one overlaps.
 void measure_pose(const Approach& approach, const OdePair& exact, const Effort& effort, std::vector<Contender>& all) {
   snSetWarmStart(0);
   const std::optional<double> touching = touching_distance(exact, approach);

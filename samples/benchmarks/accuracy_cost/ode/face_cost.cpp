@@ -27,18 +27,18 @@ using supernormal::Vector3;
 const Vector3 kBrick(0.5, 0.25, 0.15);  // m; half-axes
 constexpr std::array kExponents = {2.3, 3.0, 4.0, 8.0, 12.0, 20.0, 60.0, 200.0};
 constexpr std::array kRooms = {1, 8};
-constexpr double kLeastOverlap = 1e-5, kGreatestOverlap = 1e-3;  // of the half-height
+constexpr double kLeastOverlap = 1e-5, kGreatestOverlap = 1e-3;  // relative to the half-height
 constexpr double kLean = 0.2;  // of the angle at which one end of the brick is as deep as the overlap and the other touches
 constexpr std::size_t kOverlaps = 8, kSteps = 8;
 constexpr double kFloorSize = 20;  // m
 constexpr int kBisections = 50;
-constexpr int kBatches = 15;  // of each round
+constexpr int kBatches = 15;  // number of batches in a round
 
 enum class Floor { Plane, Box, Face, Bond, Trimesh };
 constexpr std::array kFloors = {Floor::Plane, Floor::Box, Floor::Face, Floor::Bond, Floor::Trimesh};
 constexpr std::array<const char*, kFloors.size()> kFloorNames = {"`dPlane`", "`dBox`", "face on face", "brick bond", "`dTriMesh`"};
 
-/// A superellipsoid with this exponent twice, or a dBox, the size of a brick.
+/// A body of the size of a brick: a superellipsoid with this exponent in both sections, or a dBox.
 struct Brick {
   std::string name;
   double exponent = 0;  // 0: dBox
@@ -57,8 +57,8 @@ std::vector<Brick> bricks() {
   return all;
 }
 
-/// What a query knows of the last one, and how far the brick has moved since then, in units of the overlap: a body at rest moves by
-/// less than a hundredth of it in a step.
+/// How far the brick has moved since the last query, whose normal may be remembered, in units of the overlap: a body at rest
+/// moves by less than a hundredth of it in a step.
 struct Start {
   const char* name;
   bool is_warm;
@@ -66,7 +66,7 @@ struct Start {
 };
 constexpr std::array kStarts = {Start{"cold", false, 0.01}, Start{"warm", true, 0.01}, Start{"warm, jolted", true, 1}};
 
-/// Of a brick whose height of touching is 0.
+/// Poses of a resting brick whose height of touching is 0.
 std::vector<Pose> resting_poses(double move) {
   Random random(1);
   const auto any = [&] { return Vector3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)); };
@@ -84,7 +84,7 @@ std::vector<Pose> resting_poses(double move) {
   return poses;
 }
 
-/// What the brick lies on: one geom, two in a bond.
+/// The geoms that the brick lies on: one, or two in a bond.
 std::vector<OdeGeom> make_floor(Floor floor, const Brick& brick) {
   std::vector<OdeGeom> geoms;
   const auto add_brick = [&](double x) {
@@ -125,7 +125,7 @@ double touching_height(const OdePair& pair) {
   return low;
 }
 
-/// A brick on its floor, and what a query of one pair costs there.
+/// A brick on its floor, and the cost of a query of one pair there.
 class Rest {
  public:
   Rest(Floor floor, const Brick& brick) : brick_(brick.make()), floor_(make_floor(floor, brick)) {
@@ -161,7 +161,7 @@ class Rest {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  // Without room it only moves the brick.
+  // With a room of 0 it only moves the brick.
   double pass(const std::vector<Pose>& poses, int room) const {
     std::array<dContactGeom, kMaxContacts> contacts;
     double count = 0;
@@ -182,7 +182,7 @@ class Rest {
 
 struct Row {
   std::string name;
-  std::vector<Rest> rests;  // of bricks()
+  std::vector<Rest> rests;  // one for each of bricks()
 };
 
 std::vector<Row> measure_rows(const Effort& effort) {

@@ -28,7 +28,7 @@ struct PhaseCosts {
   double seconds() const { return broad.seconds() + narrow.seconds() + joints.seconds() + solver.seconds(); }
 };
 
-/// Where the grains are and how they move.
+/// Positions and velocities of the grains.
 struct Snapshot {
   std::vector<falling_particles::Placement> placements;
   std::vector<std::array<double, 6>> velocities;  ///< m/s, rad/s
@@ -36,7 +36,7 @@ struct Snapshot {
 
 class GrainWorld {
  public:
-  /// The scene must outlive it. Masses are those of the smooth grains, whatever the form.
+  /// The scene must outlive this object. Masses are those of the smooth grains, whatever the form.
   GrainWorld(const falling_particles::Scene& scene, const Snapshot& start, const Form& form, SpaceKind space = SpaceKind::Hash);
   ~GrainWorld();
   GrainWorld(const GrainWorld&) = delete;
@@ -49,7 +49,7 @@ class GrainWorld {
 
   Snapshot snapshot() const;
 
-  /// The bodies, to measure energies. Its own geoms are those of the smooth grains and meet nobody.
+  /// The bodies, to measure energies. Its own geoms are those of the smooth grains and meet no others.
   const falling_particles::World& world() const { return world_; }
 
  private:
@@ -68,7 +68,7 @@ class GrainWorld {
   std::vector<OdeGeom> geoms_;
   std::unique_ptr<falling_particles::Walls> walls_;
   falling_particles::ContactJoints joints_;
-  snBatchID batch_;  // null: one by one
+  snBatchID batch_;  // null: one pair after the other
   std::vector<std::pair<dGeomID, dGeomID>> pairs_;
   std::vector<dContactGeom> contacts_;
   PhaseCosts costs_;

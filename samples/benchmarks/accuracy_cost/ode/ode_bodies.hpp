@@ -9,19 +9,19 @@
 
 namespace accuracy_cost {
 
-/// Fits into half-axes 0.5, 0.4, 0.3 m.
+/// A body that fits into half-axes 0.5, 0.4, 0.3 m.
 struct OdeBody {
   std::string name;
   OdeGeom (*make)();
-  bool is_warm;  ///< ours, started from the last normal of the pair; the others do not know such a thing
+  bool is_warm;  ///< ours, started from the last normal of the pair; the other classes have no warm start
 };
 
 inline constexpr double kSmallestHalfAxis = 0.3;  // m
 
-/// Ours and those of ODE's that a program would take instead, with a convex of 960 triangles among them.
+/// Our bodies and those of ODE's classes that a program would use instead, with a convex of 960 triangles among them.
 std::vector<OdeBody> ode_bodies();
 
-/// Places of ode_bodies() that are compared.
+/// Indices of those of ode_bodies() that are compared.
 inline constexpr std::size_t kOursCold = 0, kOursWarm = 1;
 inline constexpr std::array<std::size_t, 3> kOthers = {4, 5, 6};
 
@@ -32,7 +32,7 @@ inline constexpr std::array kColliderClasses = {ColliderClass::Plane,   Collider
 
 std::string name_of(ColliderClass collider);
 
-/// A collider of this class; for Itself another of `body`.
+/// A collider of this class; for Itself it is another of `body`.
 OdeGeom make_collider(ColliderClass collider, const OdeBody& body);
 
 }  // namespace accuracy_cost

@@ -1,4 +1,4 @@
-// Geoms of ODE and of ours that outlive nothing they refer to.
+// Geoms of ODE and of ours that own the data that they refer to.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,7 +13,7 @@ namespace accuracy_cost {
 /// Owns a geom and the data that it looks at.
 class OdeGeom {
  public:
-  /// std::runtime_error when `id` is null.
+  /// Throws std::runtime_error when `id` is null.
   explicit OdeGeom(dGeomID id, std::shared_ptr<void> data = nullptr);
   OdeGeom(OdeGeom&& other) noexcept;
   OdeGeom& operator=(OdeGeom&&) = delete;
@@ -28,12 +28,12 @@ class OdeGeom {
   std::shared_ptr<void> data_;
 };
 
-/// What makes geoms of one mesh: they share what ODE refers to.
+/// Makes geoms of one mesh, which share the data that ODE refers to.
 using GeomMaker = std::function<OdeGeom()>;
 
 GeomMaker convex_maker(const Mesh& mesh);
 
-/// With the face angles that ODE's collider with dConvex asserts.
+/// The mesh has the face angles that ODE's collider with dConvex asserts.
 GeomMaker trimesh_maker(const Mesh& mesh);
 
 inline OdeGeom make_convex(const Mesh& mesh) { return convex_maker(mesh)(); }

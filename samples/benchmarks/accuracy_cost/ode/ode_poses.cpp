@@ -15,12 +15,12 @@ using supernormal::Vector3;
 namespace {
 
 constexpr double kNudge = 1e-3;       // m and rad
-constexpr double kTerrainReach = 2;   // m; over which bodies are strewn
-constexpr double kFar = 3;            // m; nothing collides
+constexpr double kTerrainReach = 2;   // m; bodies are strewn over so much
+constexpr double kFar = 3;            // m; nothing collides at this distance
 constexpr double kSearchStep = 0.02;  // m
 constexpr int kBisections = 40;
 
-/// ODE's matrices have rows of four.
+/// Writes a rotation in rows of four, as ODE's matrices have them.
 void set_rotation(dGeomID geom, const Matrix3& rotation) {
   dMatrix3 matrix{};
   for (int row = 0; row < 3; ++row) {
@@ -36,7 +36,7 @@ bool stands_level(ColliderClass collider) { return collider == ColliderClass::Pl
 void OdePair::move_body(const Pose& pose) const {
   dGeomSetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
   set_rotation(body, pose.rotation);
-  // As a space does before it calls dCollide: ODE's collider of dConvex and dTriMesh looks at the box that was computed last.
+  // A space does this before it calls dCollide: ODE's collider of dConvex and dTriMesh uses the box that was computed last.
   dReal aabb[6];
   dGeomGetAABB(body, aabb);
 }

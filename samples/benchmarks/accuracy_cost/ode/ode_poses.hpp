@@ -1,4 +1,4 @@
-// Places of a body at a collider.
+// Poses of a body at a collider.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace accuracy_cost {
 
-inline constexpr int kMaxContacts = 16;  // of a query
+inline constexpr int kMaxContacts = 16;  // room for the contacts of a query
 
 struct OdePair {
   dGeomID body;
@@ -20,22 +20,22 @@ struct OdePair {
   int collide(std::array<dContactGeom, kMaxContacts>& contacts) const;
 };
 
-/// How a body comes to its collider; the same for all bodies.
+/// The way in which a body approaches its collider; the same for all bodies.
 struct Approach {
-  supernormal::Matrix3 attitude;   ///< of the body
-  supernormal::Vector3 start;      ///< m; of its centre: inside the collider
-  supernormal::Vector3 direction;  ///< unit; out of it
+  supernormal::Matrix3 attitude;   ///< attitude of the body
+  supernormal::Vector3 start;      ///< m; start of its centre, inside the collider
+  supernormal::Vector3 direction;  ///< unit; direction out of the collider
   supernormal::Matrix3 collider_attitude;
   supernormal::Vector3 ray;  ///< unit; perpendicular to the direction
-  supernormal::Pose nudge;   ///< of the body, to the other of two poses that follow one another: 1e-3 m, 1e-3 rad
+  supernormal::Pose nudge;   ///< motion of the body between two poses that follow one another: 1e-3 m, 1e-3 rad
 
   static Approach draw(ColliderClass collider, falling_particles::Random& random);
   void move_collider(ColliderClass collider, dGeomID geom) const;
   std::array<supernormal::Pose, 2> poses_at(double distance) const;
 };
 
-/// The distance from the start of the approach at which the body ceases to collide, by what dCollide says; nothing if it does
-/// nowhere.
+/// The distance from the start of the approach at which dCollide finds no more contacts of the body; empty if it finds none
+/// anywhere.
 std::optional<double> touching_distance(const OdePair& pair, const Approach& approach);
 
 }  // namespace accuracy_cost

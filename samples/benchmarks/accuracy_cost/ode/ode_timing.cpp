@@ -11,12 +11,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using supernormal::Pose;
 
-constexpr int kMaxRepeats = 4096;  // even: as many of either pose
+constexpr int kMaxRepeats = 4096;  // even: as many of one pose as of the other
 
-/// What the compiler must not drop.
+/// A sink, so that the compiler does not drop the queries.
 volatile int sink;
 
-/// s per query; alternating between the two poses.
+/// s per query, alternating between the two poses.
 template <typename Ask>
 double time_of(const OdeQuery& query, const Ask& ask) {
   const auto start = Clock::now();
@@ -56,7 +56,7 @@ void measure_queries(std::vector<OdeQuery>& queries, const Effort& effort) {
   }
   for (int round = 0; round < effort.rounds; ++round) {
     for (std::size_t turn = 0; turn < queries.size(); ++turn) {
-      // Nobody is always after the same one.
+      // No query always follows the same other one.
       time_once(queries[(turn + static_cast<std::size_t>(round)) % queries.size()]);
     }
   }

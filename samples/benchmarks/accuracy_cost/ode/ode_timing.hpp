@@ -1,4 +1,4 @@
-// The time of a dCollide.
+// The time that a dCollide takes.
 #pragma once
 
 #include <limits>
@@ -15,15 +15,15 @@ struct OdeQuery {
   bool is_warm;
   std::array<supernormal::Pose, 2> poses;
   int repeats = 2;
-  // s; shortest of all rounds: to move the body, and to move it and ask.
+  // s; the shortest times of all rounds: to move the body, and to move it and call dCollide.
   double moving = std::numeric_limits<double>::infinity();
   double asking = std::numeric_limits<double>::infinity();
   double contacts = 0;  // mean
 
-  double time() const { return asking - moving; }  // s; of a dCollide
+  double time() const { return asking - moving; }  // s; time of a dCollide
 };
 
-/// Queries take turns, so that whatever slows the machine down slows all of them.
+/// Measures all queries in turns, so that whatever slows the machine down slows all of them.
 void measure_queries(std::vector<OdeQuery>& queries, const Effort& effort);
 
 }  // namespace accuracy_cost

@@ -11,7 +11,8 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kA = 0.3, kB = 0.2, kC = 0.1;  // m; the half-axes
 constexpr double kTilt = 0.3;                   // rad, about y
-// s; by conservation of energy, g h(theta) + (I + h'^2) theta'^2 / 2 = g h(tilt), in quadrature: tests/dynamics/rocking_test.cpp.
+// s; the period by conservation of energy, g h(theta) + (I + h'^2) theta'^2 / 2 = g h(tilt), in quadrature:
+// tests/dynamics/rocking_test.cpp.
 constexpr double kPeriod = 0.489837517;
 constexpr double kStep = 1e-4;  // s; error of the period below 1e-4
 constexpr int kPeriods = 3;
@@ -45,16 +46,16 @@ class Rocking {
   Rocking(const Rocking&) = delete;
   Rocking& operator=(const Rocking&) = delete;
 
-  /// rad, about y.
+  /// Steps the world and returns the angle about y, rad.
   double step() {
     std::array<dContactGeom, kMaxContacts> found;
     dReal aabb[6];
-    dGeomGetAABB(geom_.id(), aabb);  // as a space does before it calls dCollide
+    dGeomGetAABB(geom_.id(), aabb);  // a space does this before it calls dCollide
     const int count = dCollide(geom_.id(), floor_.id(), kMaxContacts, found.data(), sizeof(dContactGeom));
     for (int k = 0; k < count; ++k) {
       dContact contact{};
       contact.geom = found[static_cast<std::size_t>(k)];
-      if (!(std::abs(dCalcVectorLength3(contact.geom.normal) - 1) < 1e-6)) continue;  // libccd
+      if (!(std::abs(dCalcVectorLength3(contact.geom.normal) - 1) < 1e-6)) continue;  // libccd makes such contacts
       dJointAttach(dJointCreateContact(world_, joints_, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
     }
     dWorldQuickStep(world_, kStep);

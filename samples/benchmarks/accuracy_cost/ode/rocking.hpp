@@ -1,4 +1,4 @@
-// One body whose motion is known: how far a form's accuracy takes it from the truth.
+// One body whose motion is known, and the error that the accuracy of a form brings to it.
 #pragma once
 
 #include "grain_form.hpp"

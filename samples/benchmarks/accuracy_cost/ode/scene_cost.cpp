@@ -20,7 +20,7 @@ using falling_particles::Random;
 using falling_particles::Scene;
 
 constexpr double kSettlingTime = 0.6;  // s; a bed of this height is at rest after a third of it
-constexpr int kWarmUpSteps = 5;        // of a form that takes over another's bed
+constexpr int kWarmUpSteps = 5;        // steps before a form that takes over another's bed is measured
 constexpr int kRounds = 8;
 constexpr int kStepsPerRound = 4;
 
@@ -28,7 +28,7 @@ const std::vector<MeshSize> kMeshSizes = {{6, 5}, {12, 10}, {24, 20}, {48, 40}};
 
 constexpr const char* kCostColumns = "pairs,contacts,refused,broad_s,narrow_s,joints_s,solver_s,step_s";
 
-/// Per step.
+/// The cells of a row: mean costs per step.
 std::string cost_cells(const PhaseCosts& costs) {
   const auto mean = [&](auto total) { return number(static_cast<double>(total) / costs.steps); };
   return joined({mean(costs.pairs), mean(costs.contacts), mean(costs.refused), mean(costs.broad.seconds()),
@@ -56,7 +56,8 @@ std::vector<Form> polyhedra() {
   return forms;
 }
 
-/// Polyhedra take over the smooth grains' bed, in which they lie: their vertices are on the boundary. Boxes need more room.
+/// Polyhedra take over the smooth grains' bed, in which they lie, because their vertices are on the boundary. Boxes need more
+/// room.
 std::vector<std::string> time_forms(const Scene& scene) {
   const Snapshot smooth_bed = settle(scene, {});
   const Snapshot box_bed = settle(scene, {FormKind::Box});
@@ -83,7 +84,7 @@ std::vector<std::string> time_forms(const Scene& scene) {
   return lines;
 }
 
-/// The same grains in a box of half the plan, which is then laid out `columns` x `rows` times.
+/// The same grains in a box of half the plan, which is then repeated `columns` x `rows` times.
 Scene half_of(Scene scene) {
   for (auto& [grain, count] : scene.grains) count = count / 2;
   std::get<falling_particles::Box>(scene.container).width[1] /= 2;
@@ -135,7 +136,7 @@ std::vector<std::string> measure_outcome(const Scene& scene, const Form& form) {
     world.step();
     energy.after_step();
   }
-  // The same ruler for all forms: the smooth grains in the places that these have come to.
+  // All forms have the same ruler: the smooth grains at the places that these have come to.
   const falling_particles::World ruler(scene, world.snapshot().placements);
   const auto overlap = falling_particles::measure_overlap(ruler);
   Random random(scene.seed);
@@ -174,7 +175,7 @@ Part scene_outcomes(const std::string& scene_path) {
   for (int digits = 1; digits <= kMostDigits; ++digits) forms.push_back({FormKind::Smooth, std::pow(10.0, -digits), {}});
   forms.push_back({FormKind::Box});
   for (const Form& form : polyhedra()) {
-    if (form.mesh.vertices() < 1000) forms.push_back(form);  // more take hours
+    if (form.mesh.vertices() < 1000) forms.push_back(form);  // larger meshes take hours
   }
   part.tasks.reserve(forms.size());
   for (const Form& form : forms) {

@@ -1,4 +1,4 @@
-// What accuracy costs in a simulation: a scene of grains in the form of several classes.
+// The cost of accuracy in a simulation: a scene of grains in the form of several classes.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace accuracy_cost {
 
-/// The time per step of a settled bed of 1000 grains, ours and ODE's classes, all in one run.
+/// Measures the time per step of a settled bed of 1000 grains, ours and ODE's classes, all in one run.
 Part scene_forms(const std::string& scene_path);
 
-/// The time per step of 500 to 20 000 grains in every space of ODE.
+/// Measures the time per step of 500 to 20 000 grains in every space of ODE.
 Part scene_growth(const std::string& scene_path);
 
-/// The fall of 1000 grains at every tolerance and number of vertices: what it costs, and how the bed that comes out of it differs.
+/// Lets 1000 grains fall at every tolerance and number of vertices: measures the cost, and how the resulting beds differ.
 Part scene_outcomes(const std::string& scene_path);
 
 }  // namespace accuracy_cost

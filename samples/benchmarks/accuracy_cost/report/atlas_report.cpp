@@ -50,7 +50,7 @@ constexpr std::array<MethodName, 10> kCompared = {{{"hybrid", "1e-09"},
                                                    {"FCL signed distance", "1e-06"},
                                                    {"Simbody MPR+Newton", "1e-09"}}};
 
-/// Of one class and pose.
+/// The row of a method for one class and pose.
 const Row* find_method(const CsvTable& table, const char* body_class, const char* pose, const MethodName& method) {
   return table.find({{"class", body_class}, {"pose", pose}, {"method", method.name}, {"accuracy", method.accuracy}});
 }
@@ -266,7 +266,7 @@ void write_outcomes(const CsvTable& table, std::ostream& out) {
   out << '\n';
 }
 
-/// The figures that the reading rests on are in the tables below it.
+/// Writes conclusions; the figures that they rest on are in the tables below them.
 void write_reading(const CsvTable& query, const CsvTable& forms, const CsvTable& outcomes, std::ostream& out) {
   out << "## Reading\n\n";
   const auto time = [&](const char* tolerance) {

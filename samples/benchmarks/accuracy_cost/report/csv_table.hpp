@@ -1,4 +1,4 @@
-// The tables that run_parts() wrote, to be read again.
+// Reads the tables that run_parts() wrote.
 #pragma once
 
 #include <initializer_list>
@@ -16,7 +16,7 @@ class CsvTable {
   /// Empty when there is no such file. Cells may be quoted but have no commas in them.
   explicit CsvTable(const std::string& path);
 
-  const std::vector<std::string>& comments() const { return comments_; }  ///< but for notes of finished tasks
+  const std::vector<std::string>& comments() const { return comments_; }  ///< without notes of finished tasks
   const std::vector<Row>& rows() const { return rows_; }
 
   /// The first row with these cells; null when there is none.

@@ -1,4 +1,4 @@
-// What the numbers were measured with.
+// The hardware and software of a measurement.
 #pragma once
 
 #include <string>

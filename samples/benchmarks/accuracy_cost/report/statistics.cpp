@@ -11,7 +11,7 @@ namespace {
 // A thousand times the default tolerance: beyond it the answer belongs to another maximum, or to another kind of method.
 constexpr double kInexact = 1e-6;
 
-constexpr double kLarge = 0.99;  // of the samples are below
+constexpr double kLarge = 0.99;  // quantile that counts as large
 
 bool is_failure(const Answer& answer, const Pair& pair) {
   const bool is_apart = pair.gap > 0;

@@ -5,10 +5,10 @@
 
 namespace accuracy_cost {
 
-/// For tables to be looked at: as printf writes it with a format of one double; "–" when there is none (NaN).
+/// Formats a number for tables that people read, by printf with a format of one double; "–" when there is none (NaN).
 std::string text(const char* format, double value);
 
-/// For CSV, to six digits.
+/// Formats a number for CSV, to six digits.
 std::string number(double value);
 
 }  // namespace accuracy_cost

@@ -1,4 +1,4 @@
-// What is learned of a dHeightfield through ODE's geoms: where its samples are, and its triangles.
+// Tests of the properties of a dHeightfield that are found through ODE's geoms: the places of its samples, and its triangles.
 #include "ode/colliders/heightfield/heightfield_grid.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ std::vector<Landscape> landscapes() {
           {"pyramid", [](int i, int j) { return -static_cast<double>(std::max(std::abs(i - 5), std::abs(j - 4))); }}};
 }
 
-// Where the neighbourhood of the cell (5, 4) is, wherever the border.
+// A facet near the cell (5, 4), wherever the border is.
 Facet facet_near(HeightfieldProbe& probe, const Terrain& terrain, double u, double v) {
   const Vec corner = terrain.vertex(5, 4);
   Facet facet;
@@ -57,7 +57,7 @@ void check_axis(const SampleAxis& axis, double spacing, double half, int count, 
   CHECK(std::abs(shift - std::round(shift)) < within_rounding(1e-12) * (1 + std::abs(shift)));
 }
 
-// Every triangle's vertices are samples, and every cell of the region is there with both.
+// Checks that every triangle's vertices are samples, and that every cell of the region is there with both triangles.
 void check_triangles(std::span<const MeshTriangle> triangles, const Terrain& terrain, const Region& region) {
   std::size_t expected = 0;
   for (int i = -60; i < 60; ++i) {
@@ -108,11 +108,11 @@ TEST_CASE("the grid is found: every landscape, finite and infinite, wherever one
         HeightfieldProbe& probe = HeightfieldProbe::looking_at(geom);
         const Facet spot = facet_near(probe, terrain, random.uniform(-1, 2), random.uniform(-1, 2));
         bool is_plane = false;
-        // From a body of a hundredth of a cell to one of four cells.
+        // The reach goes from that of a body of a hundredth of a cell to that of one of four cells.
         const double reach = terrain.spacing_x() * std::pow(10, random.uniform(-2, 0.6));
         std::optional<SampleGrid> grid = find_grid(probe, spot, reach, is_plane);
         if (!grid) {
-          // All of it is a plane: nothing is shown there.
+          // All of the neighbourhood is a plane, which shows no samples.
           REQUIRE(is_plane);
           grid = find_grid(probe, spot, 6 * std::max(terrain.spacing_x(), terrain.spacing_z()), is_plane);
         }
@@ -181,7 +181,7 @@ TEST_CASE("what the program changes is seen") {
   terrain.set(5, 4, 0.5);
   terrain.set(4, 4, 0.25);
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
-  // The same extent, another number of samples; then another extent; then without end.
+  // The changes are: the same extent with another number of samples; then another extent; then without end.
   terrain.build({14, 11, 8, 8}, rough(7, 1));
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
   terrain.build({14, 11, 7, 9}, rough(8, 1));
@@ -196,7 +196,7 @@ TEST_CASE("an infinite heightfield far from the origin") {
   const Geom geom(terrain.create());
   for (const double far : {-1e3, 1e4, -1e5}) {
     CAPTURE(far);
-    HeightfieldPatch patch;  // learns the grid there
+    HeightfieldPatch patch;  // finds the grid there
     const Region region{far, far + 0.9, 0.5 * far, 0.5 * far + 1.1};
     for (const MeshTriangle& triangle : patch.read(HeightfieldProbe::looking_at(geom), region)) {
       for (const Vector3& v : triangle.vertices) {
@@ -208,7 +208,7 @@ TEST_CASE("an infinite heightfield far from the origin") {
         CHECK(std::abs(v.y() - sample[1]) < within_rounding(4e-15) * std::abs(far));
       }
     }
-    // Learned near the origin, used far away.
+    // The grid is found near the origin and used far away.
     HeightfieldPatch other;
     other.read(HeightfieldProbe::looking_at(geom), {-0.4, 0.5, -0.4, 0.5});
     CHECK(!other.read(HeightfieldProbe::looking_at(geom), region).empty());

@@ -47,7 +47,7 @@ void stand_up(dGeomID heightfield) {
   dGeomSetRotation(heightfield, R);
 }
 
-/// Everything else than the grid: all triangles of the samples from i_low to i_high, in the world.
+/// All triangles of the samples from i_low to i_high in the world, without the code that finds the grid.
 std::vector<MeshTriangle> all_triangles(const Terrain& terrain, const Pose& pose, int low, int high_x, int high_z) {
   const auto vertex = [&](int i, int j) {
     const Vec v = terrain.vertex(i, j);
@@ -63,7 +63,7 @@ std::vector<MeshTriangle> all_triangles(const Terrain& terrain, const Pose& pose
   return triangles;
 }
 
-// Ericson, Real-Time Collision Detection, 5.1.5.
+// The nearest point of a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
 Vector3 nearest_on(const MeshTriangle& triangle, const Vector3& p) {
   const auto& [a, b, c] = triangle.vertices;
   const Vector3 ab = b - a;
@@ -111,7 +111,7 @@ TEST_CASE("a level heightfield is a plane") {
       const Pose frame = pose_of(heightfield);
       const Vector3 up = frame.rotation.col(1);
       const Geom plane(dCreatePlane(nullptr, dReal(up.x()), dReal(up.y()), dReal(up.z()), dReal(up.dot(frame.position) + 0.25)));
-      // Anywhere, above a line of the grid, above a sample; from below the surface to above it.
+      // The body is anywhere, above a line of the grid, or above a sample; from below the surface to above it.
       Vector3 where{random.uniform(-10, 10), 0.25 + random.uniform(-0.3, 1.6), random.uniform(-10, 10)};
       if (k % 3 > 0) where.x() = std::round(where.x());
       if (k % 3 > 1) where.z() = std::round(where.z());
@@ -176,7 +176,7 @@ TEST_CASE("a sphere on rough ground: as far as its centre from the nearest trian
         const Vector3 to_ground = nearest_on(all_triangles(terrain, {}, 0, 10, 8), centre) - centre;
         const double gap = to_ground.norm() - radius;
         const Vector3 normal = frame.rotation * to_ground.normalized();
-        // The deeper it is, the farther the planes of the ground go on below one another.
+        // The deeper it is, the farther the planes of the ground extend below one another.
         const bool is_shallow = gap > -0.1 * radius;
         if (is_shallow) {
           const snProximity proximity = proximity_of(body, heightfield);
@@ -211,21 +211,21 @@ TEST_CASE("any body on rough ground: the contacts with all triangles") {
   for (int k = 0; k < 400; ++k) {
     CAPTURE(k);
     const Geom body(random_body(random));
-    const double x = random.uniform(-5.5, 5.5);  // over the border as well
+    const double x = random.uniform(-5.5, 5.5);  // beyond the border as well
     const double z = random.uniform(-5.3, 5.3);
     place(body, {x, random.uniform(0.2, 1.9), z});
     const auto& shape = require_body(body).shape();
     const std::span<const MeshContact> expected = reference.find(shape, pose_of(body), triangles, {});
     const Contacts contacts = collide(body, heightfield, 100);
     REQUIRE(contacts.size() >= expected.size());
-    // Behind them the corners of flat overlaps.
+    // The corners of flat overlaps follow them.
     for (std::size_t i = expected.size(); i < contacts.size(); ++i) CHECK(contacts[i].depth <= contacts[0].depth);
     for (std::size_t i = 0; i < expected.size(); ++i, ++count) {
       const Proximity& proximity = expected[i].proximity;
       CHECK(std::abs(contacts[i].depth + proximity.gap) < within_rounding(1e-9, 4));
       CHECK((to_vector(contacts[i].normal) + proximity.normal).norm() < 1e-6);
     }
-    // One gap, whoever asks.
+    // The gap is the same from both functions.
     if (!contacts.empty()) CHECK(double{proximity_of(body, heightfield).gap} == -double{contacts[0].depth});
     if (contacts.empty()) {
       const Proximity nearest = find_nearest_triangle(shape, pose_of(body), triangles, {}).proximity;
@@ -240,7 +240,7 @@ TEST_CASE("the peak of a pyramid: as the solid of the same shape") {
   Random random(47);
   const Terrain terrain({9, 9, 8, 8}, [](int i, int j) { return i == 4 && j == 4 ? 0.8 : 0.0; });
   const Geom heightfield(terrain.create());
-  // The samples next to (4, 4) on the six triangles there.
+  // These are the samples next to (4, 4) on the six triangles there.
   std::vector<Vector3> points = {{0, 0.8, 0}};
   for (const auto& [x, z] :
        {std::pair(1, 0), std::pair(0, 1), std::pair(-1, 1), std::pair(-1, 0), std::pair(0, -1), std::pair(1, -1)}) {
@@ -367,7 +367,7 @@ TEST_CASE("nothing that is not finite gets through, and nothing aborts") {
     place(body, {0, 0, 0});
     CHECK(collide(body, heightfield).empty());
   }
-  // On the border to the last digit, where a ray would make ODE abort.
+  // The body is on the border to the last digit, where a ray would make ODE abort.
   const Terrain terrain({9, 9, 8, 8}, rough(54, 1));
   const Geom heightfield(terrain.create());
   for (const double x : {4.0, std::nextafter(4.0, 5.0), std::nextafter(4.0, 3.0), 4.5, 4.0 + 1e-12}) {

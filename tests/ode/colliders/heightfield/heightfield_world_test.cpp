@@ -1,4 +1,4 @@
-// Bodies on heightfields in a running world: nothing gets through.
+// Bodies on heightfields in a running world: none may fall through.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// y is up; rough.
+/// Sets up a rough world in which y is up.
 void set_up(World& world) {
   dWorldSetGravity(world.id(), 0, dReal(-kGravity), 0);
   world.surface.mode = dContactApprox1;
@@ -20,11 +20,11 @@ void set_up(World& world) {
 
 dBodyID add(const World& world, dGeomID geom) {
   dMass mass;
-  dMassSetSphereTotal(&mass, 1, dReal(0.1));  // of a dSphere as well
+  dMassSetSphereTotal(&mass, 1, dReal(0.1));  // the same mass for a dSphere
   return world.add(geom, mass);
 }
 
-/// How far the body's middle is above the surface, at the least, while it falls from `start` for two seconds; over the heightfield
+/// The least height of the body's middle above the surface while it falls from `start` for two seconds, over the heightfield
 /// only.
 double lowest_height(dGeomID (*create)(dSpaceID space), const Terrain& terrain, const Vec& start) {
   World world;
@@ -77,7 +77,7 @@ TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
   Random random(61);
   World world;
   set_up(world);
-  // Rough, and higher towards the border, so that they stay.
+  // The ground is rough, and higher towards the border, so that the bodies stay.
   const Terrain terrain({25, 25, 6, 6}, [](int i, int j) {
     const double r = std::max(std::abs(i - 12), std::abs(j - 12)) / 12.0;
     return rough(62, 0.15)(i, j) + 2 * r * r * r;

@@ -1,4 +1,4 @@
-#include "effects/law.hpp"
+#include "effects/pair_material.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr Material kOther = -2;  // one that is not listed
+constexpr Material kOther = -2;  // stands for all materials that are not listed
 
 template <typename E>
 constexpr EffectIndex index_of() {
@@ -32,13 +32,13 @@ class Entries {
  public:
   explicit Entries(const std::vector<Effect>& list) : list_(list) {}
 
-  /// Listed for the pair itself.
+  /// The entry that is listed for the pair itself.
   const E* between(Material a, Material b) const {
     return find([&](const MaterialSelector& on) {
       return on.is_pair() && ((on.first() == a && on.second() == b) || (on.first() == b && on.second() == a));
     });
   }
-  /// Listed for the material, or for all.
+  /// The entry that is listed for the material, or else for all.
   const E* of(Material m) const {
     const E* const own = own_of(m);
     return own != nullptr ? own : find([](const MaterialSelector& on) { return on.is_all(); });
@@ -71,7 +71,7 @@ Restitution combined(const Restitution& a, const Restitution& b) {
 }
 Adhesion combined(const Adhesion& a, const Adhesion& b) { return {geometric(a.pull_off, b.pull_off), {}}; }
 
-/// The entries that count for the two materials of a pair; null where there is none. One for the pair counts for both.
+/// The entries that apply to the two materials of a pair; null where there is none. An entry for the pair applies to both.
 template <typename E>
 struct Sides {
   const E* first;
@@ -85,7 +85,7 @@ Sides<E> find_sides(const std::vector<Effect>& list, Material a, Material b) {
   return {entries.of(a), entries.of(b)};
 }
 
-/// What a pair of materials has of an effect that both must have.
+/// The combined values of an effect that both materials of a pair must have.
 template <typename E>
 std::optional<E> find_common(const std::vector<Effect>& list, Material a, Material b) {
   const auto [first, second] = find_sides<E>(list, a, b);
@@ -93,13 +93,14 @@ std::optional<E> find_common(const std::vector<Effect>& list, Material a, Materi
   return first->on.is_pair() ? *first : combined(*first, *second);
 }
 
-/// Writes the law of one ordered pair.
+/// Writes the parameters of one ordered pair.
 class PairMaterialWriter {
  public:
-  PairMaterialWriter(const std::vector<Effect>& list, Material a, Material b, PairMaterial& law)
-      : list_(list), a_(a), b_(b), law_(law) {}
+  PairMaterialWriter(const std::vector<Effect>& list, Material a, Material b, PairMaterial& pair)
+      : list_(list), a_(a), b_(b), pair_(pair) {}
 
-  // Adhesion adds to the forces that friction foresees; springs come last, they sort the contacts.
+  // Adhesion comes first, because it adds to the forces that friction anticipates; springs come last, because they reorder the
+  // contacts.
   void write() {
     write_adhesion();
     if (!write_anisotropic_friction()) write_friction();
@@ -113,25 +114,25 @@ class PairMaterialWriter {
   template <typename E>
   void add(int rows, void (*pass)(const PairMaterial&, Patch&)) {
     constexpr EffectIndex kIndex = index_of<E>();
-    law_.listed.push_back(kIndex);
-    law_.rows[kIndex] = rows;
-    if (pass != nullptr) law_.passes.push_back({kIndex, pass});
+    pair_.listed.push_back(kIndex);
+    pair_.rows[kIndex] = rows;
+    if (pass != nullptr) pair_.passes.push_back({kIndex, pass});
   }
 
   void write_adhesion() {
     const auto found = find_common<Adhesion>(list_, a_, b_);
     if (!found) return;
-    law_.pull_off = found->pull_off;
-    law_.surface.mode |= dContactMotionN;
+    pair_.pull_off = found->pull_off;
+    pair_.surface.mode |= dContactMotionN;
     add<Adhesion>(0, add_adhesion);
   }
 
   void write_friction() {
     const auto found = find_common<Friction>(list_, a_, b_);
     if (!found) return;
-    // Approx1: a coefficient; without it ODE takes mu for a force in newtons. A square that fits into the circle.
-    law_.surface.mode |= dContactApprox1 | dContactFDir1;
-    law_.surface.mu = law_.surface.mu2 = ode::to_real(found->coefficient * std::sqrt(0.5));
+    // Approx1 makes mu a coefficient; without it ODE takes mu for a force in newtons. The square of forces fits into the circle.
+    pair_.surface.mode |= dContactApprox1 | dContactFDir1;
+    pair_.surface.mu = pair_.surface.mu2 = ode::to_real(found->coefficient * std::sqrt(0.5));
     add<Friction>(2, align_friction);
   }
 
@@ -141,8 +142,8 @@ class PairMaterialWriter {
     const bool is_pair = first != nullptr && first->on.is_pair();
     const bool on_second = is_pair ? first->on.first() != a_ : first == nullptr || (second != nullptr && b_ < a_);
     const AnisotropicFriction& found = on_second ? *second : *first;
-    law_.grain = {found.along, found.across, found.direction, on_second};
-    law_.surface.mode |= dContactApprox1 | dContactFDir1 | dContactMu2;
+    pair_.axes = {found.along, found.across, found.direction, on_second};
+    pair_.surface.mode |= dContactApprox1 | dContactFDir1 | dContactMu2;
     add<AnisotropicFriction>((found.along > 0 ? 1 : 0) + (found.across > 0 ? 1 : 0), align_anisotropic_friction);
     return true;
   }
@@ -150,21 +151,21 @@ class PairMaterialWriter {
   void write_rolling() {
     const auto found = find_common<RollingResistance>(list_, a_, b_);
     if (!found || (found->rolling == 0 && found->spinning == 0)) return;
-    law_.rolling = found->rolling;
-    law_.spinning = found->spinning;
-    // ODE makes a dead row for a coefficient of 0 and none for a negative one.
-    law_.surface.mode |= dContactApprox1 | dContactRolling | dContactMu2;
-    law_.surface.rho = law_.surface.rho2 = ode::to_real(found->rolling > 0 ? found->rolling : -1);
-    law_.surface.rhoN = ode::to_real(found->spinning > 0 ? found->spinning : -1);
+    pair_.rolling = found->rolling;
+    pair_.spinning = found->spinning;
+    // ODE makes a row without effect for a coefficient of 0, and none for a negative one.
+    pair_.surface.mode |= dContactApprox1 | dContactRolling | dContactMu2;
+    pair_.surface.rho = pair_.surface.rho2 = ode::to_real(found->rolling > 0 ? found->rolling : -1);
+    pair_.surface.rhoN = ode::to_real(found->spinning > 0 ? found->spinning : -1);
     add<RollingResistance>((found->rolling > 0 ? 2 : 0) + (found->spinning > 0 ? 1 : 0), align_rolling);
   }
 
   void write_restitution() {
     const auto found = find_common<Restitution>(list_, a_, b_);
     if (!found) return;
-    law_.surface.mode |= dContactBounce;
-    law_.surface.bounce = ode::to_real(found->coefficient);
-    law_.surface.bounce_vel = ode::to_real(found->threshold);
+    pair_.surface.mode |= dContactBounce;
+    pair_.surface.bounce = ode::to_real(found->coefficient);
+    pair_.surface.bounce_vel = ode::to_real(found->threshold);
     add<Restitution>(0, nullptr);
   }
 
@@ -175,8 +176,8 @@ class PairMaterialWriter {
     const bool are_materials = first != nullptr && second != nullptr && !first->on.is_pair();
     const bool two_springs = are_materials && !(first->on.is_all() && second->on.is_all());
     const Compliance& one = first != nullptr ? *first : *second;
-    law_.stiffness = two_springs ? in_series(first->stiffness, second->stiffness) : one.stiffness;
-    law_.damping = two_springs ? in_series(first->damping, second->damping) : one.damping;
+    pair_.stiffness = two_springs ? in_series(first->stiffness, second->stiffness) : one.stiffness;
+    pair_.damping = two_springs ? in_series(first->damping, second->damping) : one.damping;
     make_soft(index_of<Compliance>());
     add<Compliance>(0, set_spring);
   }
@@ -190,23 +191,23 @@ class PairMaterialWriter {
       return e == nullptr ? 0 : (1 - e->poisson_ratio * e->poisson_ratio) / e->youngs_modulus;
     };
     const auto restitution = [](const Hertz* e) { return e == nullptr ? 1 : e->restitution; };
-    law_.elastic_modulus = 1 / (softness(first) + softness(second));
+    pair_.elastic_modulus = 1 / (softness(first) + softness(second));
     const bool two = first != nullptr && second != nullptr;
     const double e = two ? geometric(first->restitution, second->restitution) : restitution(first) * restitution(second);
-    law_.damping_ratio = hertz_damping_ratio(e);
+    pair_.damping_ratio = hertz_damping_ratio(e);
     make_soft(index_of<Hertz>());
     add<Hertz>(0, set_hertz);
   }
 
-  // The target velocity is given as it is (motionN); ODE adds none for the depth.
+  // The target velocity is given as it is (motionN); with a soft ERP of 0 ODE adds nothing for the depth.
   void make_soft(EffectIndex spring) {
-    law_.spring = spring;
-    law_.surface.mode |= dContactSoftERP | dContactSoftCFM | dContactMotionN;
-    law_.surface.soft_erp = 0;
+    pair_.spring = spring;
+    pair_.surface.mode |= dContactSoftERP | dContactSoftCFM | dContactMotionN;
+    pair_.surface.soft_erp = 0;
   }
 
   void require_alone(const char* name, const char* other, int mode_of_other, const char* why) const {
-    if ((law_.surface.mode & mode_of_other) == 0) return;
+    if ((pair_.surface.mode & mode_of_other) == 0) return;
     const auto text = [](Material m) { return m == kOther ? std::string("the others") : std::to_string(m); };
     throw BadEffect(name, "",
                     std::string(name) + " and " + other + " are both listed for contacts of materials " + text(a_) + " and " +
@@ -215,7 +216,7 @@ class PairMaterialWriter {
 
   const std::vector<Effect>& list_;
   Material a_, b_;
-  PairMaterial& law_;
+  PairMaterial& pair_;
 };
 
 Material last_listed(const std::vector<Effect>& list) {
@@ -232,11 +233,12 @@ Material last_listed(const std::vector<Effect>& list) {
 
 }  // namespace
 
-Laws::Laws(const std::vector<Effect>& list) : size_(static_cast<std::size_t>(last_listed(list) + 2)), laws_(size_ * size_) {
+PairMaterials::PairMaterials(const std::vector<Effect>& list)
+    : size_(static_cast<std::size_t>(last_listed(list) + 2)), pairs_(size_ * size_) {
   const auto material = [&](std::size_t slot) { return slot + 1 == size_ ? kOther : static_cast<Material>(slot); };
   for (std::size_t row = 0; row < size_; ++row) {
     for (std::size_t column = 0; column < size_; ++column) {
-      PairMaterialWriter(list, material(row), material(column), laws_[row * size_ + column]).write();
+      PairMaterialWriter(list, material(row), material(column), pairs_[row * size_ + column]).write();
     }
   }
 }

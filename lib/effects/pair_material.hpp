@@ -1,0 +1,96 @@
+// The parameters of contacts between two materials, compiled from a list of effects.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "supernormal/effects.hpp"
+
+namespace supernormal::effects {
+
+/// The place of an effect in Effect, which is also its place in descriptions().
+using EffectIndex = std::size_t;
+
+struct PairMaterial;
+
+/// Contacts of one pair with the same normal: the deepest point and the corners that share its load.
+struct Patch {
+  std::span<dContact> contacts;
+  double step;     ///< s
+  int kept;        ///< contacts that may be attached; a pass may move others behind them
+  int coarse = 0;  ///< compliant contacts among them that last too few steps
+
+  dContact& deepest() const { return contacts.front(); }
+  /// Our corners have depth 0, and the deepest point lies anywhere between them: forces that the contacts share equally are
+  /// shared by the corners alone, so that the resultant acts in the middle. For ODE's own pairs all contacts bear.
+  bool has_corners() const { return contacts.size() > 1 && contacts.back().geom.depth == 0; }
+  bool bears(const dContact& contact) const { return !has_corners() || &contact != &contacts.front(); }
+  double bearers() const { return static_cast<double>(contacts.size() - (has_corners() ? 1 : 0)); }
+  dBodyID body1() const { return dGeomGetBody(contacts.front().geom.g1); }
+  dBodyID body2() const { return dGeomGetBody(contacts.front().geom.g2); }
+};
+
+struct Pass {
+  EffectIndex effect;
+  void (*run)(const PairMaterial& pair, Patch& patch);
+};
+
+/// Coefficients of friction that depend on the direction of slip on one of the bodies.
+struct FrictionAxes {
+  double along = 0;
+  double across = 0;
+  Vector3 direction = Vector3::UnitX();
+  bool is_on_second = false;  ///< whether the direction is fixed to the body of geom.g2
+};
+
+struct PairMaterial {
+  dSurfaceParameters surface{};  ///< parameters that all contacts start from
+  FrictionAxes axes;
+  double rolling = 0;                      ///< m
+  double spinning = 0;                     ///< m
+  EffectIndex spring = std::variant_npos;  ///< the effect that makes the contact soft, if any
+  double stiffness = 0;                    ///< N/m
+  double damping = 0;                      ///< N s/m
+  double elastic_modulus = 0;              ///< E*, Pa
+  double damping_ratio = 0;                ///< b of Hertz's damper
+  double pull_off = 0;                     ///< N
+
+  std::vector<Pass> passes;                             ///< passes that contacts need besides
+  std::vector<EffectIndex> listed;                      ///< effects that take part in these contacts
+  std::array<int, std::variant_size_v<Effect>> rows{};  ///< rows that each effect adds to a contact
+  unsigned long long contacts = 0;                      ///< contacts set up so far
+  unsigned long long coarse = 0;
+};
+
+/// The parameters of all ordered pairs of materials: one row and one column for each material up to the largest that is listed,
+/// and one more for all others.
+class PairMaterials {
+ public:
+  /// Throws std::invalid_argument when two effects of a pair exclude each other.
+  explicit PairMaterials(const std::vector<Effect>& list);
+
+  PairMaterial& of(Material material1, Material material2) { return pairs_[slot(material1) * size_ + slot(material2)]; }
+  const std::vector<PairMaterial>& all() const { return pairs_; }
+
+ private:
+  std::size_t slot(Material material) const {
+    const auto number = static_cast<std::size_t>(material);  // a negative one is a large number
+    return number < size_ ? number : size_ - 1;
+  }
+  std::size_t size_ = 1;
+  std::vector<PairMaterial> pairs_;
+};
+
+// The passes are in friction.cpp, compliance.cpp and adhesion.cpp.
+void align_friction(const PairMaterial& pair, Patch& patch);
+void align_anisotropic_friction(const PairMaterial& pair, Patch& patch);
+void align_rolling(const PairMaterial& pair, Patch& patch);
+void set_spring(const PairMaterial& pair, Patch& patch);
+void set_hertz(const PairMaterial& pair, Patch& patch);
+void add_adhesion(const PairMaterial& pair, Patch& patch);
+
+}  // namespace supernormal::effects
