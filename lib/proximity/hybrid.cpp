@@ -21,12 +21,12 @@ BranchAndBound::Goal search_goal(const GapFunction& gap, const Settings& setting
   const int limit = settings.max_evaluations;
   if (settings.certify_depth) return {0, limit, 0.5 * tolerance, 0};
   const bool follows = branch == Branch::OfStart;
-  if (follows && depth <= tuning.followed_depth * gap.length_unit()) return {};
+  if (follows && depth <= kTuning.followed_depth * gap.length_unit()) return {};
   const double min_radii = gap.shape1().min_curvature_radius_estimate() + gap.shape2().min_curvature_radius_estimate();
   if (!may_have_other_maxima(min_radii, depth)) return {};
-  const int most = std::min(limit, gap.evaluations() + tuning.search_evaluations);
-  if (follows) return {tuning.branch_width, most, std::max(tuning.branch_gain * depth, tolerance), 0};
-  return {tuning.search_width, most, tolerance, tuning.near_best * depth};
+  const int most = std::min(limit, gap.evaluations() + kTuning.search_evaluations);
+  if (follows) return {kTuning.branch_width, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
+  return {kTuning.search_width, most, tolerance, kTuning.near_best * depth};
 }
 
 /// The answer after a search for higher maxima than `best`, in which that is put.

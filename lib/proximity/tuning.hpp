@@ -37,9 +37,9 @@ struct Tuning {
 };
 
 #ifdef SUPERNORMAL_ABLATION
-inline Tuning tuning;
+inline Tuning kTuning;
 #else
-inline constexpr Tuning tuning;
+inline constexpr Tuning kTuning;
 #endif
 
 }  // namespace supernormal

@@ -65,11 +65,11 @@ void print_header() {
 /// Puts the value in place of a constant as long as it lives.
 class Changed {
  public:
-  Changed(const Trial& trial, double value) : before_(tuning) {
-    std::visit([&](auto member) { tuning.*member = static_cast<std::remove_reference_t<decltype(tuning.*member)>>(value); },
+  Changed(const Trial& trial, double value) : before_(kTuning) {
+    std::visit([&](auto member) { kTuning.*member = static_cast<std::remove_reference_t<decltype(kTuning.*member)>>(value); },
                trial.constant);
   }
-  ~Changed() { tuning = before_; }
+  ~Changed() { kTuning = before_; }
   Changed(const Changed&) = delete;
   Changed& operator=(const Changed&) = delete;
 

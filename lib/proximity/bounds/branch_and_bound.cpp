@@ -85,9 +85,9 @@ BranchAndBound::Cell BranchAndBound::cell_of(const std::array<Vector3, kCorners>
 void BranchAndBound::refine(Cell cell) {
   const double before = excess_of(cell.bound);
   tighten(cell);
-  if (excess_of(cell.bound) <= tuning.split_share * before) return keep(cell);
+  if (excess_of(cell.bound) <= kTuning.split_share * before) return keep(cell);
   add_cut(cell, evaluate(cell.peak));
-  if (excess_of(cell.bound) > tuning.split_share * before) {
+  if (excess_of(cell.bound) > kTuning.split_share * before) {
     split(cell);
   } else {
     keep(cell);
@@ -113,7 +113,7 @@ void BranchAndBound::remember_top(const LocalCandidate& top) {
   const auto is_lower = [](const LocalCandidate& a, const LocalCandidate& b) { return a.s < b.s; };
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   auto place =
-      std::find_if(tops_.begin(), end, [&](const LocalCandidate& other) { return other.n.dot(top.n) > tuning.same_hill_cosine; });
+      std::find_if(tops_.begin(), end, [&](const LocalCandidate& other) { return other.n.dot(top.n) > kTuning.same_hill_cosine; });
   if (place == end && top_count_ < kMaxTops) {
     tops_[top_count_++] = top;
     return;
@@ -129,7 +129,7 @@ void BranchAndBound::climb_from_tops() {
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
   for (auto top = tops_.begin(); top != end && gap_.evaluations() < settings_.max_evaluations; ++top) {
-    if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < tuning.same_hill_cosine) climb_from(top->n);
+    if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < kTuning.same_hill_cosine) climb_from(top->n);
   }
 }
 

@@ -66,7 +66,7 @@ double distance_to_circle(const Vector2& u, const Vector2& p, double radius) {
 }  // namespace
 
 void CuttingPlanes::add(const Vector3& d) {
-  std::size_t place = static_cast<std::size_t>(count_);
+  auto place = static_cast<std::size_t>(count_);
   if (count_ < kCapacity) {
     ++count_;
   } else if (kept_at_.isZero(0)) {

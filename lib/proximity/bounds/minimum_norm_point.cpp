@@ -15,8 +15,7 @@ constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 /// The vertices of the simplex that holds the nearest point so far, in its interior: a point, a segment or a triangle.
 class Simplex {
  public:
-  explicit Simplex(const Vector3& vertex)
-      : vertices_{vertex, vertex, vertex}, count_(1), best_{vertex, vertex.norm(), unit(vertex)} {}
+  explicit Simplex(const Vector3& vertex) : vertices_{vertex, vertex, vertex}, best_{vertex, vertex.norm(), unit(vertex)} {}
 
   const MinimumNormPoint& best() const { return best_; }
 
@@ -101,7 +100,7 @@ class Simplex {
   }
 
   std::array<Vector3, 3> vertices_;
-  std::size_t count_;
+  std::size_t count_ = 1;
   MinimumNormPoint best_;
 };
 

@@ -4,6 +4,6 @@
 
 namespace supernormal {
 
-bool may_have_other_maxima(double min_radii, double depth) { return depth > tuning.depth_per_radius * min_radii; }
+bool may_have_other_maxima(double min_radii, double depth) { return depth > kTuning.depth_per_radius * min_radii; }
 
 }  // namespace supernormal

@@ -41,7 +41,7 @@ Status Ascent::climb(const GapJet& start) {
 }
 
 void Ascent::restart() {
-  radius_ = tuning.longest_step;
+  radius_ = kTuning.longest_step;
   upper_ = kInfinity;
   is_hulls_turn_ = false;
   is_model_short_ = false;
@@ -65,7 +65,7 @@ Status Ascent::climb_on(double cutoff) {
     if (!is_from_hull_) adapt_radius(step, actual_gain);
     // Below the concave part a normal of the hull may lie on another hill.
     if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
-      if (is_from_hull_ && !is_concave()) radius_ = tuning.longest_step;
+      if (is_from_hull_ && !is_concave()) radius_ = kTuning.longest_step;
       now_ = 1 - now_;
       is_from_bounds_ = step.remaining_gain == kInfinity;
     } else if (is_from_hull_ && trial().s > candidate_.s) {
@@ -77,7 +77,7 @@ Status Ascent::climb_on(double cutoff) {
 // A normal that bounds have proposed is that of a face or an edge of body 2 but for rounding, and the boundary point is one of its
 // vertices. The model's step goes to the exact normal, where any point between the vertices is a boundary point.
 void Ascent::go_to_stratum() {
-  const Step step = model_.propose(current(), active_[now_], bfgs_, tuning.longest_step);
+  const Step step = model_.propose(current(), active_[now_], bfgs_, kTuning.longest_step);
   if (model_.leaves_face() || gap_.evaluations() >= settings_.max_evaluations) return;
   evaluate(step.normal.normalized(), trial(), active_[1 - now_]);
   if (trial().s >= current().s - gap_.rounding()) now_ = 1 - now_;
@@ -99,7 +99,7 @@ bool Ascent::is_finished(double cutoff, Status& status) const {
 
 Step Ascent::choose_step() {
   Step step = model_.propose(current(), active_[now_], bfgs_, radius_);
-  const double estimate = model_.leaves_face() ? kInfinity : step.remaining_gain;
+  const double estimate = model_.leaves_face() ? std::numeric_limits<double>::infinity() : step.remaining_gain;
   const bool is_done = estimate <= tolerance_;
   const bool must_replace = model_.leaves_face() || is_model_short_ || radius_ < kNoRadius || is_ruled_out(step);
   is_from_hull_ = false;
@@ -121,7 +121,7 @@ void Ascent::ask_hull(bool must_replace, Step& step) {
   const auto [point, upper, normal] = minimum_norm_point(cuts_.points());
   is_overlap_proved_ = !is_concave() && upper <= gap_.rounding();
   if (is_overlap_proved_) return;
-  error_ = is_concave() ? std::max(upper - height(), 0.0) : kInfinity;
+  error_ = is_concave() ? std::max(upper - height(), 0.0) : std::numeric_limits<double>::infinity();
   // Where s + rho is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their
   // end.
   is_hulls_turn_ = must_replace || !is_concave() || !is_hulls_turn_;
@@ -142,14 +142,14 @@ void Ascent::ask_hull(bool must_replace, Step& step) {
 void Ascent::take_top_of_cuts(Step& step) {
   keep_own_cut();
   const TangentPlane plane = model_.local_model(current(), bfgs_).plane1;
-  const double radius = is_concave() || radius_ < kNoRadius ? tuning.longest_step : radius_;
+  const double radius = is_concave() || radius_ < kNoRadius ? kTuning.longest_step : radius_;
   const CuttingPlanes::Maximum top = cuts_.maximize(plane, radius);
   step = {current().n + plane.lift(top.u), top.u.norm(), std::max(top.value - height(), 0.0), kInfinity};
   cuts_.keep_lowest_at(step.normal);
   if (!top.is_interior) return;
   // Cuts whose maximum is not on the rim bound s + rho where it is not negative, and elsewhere to first order in every direction:
   // there s gains no more, but for the turn itself.
-  const double safety = is_concave() ? 1 : tuning.gain_safety;
+  const double safety = is_concave() ? 1 : kTuning.gain_safety;
   error_ = std::min(error_, std::max(safety * step.gain + top.uncertainty, is_concave() ? -2 * height() : 0.0));
 }
 
@@ -160,7 +160,7 @@ void Ascent::keep_own_cut() {
 }
 
 bool Ascent::is_ruled_out(const Step& step) const {
-  return cuts_.upper_bound(step.normal) <= (height() + tuning.poor_share * step.gain) * step.normal.norm();
+  return cuts_.upper_bound(step.normal) <= (height() + kTuning.poor_share * step.gain) * step.normal.norm();
 }
 
 // Near the maximum s is level to rounding while its slope still tells the way.
@@ -188,11 +188,11 @@ void Ascent::learn_hessian() {
 }
 
 void Ascent::adapt_radius(const Step& step, double actual_gain) {
-  is_model_short_ = actual_gain > tuning.short_share * step.gain;
+  is_model_short_ = actual_gain > kTuning.short_share * step.gain;
   const bool is_above_rounding = step.gain > gap_.rounding();
-  if (is_above_rounding && actual_gain > tuning.good_share * step.gain) {
-    radius_ = std::min(std::max(radius_, 2 * step.length), tuning.longest_step);
-  } else if (!is_above_rounding || !(actual_gain > tuning.poor_share * step.gain)) {
+  if (is_above_rounding && actual_gain > kTuning.good_share * step.gain) {
+    radius_ = std::min(std::max(radius_, 2 * step.length), kTuning.longest_step);
+  } else if (!is_above_rounding || !(actual_gain > kTuning.poor_share * step.gain)) {
     radius_ = std::max(0.5 * std::min(radius_, step.length), 0.5 * kNoRadius);
   }
 }

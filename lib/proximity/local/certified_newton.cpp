@@ -56,7 +56,7 @@ bool CertifiedNewton::propose(Vector3& step) const {
   // Deeper than the ball there is nothing to prove: it is left to others when no more is to be gained.
   if (!is_within_reach() && !(jet.d.dot(step) > tolerance_)) return false;
   const double squared = step.squaredNorm();
-  if (squared > tuning.longest_step * tuning.longest_step) step *= tuning.longest_step / std::sqrt(squared);
+  if (squared > kTuning.longest_step * kTuning.longest_step) step *= kTuning.longest_step / std::sqrt(squared);
   return true;
 }
 
@@ -64,7 +64,7 @@ bool CertifiedNewton::propose(Vector3& step) const {
 // hardly change, both steps are the same.
 bool CertifiedNewton::parametrizations_agree(const Vector3& step) const {
   const auto is_less = [](const Vector3& turn, const Vector3& normal) {
-    return (turn.array().abs() <= tuning.same_turn * normal.array().abs()).all();
+    return (turn.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
   };
   return is_less(step, best().n) && is_less(gap_.rotation().transpose() * step, best().m);
 }
@@ -95,14 +95,14 @@ bool CertifiedNewton::through_boundary_points(const RegularHessian& hessian, con
 }
 
 bool CertifiedNewton::climb(Vector3 step) {
-  const int most = std::min(settings_.max_evaluations, tuning.newton_evaluations);
+  const int most = std::min(settings_.max_evaluations, kTuning.newton_evaluations);
   while (gap_.evaluations() < most) {
     if (!evaluate((best().n + step).normalized())) return false;
     if (next().s > best().s) {
       best_ = 1 - best_;
       return true;
     }
-    step *= tuning.backtrack;
+    step *= kTuning.backtrack;
   }
   return false;
 }

@@ -17,8 +17,6 @@ constexpr double kFlatRadius = 1e8;
 // Directions closer than this (radians) to the plane of another have no gnomonic coordinates beyond rounding.
 constexpr double kGrazing = 1e-15;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The bodies propose u1 and u2; each counts by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2). This is computed as what
 /// the rounder body changes of the flatter one's, which counts alone where the sum is that of an edge, singular.
 Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
@@ -62,7 +60,7 @@ Step ModelStep::propose(const GapJet& jet, const ActiveVertices& active, const B
 Step ModelStep::smooth_step(const GapJet& jet, const LocalModel& local, double radius) {
   const auto [newton, whole_gain] = local.model.peak(radius, gap_.rounding());
   Step step{jet.n + local.plane1.lift(newton), newton.norm(), std::max(local.model.gain(newton), 0.0),
-            tuning.gain_safety * whole_gain};
+            kTuning.gain_safety * whole_gain};
   if (has_flat_faces_ && !parametrizations_agree(jet, local, newton)) {
     leaves_face_ = flat_step(jet, local, {0, local.model.g, newton, nullptr}, radius, step) == FlatStep::LeavesFace;
   }
@@ -84,12 +82,12 @@ Step ModelStep::kinked_step(const GapJet& jet, const LocalModel& local, const Ac
   }
   // The model is 0 here; where its matrix is as good as singular, rounding may leave it without a maximum that is not lower.
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
-  const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : kInfinity;
+  const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius) peak = model.maximize(radius);
 
   Target target = target_of(jet, local, peak, pieces);
   const Vector3 normal = vertices_.shared_normal(peak, jet.n + local.plane1.lift(peak.u));
-  Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0), tuning.gain_safety * whole_gain};
+  Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0), kTuning.gain_safety * whole_gain};
   // Vertices around the peak hold the normal whatever the radii of curvature, which on a flat face say nothing a little farther on.
   const bool is_at_face = peak.count == 3 && complementarity.is_held(peak, pieces, {});
   if (has_flat_faces_ && !is_at_face && flat_step(jet, local, target, radius, step) != FlatStep::Taken) {
@@ -125,7 +123,7 @@ ModelStep::Target ModelStep::target_of(const GapJet& jet, const LocalModel& loca
 bool ModelStep::parametrizations_agree(const GapJet& jet, const LocalModel& local, const Vector2& newton) const {
   if (may_be_tilted_) return false;
   const auto is_less = [](const Vector3& turn, const Vector3& normal) {
-    return (turn.array().abs() <= tuning.same_turn * normal.array().abs()).all();
+    return (turn.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
   };
   return is_less(local.plane1.lift(newton), jet.n) && is_less(local.plane2.lift(newton), jet.m);
 }
@@ -147,7 +145,7 @@ ModelStep::FlatStep ModelStep::flat_step(const GapJet& jet, const LocalModel& lo
   // The cut of this normal lets s gain at most the slope times the step, however flat the face.
   step.remaining_gain = std::max(step.remaining_gain, rise);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
-  if (length < tuning.creep * newton.norm() && rise < tuning.poor_share * step.gain) return FlatStep::Taken;
+  if (length < kTuning.creep * newton.norm() && rise < kTuning.poor_share * step.gain) return FlatStep::Taken;
   const double shrink = length > radius ? radius / length : 1;
   u *= shrink;
   step.normal = jet.n + local.plane1.lift(u);
