@@ -174,7 +174,7 @@ TEST_CASE("where four points surround the origin the result is exactly zero") {
       points.emplace_back(size * (turn * (corner + 0.2 * draw.vector().normalized())));
     }
     for (int more = 0; more < trial % 5; ++more) points.emplace_back(size * draw.vector());
-    std::ranges::rotate(points, points.begin() + trial % static_cast<int>(points.size()));
+    std::rotate(points.begin(), points.begin() + trial % static_cast<int>(points.size()), points.end());
     CHECK(nearest_of(points) == Vector3::Zero());
   }
 }
