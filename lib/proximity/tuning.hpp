@@ -3,9 +3,9 @@
 
 namespace supernormal {
 
-/// Every constant that changes which normals are evaluated or when a search ends. No answer depends on them for its correctness:
-/// bounds decide that. `tests/ablation/run` changes one at a time and prints what that costs; lib/proximity/README.md has its
-/// table.
+/// The constants that change which normals are evaluated or when a search ends. No proved interval depends on them; which maximum
+/// of a deep overlap is found, and whether it is found, does. `tests/ablation/run` changes one at a time and prints what that
+/// costs.
 struct Tuning {
   // Newton's method with the one-line bound (local/certified_newton.hpp).
   int newton_evaluations = 8;  ///< it gives up after so many: nine of ten pairs that the bound proves need fewer
