@@ -93,6 +93,27 @@ TEST_CASE("the three solvers agree on ellipsoids, and where they converge on oth
   CHECK(compared >= 3 * 3 * 125 - 1);
 }
 
+TEST_CASE("the contact point of every solver depends less on the error of the normal than the middle of the witness points") {
+  for (const Solver solver : {Solver::Newton, Solver::FixedPoint, Solver::Hybrid}) {
+    double of_contact = 0, of_middle = 0;
+    for (const ReferencePair& pair : reference_pairs()) {
+      if (!is_smooth(pair) || !pair.is_apart_or_touching()) continue;
+      Settings loose = with(solver);
+      loose.tolerance = 1e-3;
+      const Proximity out = solve(pair, loose);
+      if (out.status != Status::Converged) continue;
+      Settings tight;
+      tight.tolerance = 1e-13;
+      const Vector3 exact = solve(pair, tight).contact;
+      of_contact += (out.contact - exact).norm() / pair.unit;
+      of_middle += (0.5 * (out.point1 + out.point2) - exact).norm() / pair.unit;
+    }
+    CAPTURE(static_cast<int>(solver));
+    CHECK(of_middle > 0.1);
+    CHECK(of_contact <= 0.5 * of_middle);
+  }
+}
+
 TEST_CASE("bodies without a Hessian are solved to the tolerance") {
   for (const ReferencePair& pair : reference_pairs()) {
     if (!pair.is_apart_or_touching()) continue;

@@ -182,13 +182,14 @@ CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side
   return corners;
 }
 
-/// Moves both corners to one place between them. The deeper of two has more weight: where the body leans, its place matters.
+/// Moves both corners to one place between them, with the depth of the deeper one, so that the deepest contact stays as deep as
+/// the overlap. The deeper of two has more weight: where the body leans, its place matters.
 void unite(ManifoldCorner& corner, ManifoldCorner& other, double least_depth) {
-  const double weight = std::pow(corner.depth + least_depth, 2);
-  const double weight_of_other = std::pow(other.depth + least_depth, 2);
+  const double weight = corner.depth + least_depth;
+  const double weight_of_other = other.depth + least_depth;
   const double share = weight_of_other / (weight + weight_of_other);
   corner.point += share * (other.point - corner.point);
-  corner.depth += share * (other.depth - corner.depth);
+  corner.depth = std::max(corner.depth, other.depth);
   other = corner;
 }
 

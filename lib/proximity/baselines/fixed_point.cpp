@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "proximity/answer.hpp"
+#include "proximity/contact_point.hpp"
 #include "proximity/solvers.hpp"
 #include "shapes/finite.hpp"
 
@@ -44,6 +45,16 @@ class NormalLine {
   bool has_previous_ = false;
 };
 
+/// The answer after convergence. The search needs no derivatives, but the contact point does: one evaluation more, where there are
+/// any and it is allowed.
+Proximity converged_answer(GapFunction& gap, const Settings& settings, GapJet& jet, double error) {
+  const bool has_contact = gap.has_hessian() && gap.evaluations() < settings.max_evaluations;
+  if (has_contact) gap.evaluate(jet.n, Order::Hessian, jet);
+  Proximity out = answer(gap, settings, jet, error, Status::Converged);
+  if (has_contact) out.contact = contact_point(gap, jet);
+  return out;
+}
+
 }  // namespace
 
 Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Vector3& start) {
@@ -65,7 +76,7 @@ Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Ve
     const double gain = std::abs(jet.d.dot(next - n * next.dot(n)));
     const double contraction = previous_gain > 0 ? std::min(gain / previous_gain, kSlowestContraction) : kSlowestContraction;
     const double error = kGainSafety * gain / (1 - contraction);
-    if (error <= tolerance) return answer(gap, settings, jet, error, Status::Converged);
+    if (error <= tolerance) return converged_answer(gap, settings, jet, error);
     if (gap.evaluations() >= settings.max_evaluations) return answer(gap, settings, jet, error, Status::EvaluationLimit);
     previous_gain = gain;
     n = next;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "proximity/answer.hpp"
+#include "proximity/contact_point.hpp"
 #include "proximity/local/local_model.hpp"
 #include "proximity/solvers.hpp"
 #include "shapes/finite.hpp"
@@ -11,6 +12,12 @@ namespace {
 // The predicted gain is half the slope times the step; twice that allows for the change of the Hessian over the step.
 constexpr double kGainSafety = 2;
 
+Proximity answer_with_contact(const GapFunction& gap, const Settings& settings, const GapJet& jet, double error, Status status) {
+  Proximity out = answer(gap, settings, jet, error, status);
+  out.contact = contact_point(gap, jet);
+  return out;
+}
+
 }  // namespace
 
 Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3& start) {
@@ -19,16 +26,19 @@ Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3
   Vector3 n = start;
   while (true) {
     gap.evaluate(n, Order::Hessian, jet);
-    if (settings.stop_when_apart && jet.s > 0) return answer(gap, settings, jet, 0, Status::Apart);
+    if (settings.stop_when_apart && jet.s > 0) return answer_with_contact(gap, settings, jet, 0, Status::Apart);
 
     // The step makes the two tangential components of d zero, whatever kind of stationary point it leads to.
     const LocalModel local = LocalModel::of(gap, jet);
     const Vector2 step = local.model.A.solve(local.model.g);
-    if (!all_finite(step)) return answer(gap, settings, jet, 0, local.model.g.norm() == 0 ? Status::Converged : Status::Diverged);
+    if (!all_finite(step))
+      return answer_with_contact(gap, settings, jet, 0, local.model.g.norm() == 0 ? Status::Converged : Status::Diverged);
     const double error = kGainSafety * 0.5 * std::abs(local.model.g.dot(step));
     if (error <= tolerance)
-      return answer(gap, settings, jet, error, std::isfinite(local.model.largest_gain()) ? Status::Converged : Status::Diverged);
-    if (gap.evaluations() >= settings.max_evaluations) return answer(gap, settings, jet, error, Status::EvaluationLimit);
+      return answer_with_contact(gap, settings, jet, error,
+                                 std::isfinite(local.model.largest_gain()) ? Status::Converged : Status::Diverged);
+    if (gap.evaluations() >= settings.max_evaluations)
+      return answer_with_contact(gap, settings, jet, error, Status::EvaluationLimit);
     n = (n + local.plane1.lift(step)).normalized();
   }
 }

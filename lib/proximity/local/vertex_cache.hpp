@@ -14,7 +14,7 @@ namespace supernormal {
 /// The support function of a body with faces and edges is the largest of smooth ones, one for each corner p, so that near a normal
 ///     s(n + u) = min over p of (n + u).p - h1(n + u),
 /// and each corner makes one piece of a PiecewiseModel. Where several pieces meet, the normal is that of an edge or a face, and the
-/// boundary point is any point of it (the strata of DESIGN section 4).
+/// boundary point is any point of it.
 class VertexCache {
  public:
   explicit VertexCache(GapFunction& gap) : gap_(gap) {}

@@ -135,6 +135,28 @@ TEST_CASE("a flat body has four corners on the floor, with little between them a
   }
 }
 
+TEST_CASE("whatever the room, the deepest contact is as deep as the overlap") {
+  Random random(6);
+  for (int repetition = 0; repetition < 500; ++repetition) {
+    const Vector3 half_axes{uniform(random, 0.5, 2), uniform(random, 0.5, 2), uniform(random, 0.5, 2)};
+    const Superellipsoid body(half_axes, uniform(random, 6, 100), uniform(random, 6, 100));
+    const double depth = half_axes.z() * std::pow(10, uniform(random, -5, -0.5));
+    const Matrix3 leaning = tilt(uniform(random, 0, 0.2), uniform(random, 0, 7));
+    const ContactManifold manifold = manifold_on_floor(body, leaning, depth);
+    for (int room = 2; room <= 8; ++room) {
+      CAPTURE(room);
+      const ContactManifold reduced = reduced_to(manifold, room);
+      if (reduced.corner_count == 0 || has_room_for_deepest(room)) continue;
+      double deepest = 0;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(reduced.corner_count); ++k) {
+        deepest = std::max(deepest, reduced.corners[k].depth);
+      }
+      CHECK(deepest == test::relative(-manifold.deepest.gap).epsilon(1e-12));
+      CHECK(reduced.corners[0].depth == test::relative(deepest).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("a can rests on two points on its side and on four on its end") {
   const Superellipsoid can(Vector3(0.03, 0.03, 0.06), 2, 30);
   const ContactManifold upright = manifold_on_floor(can, Matrix3::Identity(), 1e-5);
