@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "proximity/answer.hpp"
-#include "proximity/bounds/branch_and_bound.hpp"
+#include "proximity/bounds/expanding_polytope.hpp"
 #include "proximity/bounds/other_maxima.hpp"
 #include "proximity/contact_point.hpp"
 #include "proximity/local/ascent.hpp"
@@ -17,7 +17,8 @@ namespace supernormal {
 namespace {
 
 /// How thoroughly other maxima are looked for; not at all where no evaluation is allowed.
-BranchAndBound::Goal search_goal(const GapFunction& gap, const Settings& settings, Branch branch, double tolerance, double depth) {
+ExpandingPolytope::Goal search_goal(const GapFunction& gap, const Settings& settings, Branch branch, double tolerance,
+                                    double depth) {
   const int limit = settings.max_evaluations;
   if (settings.certify_depth) return {0, limit, 0.5 * tolerance, 0};
   const bool follows = branch == Branch::OfStart;
@@ -30,10 +31,10 @@ BranchAndBound::Goal search_goal(const GapFunction& gap, const Settings& setting
 }
 
 /// The answer after a search for higher maxima than `best`, in which that is put.
-Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings, const BranchAndBound::Goal& goal,
-                 GapJet& best, Status status) {
+Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings,
+                 const ExpandingPolytope::Goal& goal, GapJet& best, Status status) {
   double error = ascent.error();
-  BranchAndBound proof(gap, cuts, ascent, settings, absolute_tolerance(gap, settings));
+  ExpandingPolytope proof(gap, cuts, ascent, settings, absolute_tolerance(gap, settings));
   const bool is_reached = proof.run(goal, best, error, status);
   if (!is_reached && gap.evaluations() >= settings.max_evaluations) status = Status::EvaluationLimit;
   const bool is_proved = is_reached && settings.certify_depth;
@@ -58,7 +59,7 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPl
   GapJet best = ascent.best();
   Proximity out = answer(gap, settings, best, ascent.error(), status);
   if (!out.is_global && status != Status::InvalidInput) {
-    const BranchAndBound::Goal goal = search_goal(gap, settings, branch, tolerance, -best.s);
+    const ExpandingPolytope::Goal goal = search_goal(gap, settings, branch, tolerance, -best.s);
     if (goal.max_evaluations > 0) out = search(gap, cuts, ascent, settings, goal, best, status);
   }
   out.contact = contact_point(gap, best);

@@ -22,17 +22,15 @@ struct Tuning {
   double gain_safety = 3;  ///< the model's gain times this estimates what is left: where s rises like a power of the distance,
                            ///< the model sees at least half of it
 
-  // The search for other maxima of overlapping bodies (hybrid.cpp, bounds/branch_and_bound.hpp).
+  // The search for other maxima of overlapping bodies (hybrid.cpp, bounds/expanding_polytope.hpp).
   double followed_depth = 0.02;  ///< of the length unit: shallower, a warm query follows its branch without a look at others
   double depth_per_radius = 1;   ///< no other maximum is looked for while the depth is less than so many of the least radii of
                                  ///< curvature: with 1 it is Blaschke's theorem, but for the estimate of the radii
-  double search_width = 0.01;    ///< of the depth: the search ends when no depth can be less by more
+  double search_width = 0.003;   ///< of the depth: the search ends when no depth can be less by more
   int search_evaluations = 200;  ///< or after so many
   double near_best = 0.06;       ///< of the depth: other hills whose normals come as near to the best are climbed in the end
   double branch_width = 0.33;    ///< of the depth: a warm query does not look closer
   double branch_gain = 0.17;     ///< of the depth: it leaves its branch for one that is shallower by more, so that it does not flip
-  double split_share = 0.5;  ///< of the excess: where known cuts leave less, other triangles may be more in need of an evaluation;
-                             ///< where an evaluation leaves more, the triangle is too large and is split
   double same_hill_cosine = 0.996;  ///< normals closer than five degrees lead up the same hill
 };
 

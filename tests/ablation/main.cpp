@@ -38,7 +38,6 @@ std::vector<Trial> trials() {
           {"near_best", &Tuning::near_best, {0, 0.03, 0.1}},
           {"branch_width", &Tuning::branch_width, {0.1, 1}},
           {"branch_gain", &Tuning::branch_gain, {0, 0.33}},
-          {"split_share", &Tuning::split_share, {0.3, 0.7}},
           {"same_hill_cosine", &Tuning::same_hill_cosine, {0.98, 0.9999}}};
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace supernormal {
 namespace {
@@ -19,6 +20,9 @@ class Simplex {
 
   const MinimumNormPoint& best() const { return best_; }
 
+  /// The tetrahedron that holds the origin inside, if one was found.
+  const std::optional<std::array<Vector3, 4>>& around() const { return around_; }
+
   /// Moves to the nearest point of the hull of the simplex and `vertex`: in one of the faces of that hull which have the new
   /// vertex, or at the origin if that is inside. Returns whether this is nearer than before.
   bool add(const Vector3& vertex) {
@@ -26,6 +30,7 @@ class Simplex {
     const std::size_t old_count = count_;
     if (old_count == 3 && is_origin_inside(vertex)) {
       best_ = {Vector3::Zero(), 0, Vector3::Zero()};
+      around_ = {old[0], old[1], old[2], vertex};
       return true;
     }
     const double before = best_.norm;
@@ -102,11 +107,10 @@ class Simplex {
   std::array<Vector3, 3> vertices_;
   std::size_t count_ = 1;
   MinimumNormPoint best_;
+  std::optional<std::array<Vector3, 4>> around_;
 };
 
-}  // namespace
-
-MinimumNormPoint minimum_norm_point(std::span<const Vector3> points) {
+Simplex nearest_simplex(std::span<const Vector3> points) {
   const auto is_shorter = [](const Vector3& a, const Vector3& b) { return a.squaredNorm() < b.squaredNorm(); };
   const double largest = std::max_element(points.begin(), points.end(), is_shorter)->norm();
   Simplex simplex(*std::min_element(points.begin(), points.end(), is_shorter));
@@ -116,7 +120,15 @@ MinimumNormPoint minimum_norm_point(std::span<const Vector3> points) {
     const Vector3& lowest = *std::min_element(points.begin(), points.end(), is_lower);
     if (!(lowest.dot(best.normal) < best.norm - kRounding * largest) || !simplex.add(lowest)) break;
   }
-  return simplex.best();
+  return simplex;
+}
+
+}  // namespace
+
+MinimumNormPoint minimum_norm_point(std::span<const Vector3> points) { return nearest_simplex(points).best(); }
+
+std::optional<std::array<Vector3, 4>> enclosing_tetrahedron(std::span<const Vector3> points) {
+  return nearest_simplex(points).around();
 }
 
 }  // namespace supernormal

@@ -1,6 +1,8 @@
 // The point of a hull that is nearest to the origin.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 
 #include "supernormal/shapes/shape.hpp"
@@ -20,5 +22,9 @@ struct MinimumNormPoint {
 ///
 /// However near the origin is to a facet, `normal` is the facet's: taken from its edges, not from the point, whose digits cancel.
 MinimumNormPoint minimum_norm_point(std::span<const Vector3> points);
+
+/// Four of the points, whose tetrahedron has the origin inside; none where the hull has not, or has it on a face of what the same
+/// method comes to.
+std::optional<std::array<Vector3, 4>> enclosing_tetrahedron(std::span<const Vector3> points);
 
 }  // namespace supernormal

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "proximity/bounds/barycentric_lp.hpp"
 #include "proximity/reference_pairs.hpp"
 #include "relative.hpp"
 #include "shapes/shape_samples.hpp"
@@ -164,43 +163,6 @@ TEST_CASE("no radius of curvature is smaller than the rolling radius") {
   CHECK(Superellipsoid({1, 1, 1}, 2, 2).rolling_radius() == relative(1));
   CHECK(Superellipsoid({1, 1, 1}, 1.9, 4).rolling_radius() == 0);
   CHECK(Ellipsoid({3, 2, 1}).rolling_radius() == relative(1.0 / 3));
-}
-
-TEST_CASE("the linear program on a triangle: cuts on a grid are never above its value, and it is attained") {
-  const std::vector<Vector3> cuts = random_normals(BarycentricLp::kMaxCuts, 8);
-  BarycentricLp program;
-  for (std::size_t count = 1; count <= cuts.size(); ++count) {
-    program.add(cuts[count - 1]);
-    const auto least = [&](const Vector3& w) {
-      double value = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < count; ++k) value = std::min(value, cuts[k].dot(w));
-      return value;
-    };
-    CHECK(least(program.weights()) == relative(program.value()));
-    for (int i = 0; i <= 60; ++i) {
-      for (int j = 0; i + j <= 60; ++j) CHECK(least(Vector3(i, j, 60 - i - j) / 60) <= program.value() + 1e-15);
-    }
-  }
-}
-
-// The line on which two of them are as low lies anywhere, and so would the maximum on the fourth cut (of a proof that was wrong).
-TEST_CASE("the linear program on a triangle: cuts that differ by rounding count as one") {
-  const std::vector<Vector3> cuts = {{-0.017604075729274471, -7.1312056203734464, 1.1049011009374972},
-                                     {-0.017604075729274082, -7.1312056203734464, 1.1049011009374969},
-                                     {-0.017604075729273826, 0.026659056396731159, -0.011673538254069415},
-                                     {9.3711740328301332, 0.05015380110608314, -1.3202940035562474}};
-  BarycentricLp program;
-  for (const Vector3& cut : cuts) program.add(cut);
-  double highest = -1;
-  for (int i = 0; i <= 600; ++i) {
-    for (int j = 0; i + j <= 600; ++j) {
-      double least = 10;
-      for (const Vector3& cut : cuts) least = std::min(least, cut.dot(Vector3(i, j, 600 - i - j) / 600));
-      highest = std::max(highest, least);
-    }
-  }
-  CHECK(program.value() >= highest);
-  CHECK(program.value() <= highest + 0.01);
 }
 
 namespace {

@@ -1,0 +1,146 @@
+#include "proximity/bounds/expanding_polytope.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "proximity/bounds/minimum_norm_point.hpp"
+#include "proximity/tuning.hpp"
+
+namespace supernormal {
+namespace {
+
+// Where the origin is on a face, an edge or a vertex of the hull of what is known, the search goes on around a point beside it: so
+// many times the rounding of s away, which makes the bound larger by as much.
+const Vector3 kBeside(7, 11, 9);
+
+}  // namespace
+
+// A shape may be a callback that asks queries of its own: they find the storage taken and use another.
+ExpandingPolytope::ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings,
+                                     double tolerance)
+    : gap_(gap),
+      cuts_(cuts),
+      ascent_(ascent),
+      settings_(settings),
+      rho_(gap.rolling_radius()),
+      tolerance_(tolerance),
+      polytope_(std::exchange(kept_polytope(), InnerPolytope())) {}
+
+ExpandingPolytope::~ExpandingPolytope() { kept_polytope() = std::move(polytope_); }
+
+InnerPolytope& ExpandingPolytope::kept_polytope() {
+  thread_local InnerPolytope polytope;
+  return polytope;
+}
+
+bool ExpandingPolytope::run(const Goal& goal, GapJet& best, double& error, Status& status) {
+  goal_ = goal;
+  best_ = best;
+  error_ = error;
+  status_ = status;
+  top_count_ = 0;
+  remember_top(ascent_.candidate());
+  const bool is_enclosed = enclose_origin();
+  if (is_enclosed) expand();
+  climb_from_tops();
+  const double upper = is_enclosed ? -polytope_.inner_radius() : minimum_norm_point(cuts_.points()).norm;
+  excess_ = is_apart() ? error_ : std::max(upper - (best_.s + rho_), 0.0);
+  best = best_;
+  error = error_;
+  status = status_;
+  return excess_ <= width();
+}
+
+// GJK: where the hull of the known points does not hold the origin, the next normal is that of its nearest point.
+bool ExpandingPolytope::enclose_origin() {
+  Vector3 centre = Vector3::Zero();
+  while (!is_apart()) {
+    points_.clear();
+    for (const Vector3& point : cuts_.points()) points_.emplace_back(point - centre);
+    const std::optional<std::array<Vector3, 4>> around = enclosing_tetrahedron(points_);
+    if (around && polytope_.start(*around, centre)) break;
+    const MinimumNormPoint nearest = minimum_norm_point(points_);
+    const bool is_beside = !centre.isZero(0);
+    if (nearest.norm <= (is_beside ? 0 : gap_.rounding())) {
+      if (is_beside) return false;
+      centre = gap_.rounding() * kBeside;
+      continue;
+    }
+    if (!may_go_on()) return false;
+    cuts_.keep_lowest_at(nearest.normal);
+    const Vector3 point = evaluate(nearest.normal) - centre;
+    climb_if_higher();
+    if (!(nearest.normal.dot(point) < nearest.norm - gap_.rounding())) return false;
+  }
+  if (is_apart()) return false;
+  polytope_.add(best_.d + rho_ * best_.n);
+  for (const Vector3& point : cuts_.points()) polytope_.add(point);
+  return true;
+}
+
+void ExpandingPolytope::expand() {
+  while (may_go_on() && !is_apart()) {
+    const InnerPolytope::Nearest facet = polytope_.nearest();
+    if (!(-facet.distance - (best_.s + rho_) > width())) return;
+    const Vector3 point = evaluate(-facet.normal);
+    if (!polytope_.add(point, facet) && !polytope_.add(point)) polytope_.give_up(facet);
+    climb_if_higher();
+  }
+}
+
+Vector3 ExpandingPolytope::evaluate(const Vector3& normal) {
+  gap_.evaluate(normal.normalized(), Order::Point, jet_);
+  if (!jet_.is_finite()) status_ = Status::InvalidInput;
+  const Vector3 point = jet_.d + rho_ * jet_.n;
+  cuts_.add(point);
+  return point;
+}
+
+void ExpandingPolytope::climb_if_higher() {
+  if (jet_.s > best_.s + goal_.cutoff && gap_.evaluations() < goal_.max_evaluations) {
+    climb_from(jet_.n);
+  } else {
+    remember_top({jet_.n, jet_.s});
+  }
+}
+
+// Of a hill the highest normal only.
+void ExpandingPolytope::remember_top(const LocalCandidate& top) {
+  const auto is_lower = [](const LocalCandidate& a, const LocalCandidate& b) { return a.s < b.s; };
+  const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
+  auto place =
+      std::find_if(tops_.begin(), end, [&](const LocalCandidate& other) { return other.n.dot(top.n) > kTuning.same_hill_cosine; });
+  if (place == end && top_count_ < kMaxTops) {
+    tops_[top_count_++] = top;
+    return;
+  }
+  if (place == end) place = std::min_element(tops_.begin(), end, is_lower);
+  if (top.s > place->s) *place = top;
+}
+
+void ExpandingPolytope::climb_from_tops() {
+  if (goal_.near == 0) return;
+  // Bodies with centres of symmetry have s(-n) = s(n) - 2 n.c: about concentric, they may leave one another on either side.
+  if (std::abs(2 * best_.n.dot(gap_.offset())) < goal_.near) climb_from(-best_.n);
+  const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
+  std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
+  for (auto top = tops_.begin(); top != end && gap_.evaluations() < settings_.max_evaluations; ++top) {
+    if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < kTuning.same_hill_cosine) climb_from(top->n);
+  }
+}
+
+void ExpandingPolytope::climb_from(const Vector3& normal) {
+  const Status status = ascent_.climb(normal, best_.s);
+  const GapJet& top = ascent_.best();
+  polytope_.add(top.d + rho_ * top.n);
+  if (!(top.s > best_.s)) return;
+  best_ = top;
+  error_ = ascent_.error();
+  status_ = status;
+}
+
+}  // namespace supernormal

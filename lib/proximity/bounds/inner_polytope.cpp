@@ -1,0 +1,194 @@
+#include "proximity/bounds/inner_polytope.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "proximity/bounds/minimum_norm_point.hpp"
+
+namespace supernormal {
+namespace {
+
+// A point is beyond a facet when it is so by more than this share of the longest vertex.
+constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+
+// The plane of a triangle whose two shorter sides are that nearly parallel (radians) is rounding.
+constexpr double kThin = 1e-8;
+
+/// The unit normal of a triangle, counter-clockwise as seen from outside; zero where it is too thin to have one. Of two long sides
+/// the digits would cancel.
+Vector3 normal_of(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const std::array<Vector3, 3> sides = {b - a, c - b, a - c};
+  const std::array<double, 3> squares = {sides[0].squaredNorm(), sides[1].squaredNorm(), sides[2].squaredNorm()};
+  const std::size_t longest = squares[0] > squares[1] ? (squares[0] > squares[2] ? 0 : 2) : (squares[1] > squares[2] ? 1 : 2);
+  const std::size_t next = (longest + 1) % 3, last = (longest + 2) % 3;
+  const Vector3 normal = sides[next].cross(sides[last]);
+  const double area = normal.squaredNorm();
+  return area > kThin * kThin * squares[next] * squares[last] ? Vector3(normal / std::sqrt(area)) : Vector3(Vector3::Zero());
+}
+
+}  // namespace
+
+bool InnerPolytope::start(const std::array<Vector3, 4>& tetrahedron, const Vector3& centre) {
+  centre_ = centre;
+  vertices_.assign(tetrahedron.begin(), tetrahedron.end());
+  facets_.clear();
+  heap_.clear();
+  visit_ = 0;
+  given_up_ = std::numeric_limits<double>::infinity();
+  length_ = 0;
+  for (const Vector3& vertex : vertices_) length_ = std::max(length_, vertex.norm());
+  const auto& [a, b, c, d] = tetrahedron;
+  if ((b - a).cross(c - a).dot(d - a) > 0) std::swap(vertices_[1], vertices_[2]);
+  const std::array<std::array<Index, 3>, 4> faces = {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+  for (const auto& [i, j, k] : faces) {
+    if (!(vertices_[i].dot(vertices_[j].cross(vertices_[k])) > 0)) return false;
+    add_facet({i, j, k}, normal_of(vertices_[i], vertices_[j], vertices_[k]));
+  }
+  const std::array<std::array<Index, 3>, 4> neighbours = {{{1, 2, 3}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}}};
+  for (std::size_t k = 0; k < 4; ++k) facets_[k].neighbour = neighbours[k];
+  return true;
+}
+
+double InnerPolytope::height_above(Index facet, const Vector3& point) const {
+  return facets_[facet].normal.dot(point) - facets_[facet].height;
+}
+
+bool InnerPolytope::add(const Vector3& point) {
+  const Vector3 vertex = point - centre_;
+  Index seen = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (Index k = 0; k < facets_.size(); ++k) {
+    const double height = facets_[k].is_removed ? most : height_above(k, vertex);
+    if (!(height > most)) continue;
+    most = height;
+    seen = k;
+  }
+  return most > kRounding * length_ && replace_visible(vertex, seen);
+}
+
+// The plane of a thin facet may not be known, but that across its nearest point is.
+bool InnerPolytope::add(const Vector3& point, const Nearest& facet) {
+  const Vector3 vertex = point - centre_;
+  const bool is_beyond = facet.normal.dot(vertex) - (facet.distance + centre_.norm()) > kRounding * length_;
+  return is_beyond && replace_visible(vertex, facet.facet);
+}
+
+bool InnerPolytope::replace_visible(const Vector3& vertex, Index seen) {
+  // A vertex on an edge of the horizon would make a triangle without area: there the facet beyond, of the same plane or none, goes
+  // too.
+  if (!find_horizon(vertex, seen, 0) && !find_horizon(vertex, seen, -kRounding * length_)) return false;
+  for (const Index facet : visible_) facets_[facet].is_removed = true;
+  const auto apex = static_cast<Index>(vertices_.size());
+  vertices_.push_back(vertex);
+  length_ = std::max(length_, vertex.norm());
+  const auto first = static_cast<Index>(facets_.size());
+  const auto count = static_cast<Index>(horizon_.size());
+  for (Index k = 0; k < count; ++k) {
+    const Edge& edge = horizon_[k];
+    const Index facet = add_facet({edge.from, edge.to, apex}, edge.normal);
+    facets_[facet].neighbour = {edge.outer, first + (k + 1) % count, first + (k + count - 1) % count};
+    Facet& outer = facets_[edge.outer];
+    for (std::size_t side = 0; side < 3; ++side) {
+      if (outer.vertex[side] == edge.to && outer.vertex[(side + 1) % 3] == edge.from) outer.neighbour[side] = facet;
+    }
+  }
+  return true;
+}
+
+// The facets that the point is beyond by more than `level`, from one of them on, and the edges around them in order. False if the
+// point with these edges does not go around the origin as the facets do.
+bool InnerPolytope::find_horizon(const Vector3& point, Index seen, double level) {
+  ++visit_;
+  horizon_.clear();
+  visible_.assign(1, seen);
+  facets_[seen].visit = visit_;
+  for (std::size_t side = 0; side < 3; ++side) walk(point, level, seen, static_cast<Index>(side));
+  return is_closed_cone(point);
+}
+
+void InnerPolytope::walk(const Vector3& point, double level, Index facet, Index across) {
+  const Facet here = facets_[facet];
+  const Index other = here.neighbour[across];
+  if (facets_[other].visit == visit_) return;
+  if (!(height_above(other, point) > level)) {
+    horizon_.push_back({here.vertex[across], here.vertex[(across + 1) % 3], other, Vector3::Zero()});
+    return;
+  }
+  facets_[other].visit = visit_;
+  visible_.push_back(other);
+  const std::array<Index, 3>& back = facets_[other].neighbour;
+  const auto from = static_cast<Index>(std::find(back.begin(), back.end(), facet) - back.begin());
+  walk(point, level, other, (from + 1) % 3);
+  walk(point, level, other, (from + 2) % 3);
+}
+
+bool InnerPolytope::is_closed_cone(const Vector3& apex) {
+  const std::size_t count = horizon_.size();
+  if (count < 3) return false;
+  for (std::size_t k = 0; k < count; ++k) {
+    Edge& edge = horizon_[k];
+    if (edge.to != horizon_[(k + 1) % count].from) return false;
+    edge.normal = normal_of(vertices_[edge.from], vertices_[edge.to], apex);
+    if (!(edge.normal.dot(apex) > 0)) return false;
+  }
+  return true;
+}
+
+InnerPolytope::Index InnerPolytope::add_facet(const std::array<Index, 3>& vertex, const Vector3& normal) {
+  // Of the heights of the vertices that of the nearest has the most digits.
+  const auto is_nearer = [&](Index i, Index j) { return vertices_[i].squaredNorm() < vertices_[j].squaredNorm(); };
+  const Index nearest = *std::min_element(vertex.begin(), vertex.end(), is_nearer);
+  const Facet facet{vertex, {}, normal, normal.dot(vertices_[nearest]), false, 0};
+  const auto index = static_cast<Index>(facets_.size());
+  facets_.push_back(facet);
+  heap_.push_back({std::max(facet.height, 0.0), index, false});
+  std::push_heap(heap_.begin(), heap_.end(), is_farther);
+  return index;
+}
+
+void InnerPolytope::drop_removed() {
+  while (!heap_.empty() && facets_[heap_.front().facet].is_removed) {
+    std::pop_heap(heap_.begin(), heap_.end(), is_farther);
+    heap_.pop_back();
+  }
+}
+
+bool InnerPolytope::is_foot_inside(const Facet& facet) const {
+  const Vector3 foot = facet.height * facet.normal;
+  const auto is_left = [&](std::size_t side) {
+    const Vector3& from = vertices_[facet.vertex[side]];
+    const Vector3& to = vertices_[facet.vertex[(side + 1) % 3]];
+    return facet.normal.dot((to - from).cross(foot - from)) >= 0;
+  };
+  return facet.height > 0 && is_left(0) && is_left(1) && is_left(2);
+}
+
+// The plane of a facet is no farther than the facet itself, whose distance is computed only when its plane is the nearest.
+InnerPolytope::Nearest InnerPolytope::nearest() {
+  const double error = centre_.norm();
+  while (true) {
+    drop_removed();
+    if (heap_.empty()) return {0, std::numeric_limits<double>::infinity(), Vector3::Zero()};
+    const Entry entry = heap_.front();
+    const Facet& facet = facets_[entry.facet];
+    if (is_foot_inside(facet)) return {entry.facet, facet.height - error, facet.normal};
+    const std::array<Vector3, 3> corners = {vertices_[facet.vertex[0]], vertices_[facet.vertex[1]], vertices_[facet.vertex[2]]};
+    const MinimumNormPoint nearest = minimum_norm_point(corners);
+    if (entry.is_exact) return {entry.facet, nearest.norm - error, nearest.normal};
+    std::pop_heap(heap_.begin(), heap_.end(), is_farther);
+    heap_.back() = {nearest.norm, entry.facet, true};
+    std::push_heap(heap_.begin(), heap_.end(), is_farther);
+  }
+}
+
+void InnerPolytope::give_up(const Nearest& facet) {
+  given_up_ = std::min(given_up_, facet.distance);
+  std::erase_if(heap_, [&](const Entry& entry) { return entry.facet == facet.facet; });
+  std::make_heap(heap_.begin(), heap_.end(), is_farther);
+}
+
+double InnerPolytope::inner_radius() { return std::min(given_up_, nearest().distance); }
+
+}  // namespace supernormal
