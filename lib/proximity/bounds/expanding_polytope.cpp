@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "proximity/bounds/minimum_norm_point.hpp"
@@ -59,11 +60,12 @@ bool ExpandingPolytope::run(const Goal& goal, GapJet& best, double& error, Statu
 bool ExpandingPolytope::enclose_origin() {
   Vector3 centre = Vector3::Zero();
   while (!is_apart()) {
-    points_.clear();
-    for (const Vector3& point : cuts_.points()) points_.emplace_back(point - centre);
-    const std::optional<std::array<Vector3, 4>> around = enclosing_tetrahedron(points_);
+    std::array<Vector3, CuttingPlanes::kCapacity> shifted;
+    const std::span<const Vector3> points(shifted.data(), cuts_.points().size());
+    for (std::size_t k = 0; k < points.size(); ++k) shifted[k] = cuts_.points()[k] - centre;
+    const std::optional<std::array<Vector3, 4>> around = enclosing_tetrahedron(points);
     if (around && polytope_.start(*around, centre)) break;
-    const MinimumNormPoint nearest = minimum_norm_point(points_);
+    const MinimumNormPoint nearest = minimum_norm_point(points);
     const bool is_beside = !centre.isZero(0);
     if (nearest.norm <= (is_beside ? 0 : gap_.rounding())) {
       if (is_beside) return false;

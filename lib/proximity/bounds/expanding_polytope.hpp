@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "proximity/bounds/inner_polytope.hpp"
 #include "proximity/local/ascent.hpp"
@@ -61,7 +60,6 @@ class ExpandingPolytope {
   const Settings& settings_;
   const double rho_, tolerance_;  // m
   InnerPolytope polytope_;        // of the points d + rho n
-  std::vector<Vector3> points_;
   Goal goal_{};
   double excess_ = 0;                          // m
   std::array<LocalCandidate, kMaxTops> tops_;  // the highest normals that were not climbed from
