@@ -88,6 +88,11 @@ void ExpandingPolytope::expand() {
   while (may_go_on() && !is_apart()) {
     const InnerPolytope::Nearest facet = polytope_.nearest();
     if (!(-facet.distance - (best_.s + rho_) > width())) return;
+    // Through the origin itself goes no facet but one that is thin.
+    if (facet.normal.isZero(0)) {
+      polytope_.give_up(facet);
+      continue;
+    }
     const Vector3 point = evaluate(-facet.normal);
     if (!polytope_.add(point, facet) && !polytope_.add(point)) polytope_.give_up(facet);
     climb_if_higher();

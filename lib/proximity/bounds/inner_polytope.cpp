@@ -43,8 +43,8 @@ bool InnerPolytope::start(const std::array<Vector3, 4>& tetrahedron, const Vecto
   if ((b - a).cross(c - a).dot(d - a) > 0) std::swap(vertices_[1], vertices_[2]);
   const std::array<std::array<Index, 3>, 4> faces = {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
   for (const auto& [i, j, k] : faces) {
-    if (!(vertices_[i].dot(vertices_[j].cross(vertices_[k])) > 0)) return false;
-    add_facet({i, j, k}, normal_of(vertices_[i], vertices_[j], vertices_[k]));
+    const Index facet = add_facet({i, j, k}, normal_of(vertices_[i], vertices_[j], vertices_[k]));
+    if (!(facets_[facet].height > 0)) return false;
   }
   const std::array<std::array<Index, 3>, 4> neighbours = {{{1, 2, 3}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}}};
   for (std::size_t k = 0; k < 4; ++k) facets_[k].neighbour = neighbours[k];

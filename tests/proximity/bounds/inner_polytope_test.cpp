@@ -79,6 +79,14 @@ TEST_CASE("points on the faces and edges of a cube, many of them twice, make the
   CHECK(hull.add(Vector3(2.5, 0.1, 0.3)));
 }
 
+TEST_CASE("no surface starts from a tetrahedron without the origin inside, nor from one that is flat") {
+  InnerPolytope hull;
+  CHECK(hull.start({Vector3(1, 1, 1), Vector3(1, -1, -1), Vector3(-1, 1, -1), Vector3(-1, -1, 1)}));
+  CHECK_FALSE(hull.start({Vector3(4, 1, 1), Vector3(4, -1, -1), Vector3(2, 1, -1), Vector3(2, -1, 1)}));
+  CHECK_FALSE(hull.start({Vector3(1, 0, 0), Vector3(-1, 1, 0), Vector3(-1, -1, 0), Vector3(0, 0, 0)}));
+  CHECK_FALSE(hull.start({Vector3(1, 0, 0), Vector3(-1, 1, 0), Vector3(-1, -1, 0), Vector3(0.1, 0.1, 0)}));
+}
+
 TEST_CASE("a facet that was given up still bounds the radius, but is not the nearest any more") {
   const std::vector<Vector3> points = {{1, 1, 1}, {1, -1, -1}, {-2, 2, -2}, {-3, -3, 3}};
   InnerPolytope hull = hull_of(points);
