@@ -80,7 +80,9 @@ void Ascent::go_to_stratum() {
   const Step step = model_.propose(current(), active_[now_], bfgs_, kTuning.longest_step);
   if (model_.leaves_face() || gap_.evaluations() >= settings_.max_evaluations) return;
   evaluate(step.normal.normalized(), trial(), active_[1 - now_]);
-  if (trial().s >= current().s - gap_.rounding()) now_ = 1 - now_;
+  // What a bound has proved of the normal must hold for the other one, too.
+  const bool is_as_good = error_ <= tolerance_ || optimality_gap_bound(trial(), rolling_radius_) <= tolerance_;
+  if (is_as_good && trial().s >= current().s - gap_.rounding()) now_ = 1 - now_;
 }
 
 bool Ascent::is_finished(double cutoff, Status& status) const {
