@@ -45,10 +45,10 @@ bool ExpandingPolytope::run(const Goal& goal, GapJet& best, double& error, Statu
   status_ = status;
   top_count_ = 0;
   remember_top(ascent_.candidate());
-  const bool is_enclosed = enclose_origin();
-  if (is_enclosed) expand();
+  is_enclosed_ = enclose_origin();
+  if (is_enclosed_) expand();
   climb_from_tops();
-  const double upper = is_enclosed ? -polytope_.inner_radius() : minimum_norm_point(cuts_.points()).norm;
+  const double upper = is_enclosed_ ? -polytope_.inner_radius() : minimum_norm_point(cuts_.points()).norm;
   excess_ = is_apart() ? error_ : std::max(upper - (best_.s + rho_), 0.0);
   best = best_;
   error = error_;
@@ -63,9 +63,11 @@ bool ExpandingPolytope::enclose_origin() {
     std::array<Vector3, CuttingPlanes::kCapacity> shifted;
     const std::span<const Vector3> points(shifted.data(), cuts_.points().size());
     for (std::size_t k = 0; k < points.size(); ++k) shifted[k] = cuts_.points()[k] - centre;
-    const std::optional<std::array<Vector3, 4>> around = enclosing_tetrahedron(points);
-    if (around && polytope_.start(*around, centre)) break;
     const MinimumNormPoint nearest = minimum_norm_point(points);
+    if (nearest.norm == 0) {
+      const std::optional<std::array<Vector3, 4>> around = enclosing_tetrahedron(points);
+      if (around && polytope_.start(*around, centre)) break;
+    }
     const bool is_beside = !centre.isZero(0);
     if (nearest.norm <= (is_beside ? 0 : gap_.rounding())) {
       if (is_beside) return false;
@@ -143,7 +145,7 @@ void ExpandingPolytope::climb_from_tops() {
 void ExpandingPolytope::climb_from(const Vector3& normal) {
   const Status status = ascent_.climb(normal, best_.s);
   const GapJet& top = ascent_.best();
-  polytope_.add(top.d + rho_ * top.n);
+  if (is_enclosed_) polytope_.add(top.d + rho_ * top.n);
   if (!(top.s > best_.s)) return;
   best_ = top;
   error_ = ascent_.error();

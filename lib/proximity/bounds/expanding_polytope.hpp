@@ -60,6 +60,7 @@ class ExpandingPolytope {
   const Settings& settings_;
   const double rho_, tolerance_;  // m
   InnerPolytope polytope_;        // of the points d + rho n
+  bool is_enclosed_ = false;      // whether it has the origin inside; until then its points are of another query
   Goal goal_{};
   double excess_ = 0;                          // m
   std::array<LocalCandidate, kMaxTops> tops_;  // the highest normals that were not climbed from
