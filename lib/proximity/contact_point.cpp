@@ -57,8 +57,11 @@ Vector3 contact_point(const GapFunction& gap, const GapJet& jet) {
   const RegularHessian sum(jet.jet1.H + H2, 0, jet.n, gap.length_unit(), kFlat);
   if (sum.is_regular()) {
     const Vector3 across = jet.d - jet.s * jet.n;
-    // H1 times the turn of the normal that would bring both points together: how far it moves point 1.
-    return middle + within_reach(gap, Vector3(jet.jet1.H * sum.solve(across) - 0.5 * across), 0.5 * across.norm());
+    // H1 times the turn of the normal that would bring both points together: how far it moves point 1. Where that turn is large,
+    // at a sharp edge, its rounding moves the point along the normal, too.
+    const Vector3 from_point1 = jet.jet1.H * sum.solve(across);
+    const Vector3 in_plane = from_point1 - from_point1.dot(jet.n) * jet.n;
+    return middle + within_reach(gap, Vector3(in_plane - 0.5 * across), 0.5 * across.norm());
   }
   return contact_of_flat_bodies(gap, jet, middle);
 }

@@ -8,8 +8,10 @@
 #include "proximity/reference_pairs.hpp"
 #include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -45,6 +47,20 @@ TEST_CASE("the contact lies halfway between the two supporting planes") {
     const double above1 = out.normal.dot(out.contact - out.point1);
     const double size = pair.surface1.half_axes().maxCoeff() + pair.surface2.half_axes().maxCoeff();
     if (!(std::abs(above1 - 0.5 * out.gap) <= 1e-14 * size)) FAIL_CHECK(pair.name, " height ", above1, " of ", out.gap);
+  }
+}
+
+TEST_CASE("the contact lies halfway beside the edge of a nearly polyhedral body, which the least turn of the normal leaves") {
+  const Superellipsoid body(Vector3(0.84, 0.54, 0.92), 1.0334, 104.5);
+  const Box box(Vector3(1, 1, 1));
+  for (const Vector3& direction : random_normals(3000, 82)) {
+    const Vector3 n = (Vector3(0.8, -0.36, -0.48) + 0.1 * direction).normalized();
+    const Pose pose{body.point(n) - box.point(-n) + 1e-9 * n.cross(direction), Matrix3::Identity()};
+    GapFunction gap(body, Pose{}, box, pose);
+    GapJet jet;
+    gap.evaluate(n, Order::Hessian, jet);
+    const double above_middle = n.dot(contact_point(gap, jet) - jet.jet1.r) - 0.5 * n.dot(jet.d);
+    if (!(std::abs(above_middle) <= 1e-15)) FAIL_CHECK("n ", n.transpose(), " height ", above_middle);
   }
 }
 

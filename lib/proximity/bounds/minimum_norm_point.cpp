@@ -10,7 +10,8 @@
 namespace supernormal {
 namespace {
 
-// A point lies no nearer to the origin than the best when its height along it exceeds this share of the lengths involved.
+// A point lies no nearer to the origin than the best when its height along it exceeds this share of the lengths involved; a
+// determinant of three vectors has an error below this share of their lengths.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// The vertices of the simplex that holds the nearest point so far, in its interior: a point, a segment or a triangle.
@@ -93,15 +94,16 @@ class Simplex {
     count_ = 3;
   }
 
-  /// Whether the tetrahedron of the triangle and `vertex` holds the origin.
+  /// Whether the tetrahedron of the triangle and `vertex` holds the origin inside, beyond the rounding of each determinant: a point
+  /// of a flat tetrahedron's face is no proof that the bodies overlap.
   bool is_origin_inside(const Vector3& vertex) const {
     const auto& [a, b, c] = vertices_;
-    const double volume = (a - vertex).dot((b - vertex).cross(c - vertex));
-    const auto is_same_side = [&](const Vector3& p, const Vector3& q, const Vector3& r) {
-      return volume > 0 ? p.dot(q.cross(r)) > 0 : p.dot(q.cross(r)) < 0;
+    const auto side = [](const Vector3& p, const Vector3& q, const Vector3& r) {
+      const double determinant = p.dot(q.cross(r)), rounding = kRounding * p.norm() * q.norm() * r.norm();
+      return determinant > rounding ? 1 : determinant < -rounding ? -1 : 0;
     };
-    return volume != 0 && is_same_side(a, b, c) && is_same_side(vertex, c, b) && is_same_side(a, c, vertex) &&
-           is_same_side(a, vertex, b);
+    const int first = side(a, b, c);
+    return first != 0 && side(vertex, c, b) == first && side(a, c, vertex) == first && side(a, vertex, b) == first;
   }
 
   std::array<Vector3, 3> vertices_;

@@ -227,6 +227,17 @@ TEST_CASE("needles and discs of aspect 1e5") {
   }
 }
 
+TEST_CASE("points on one side of a plane surround no origin, however nearly they are on one line") {
+  Draw draw(78);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Matrix3 turn = draw.rotation();
+    const double height = std::pow(10, draw.uniform(-14, -10)), width = std::pow(10, draw.uniform(-6, -2));
+    const auto point = [&] { return Vector3(turn * Vector3(draw.gauss(), width * draw.gauss(), height * draw.uniform(1, 2))); };
+    const Points points = draw.points(8, point);
+    CHECK(minimum_norm_point(points).norm >= height - 8 * kEpsilon * largest_of(points));
+  }
+}
+
 TEST_CASE("the hull only grows with its points: the nearest point comes nearer") {
   Draw draw(76);
   for (int trial = 0; trial < 200; ++trial) {
