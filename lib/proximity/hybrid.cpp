@@ -71,6 +71,8 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPl
 
 Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
   CuttingPlanes cuts;
+  // The first cut costs no evaluation: a centre of symmetry is at least as far from every tangent plane as the ball inside is large.
+  if (gap.shape1().is_symmetric() && gap.shape2().is_symmetric()) cuts.set_centre(gap.offset());
   if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, cuts, start, branch);
   CertifiedNewton newton(gap, cuts, settings, absolute_tolerance(gap, settings));
   const CertifiedNewton::End end = newton.run(start, branch);

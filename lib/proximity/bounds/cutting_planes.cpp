@@ -37,7 +37,7 @@ Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
   return (a.x() * b.y() - a.y() * b.x()) / squared * Vector2(edge.y(), -edge.x());
 }
 
-using Cuts = std::array<Cut, CuttingPlanes::kCapacity>;
+using Cuts = std::array<Cut, 1 + CuttingPlanes::kCapacity>;
 
 /// Steepest ascent of the least of some cuts that are equal here: the element of least norm in the convex hull of their slopes,
 /// zero where their minimum has its maximum. It lies on a vertex or an edge of the hull, in front of which no slope lies, or the
@@ -66,14 +66,13 @@ double distance_to_circle(const Vector2& u, const Vector2& p, double radius) {
 }  // namespace
 
 void CuttingPlanes::add(const Vector3& d) {
-  auto place = static_cast<std::size_t>(count_);
+  std::size_t place = 1;
   if (count_ < kCapacity) {
-    ++count_;
+    place += static_cast<std::size_t>(count_++);
   } else if (kept_at_.isZero(0)) {
-    place = static_cast<std::size_t>(oldest_++ % kCapacity);
+    place += static_cast<std::size_t>(oldest_++ % kCapacity);
   } else {
-    place = 0;
-    for (std::size_t k = 1; k < kCapacity; ++k) {
+    for (std::size_t k = 2; k <= kCapacity; ++k) {
       if (kept_at_.dot(d_[k]) > kept_at_.dot(d_[place])) place = k;
     }
   }
@@ -82,18 +81,19 @@ void CuttingPlanes::add(const Vector3& d) {
 
 double CuttingPlanes::upper_bound(const Vector3& m) const {
   double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < size(); ++k) least = std::min(least, m.dot(d_[static_cast<std::size_t>(k)]));
+  for (const Vector3& d : points()) least = std::min(least, m.dot(d));
   return least;
 }
 
 CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double radius) const {
   Cuts cuts, met;
-  const auto count = static_cast<std::size_t>(size());
+  const std::span<const Vector3> d = points();
+  const std::size_t count = d.size();
   double steepest = 0;
   double scale = 0;
   Maximum best{Vector2::Zero(), std::numeric_limits<double>::infinity(), 0, false};
   for (std::size_t k = 0; k < count; ++k) {
-    cuts[k] = {plane.n.dot(d_[k]), plane.project(d_[k])};
+    cuts[k] = {plane.n.dot(d[k]), plane.project(d[k])};
     best.value = std::min(best.value, cuts[k].value);
     steepest = std::max(steepest, cuts[k].slope.norm());
     scale = std::max(scale, std::abs(cuts[k].value));

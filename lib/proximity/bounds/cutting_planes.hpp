@@ -14,7 +14,7 @@ namespace supernormal {
 ///
 /// A support function is the largest projection of its body: h(m) >= m.r(n) for every n. Hence s(m) + rho <= m.d_k for every unit
 /// m, whatever the radii of curvature: each evaluation cuts off the normals that cannot be the answer. GJK and EPA are built on the
-/// same cuts.
+/// same cuts. The centre of the difference of two symmetric bodies gives one more, which no evaluation costs.
 class CuttingPlanes {
  public:
   static constexpr int kCapacity = 32;
@@ -34,8 +34,22 @@ class CuttingPlanes {
   /// The cuts that are lowest at the normal n hold a bound or a step: they stay.
   void keep_lowest_at(const Vector3& n) { kept_at_ = n; }
 
-  std::span<const Vector3> points() const { return {d_.data(), static_cast<std::size_t>(size())}; }
-  int size() const { return count_ < kCapacity ? count_ : kCapacity; }
+  /// The difference of the centres of two point-symmetric bodies: any ball that rolls inside such a body fits in at its centre, so
+  /// that no support function is less than its radius.
+  void set_centre(const Vector3& c) {
+    d_[0] = c;
+    has_centre_ = true;
+  }
+
+  /// All points that cut.
+  std::span<const Vector3> points() const {
+    const std::size_t centres = has_centre_ ? 1 : 0;
+    return {d_.data() + 1 - centres, boundary_points().size() + centres};
+  }
+  /// Those of evaluations.
+  std::span<const Vector3> boundary_points() const {
+    return {d_.data() + 1, static_cast<std::size_t>(count_ < kCapacity ? count_ : kCapacity)};
+  }
 
   /// The least of m.d_k, which s(m) cannot exceed; m need not be of unit length (both sides are homogeneous of degree 1).
   double upper_bound(const Vector3& m) const;
@@ -45,7 +59,8 @@ class CuttingPlanes {
   Maximum maximize(const TangentPlane& plane, double radius) const;
 
  private:
-  std::array<Vector3, kCapacity> d_;
+  std::array<Vector3, 1 + kCapacity> d_;  // the first is the centre's
+  bool has_centre_ = false;
   int count_ = 0, oldest_ = 0;
   Vector3 kept_at_ = Vector3::Zero();
 };

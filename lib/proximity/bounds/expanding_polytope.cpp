@@ -61,8 +61,9 @@ bool ExpandingPolytope::enclose_origin() {
   Vector3 centre = Vector3::Zero();
   while (!is_apart()) {
     std::array<Vector3, CuttingPlanes::kCapacity> shifted;
-    const std::span<const Vector3> points(shifted.data(), cuts_.points().size());
-    for (std::size_t k = 0; k < points.size(); ++k) shifted[k] = cuts_.points()[k] - centre;
+    // The centre is no vertex: in symmetric poses the origin is on the line from there to a boundary point.
+    const std::span<const Vector3> boundary = cuts_.boundary_points(), points(shifted.data(), boundary.size());
+    for (std::size_t k = 0; k < points.size(); ++k) shifted[k] = boundary[k] - centre;
     const MinimumNormPoint nearest = minimum_norm_point(points);
     if (nearest.norm == 0) {
       const std::optional<std::array<Vector3, 4>> around = enclosing_tetrahedron(points);
@@ -82,7 +83,7 @@ bool ExpandingPolytope::enclose_origin() {
   }
   if (is_apart()) return false;
   polytope_.add(best_.d + rho_ * best_.n);
-  for (const Vector3& point : cuts_.points()) polytope_.add(point);
+  for (const Vector3& point : cuts_.boundary_points()) polytope_.add(point);
   return true;
 }
 

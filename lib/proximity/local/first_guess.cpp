@@ -1,7 +1,6 @@
 #include "proximity/local/first_guess.hpp"
 
-#include <Eigen/LU>
-#include <cmath>
+#include <Eigen/Geometry>
 
 namespace supernormal {
 namespace {
@@ -9,7 +8,7 @@ namespace {
 // Centres closer than this share of the bodies' size have no direction from one to the other.
 constexpr double kConcentric = 1e-12;
 
-// Share of the cube of the trace below which a determinant counts as none: the squares of the inverse are finite.
+// A determinant below this share of the cube of the trace counts as none.
 constexpr double kSingular = 1e-150;
 
 /// The axis along which the body is thinnest: there the smallest translation separates concentric bodies.
@@ -25,25 +24,26 @@ Vector3 first_guess(const GapFunction& gap) {
   const Vector3 half1 = gap.shape1().half_extents();
   const Vector3 half2 = gap.shape2().half_extents();
   const Matrix3& R = gap.rotation();
-  const double size1 = half1.norm();
-  const double size2 = half2.norm();
-  if (gap.offset().norm() <= kConcentric * (size1 + size2)) {
+  const double size1 = half1.norm(), size2 = half2.norm(), sum = size1 + size2;
+  const double distance = gap.offset().norm();
+  if (distance <= kConcentric * sum) {
     return half1.minCoeff() <= half2.minCoeff() ? thinnest_axis(half1) : Vector3(R * thinnest_axis(half2));
   }
-  // Divided by the sizes so that a point, of size 0, needs no case of its own.
-  const Matrix3 A = half1.cwiseProduct(half1).asDiagonal();
-  const Matrix3 B = R * half2.cwiseProduct(half2).asDiagonal() * R.transpose();
-  const double sum = size1 + size2;
-  const Vector3 direction = gap.offset().normalized();
+  const Vector3 direction = gap.offset() / distance;
   if (sum == 0) return direction;  // two points
-  const Matrix3 M = size1 == 0 ? B : size2 == 0 ? A : Matrix3(A * (sum / size1) + B * (sum / size2));
-  // Of a segment and a point it is singular; so it may be of lengths whose squares are no longer numbers.
-  const double trace = M.trace();
-  if (!(trace > 0)) return direction;
-  Matrix3 inverse;
-  bool is_invertible = false;
-  Matrix3(M / trace).computeInverseWithCheck(inverse, is_invertible, kSingular);
-  return is_invertible ? Vector3((inverse * direction).normalized()) : direction;
+  // The squares of the half-extents over the body's size, in units in which the trace of both matrices together is 1. A point has
+  // none.
+  const double scale = 1 / sum;
+  const auto squares_over_size = [scale](const Vector3& half, double size) -> Vector3 {
+    return size > 0 ? half.cwiseProduct(half * (scale / size)) : Vector3(Vector3::Zero());
+  };
+  Matrix3 M = R * squares_over_size(half2, size2).asDiagonal() * R.transpose();
+  M.diagonal() += squares_over_size(half1, size1);
+  // The inverse but for the determinant, which vanishes for a segment and a point.
+  const Vector3 column = M.col(1).cross(M.col(2));
+  if (!(M.col(0).dot(column) > kSingular)) return direction;
+  return Vector3(column.dot(direction), M.col(2).cross(M.col(0)).dot(direction), M.col(0).cross(M.col(1)).dot(direction))
+      .normalized();
 }
 
 }  // namespace supernormal

@@ -40,6 +40,18 @@ double largest_sampled(const CuttingPlanes& cuts, const TangentPlane& plane, con
 
 }  // namespace
 
+TEST_CASE("the centre's cut stays, and is no boundary point") {
+  CuttingPlanes cuts;
+  cuts.set_centre(Vector3(-1, 5, 5));
+  for (int k = 0; k < 2 * CuttingPlanes::kCapacity; ++k) {
+    CHECK(cuts.boundary_points().size() == static_cast<std::size_t>(std::min(k, CuttingPlanes::kCapacity)));
+    CHECK(cuts.points().size() == cuts.boundary_points().size() + 1);
+    CHECK(cuts.upper_bound(Vector3::UnitX()) == -1);
+    cuts.add(Vector3::Constant(k));
+  }
+  CHECK(std::ranges::find(cuts.boundary_points(), Vector3(-1, 5, 5)) == cuts.boundary_points().end());
+}
+
 TEST_CASE("no gap is larger than the cuts of other normals allow") {
   const std::vector<Vector3> normals = random_normals(CuttingPlanes::kCapacity, 51);
   for (const ReferencePair& pair : reference_pairs()) {
@@ -65,15 +77,15 @@ TEST_CASE("no gap is larger than the cuts of other normals allow") {
 
 TEST_CASE("the oldest cut gives way to the newest") {
   CuttingPlanes cuts;
-  CHECK(cuts.size() == 0);
+  CHECK(cuts.points().empty());
   CHECK(cuts.upper_bound(Vector3::UnitX()) == std::numeric_limits<double>::infinity());
   for (int k = 0; k < CuttingPlanes::kCapacity; ++k) cuts.add(Vector3::Constant(k));
-  CHECK(cuts.size() == CuttingPlanes::kCapacity);
+  CHECK(cuts.points().size() == CuttingPlanes::kCapacity);
   CHECK(cuts.upper_bound(Vector3::UnitX()) == 0);
   cuts.add(Vector3::Constant(7));
-  CHECK(cuts.size() == CuttingPlanes::kCapacity);
+  CHECK(cuts.points().size() == CuttingPlanes::kCapacity);
   CHECK(cuts.upper_bound(Vector3::UnitX()) == 1);
-  CHECK(CuttingPlanes().size() == 0);
+  CHECK(CuttingPlanes().points().empty());
 }
 
 TEST_CASE("the cuts that are lowest at the kept normal stay, however many are added") {
@@ -90,7 +102,6 @@ TEST_CASE("the cuts that are lowest at the kept normal stay, however many are ad
   cuts.keep_lowest_at(kept);
   for (int k = 0; k < 3 * CuttingPlanes::kCapacity; ++k) {
     add();
-    REQUIRE(cuts.size() == CuttingPlanes::kCapacity);
     REQUIRE(cuts.points().size() == CuttingPlanes::kCapacity);
     // All but one of the places belong to the lowest of all; the newest cut is there whatever its height.
     std::vector<Vector3> lowest = all;
