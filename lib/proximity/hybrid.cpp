@@ -23,8 +23,10 @@ ExpandingPolytope::Goal search_goal(const GapFunction& gap, const Settings& sett
   if (settings.certify_depth) return {0, limit, 0.5 * tolerance, 0};
   const bool follows = branch == Branch::OfStart;
   if (follows && depth <= kTuning.followed_depth * gap.length_unit()) return {};
+  // The estimate leaves out vertices where a radius of curvature vanishes at one normal alone. There a smooth partner has a radius
+  // of its own, which a body with faces has not.
   const double min_radii = gap.shape1().min_curvature_radius_estimate() + gap.shape2().min_curvature_radius_estimate();
-  if (!may_have_other_maxima(min_radii, depth)) return {};
+  if (!gap.shape2().has_kinks() && !may_have_other_maxima(min_radii, depth)) return {};
   const int most = std::min(limit, gap.evaluations() + kTuning.search_evaluations);
   if (follows) return {kTuning.branch_width, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
   return {kTuning.search_width, most, tolerance, kTuning.near_best * depth};
@@ -71,7 +73,8 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPl
 
 Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
   CuttingPlanes cuts;
-  // The first cut costs no evaluation: a centre of symmetry is at least as far from every tangent plane as the ball inside is large.
+  // The first cut costs no evaluation: a centre of symmetry is at least as far from every tangent plane as the ball inside is
+  // large.
   if (gap.shape1().is_symmetric() && gap.shape2().is_symmetric()) cuts.set_centre(gap.offset());
   if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, cuts, start, branch);
   CertifiedNewton newton(gap, cuts, settings, absolute_tolerance(gap, settings));

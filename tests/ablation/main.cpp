@@ -32,10 +32,10 @@ std::vector<Trial> trials() {
           {"creep", &Tuning::creep, {0, 0.1}},
           {"gain_safety", &Tuning::gain_safety, {1, 10}},
           {"followed_depth", &Tuning::followed_depth, {0, 0.1}},
-          {"depth_per_radius", &Tuning::depth_per_radius, {0, 2, 4}},
+          {"depth_per_radius", &Tuning::depth_per_radius, {0, 1, 2}},
           {"search_width", &Tuning::search_width, {0.01, 0.1}},
           {"search_evaluations", &Tuning::search_evaluations, {20, 100}},
-          {"near_best", &Tuning::near_best, {0, 0.03, 0.1}},
+          {"near_best", &Tuning::near_best, {0, 0.06}},
           {"branch_width", &Tuning::branch_width, {0.1, 1}},
           {"branch_gain", &Tuning::branch_gain, {0, 0.33}},
           {"same_hill_cosine", &Tuning::same_hill_cosine, {0.98, 0.9999}}};
