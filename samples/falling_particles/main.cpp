@@ -44,10 +44,12 @@ struct Options {
   int threads = 0;
   bool quiet = false;
   bool check_leaks = false;
+  bool no_pictures = false;
 };
 
 ExitCode simulate(const Options& options) {
-  const falling_particles::Scene scene = falling_particles::load_scene(options.scene_path);
+  falling_particles::Scene scene = falling_particles::load_scene(options.scene_path);
+  if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
   const falling_particles::RunEnd end = falling_particles::run(scene, options.out, options.quiet, options.threads);
   if (end.interrupted) return Interrupted;
@@ -65,6 +67,7 @@ ExitCode run_program(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("-q,--quiet", options.quiet, "no progress");
   app.add_flag("--check-leaks", options.check_leaks, "exit with 3 when a grain leaves its container");
+  app.add_flag("--no-pictures", options.no_pictures, "leave nothing but the tables, whatever the scene asks for");
   const auto list = [] {
     list_effects();
     throw CLI::Success();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "output_files.hpp"
+#include "picture.hpp"
 #include "scene/input_error.hpp"
 
 namespace falling_particles {
@@ -28,7 +29,9 @@ constexpr std::string_view kMarkText =
     "the same output folder removes them.\n";
 
 bool is_output_file(const fs::directory_entry& entry) {
-  return std::ranges::find(kOutputFiles, entry.path().filename().string()) != kOutputFiles.end();
+  const std::string name = entry.path().filename().string();
+  const auto writes = [&](const PictureFormat& format) { return std::ranges::find(format.files, name) != format.files.end(); };
+  return std::ranges::find(kOutputFiles, name) != kOutputFiles.end() || std::ranges::any_of(picture_formats(), writes);
 }
 
 /// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run.

@@ -11,6 +11,7 @@
 #include "load_effects.hpp"
 #include "memory.hpp"
 #include "nearest_word.hpp"
+#include "output/picture.hpp"
 #include "scene.hpp"
 #include "toml_input.hpp"
 
@@ -168,10 +169,19 @@ std::optional<Axis> read_sweep_axis(const TomlTable& root) {
   return Axis::Z;
 }
 
+/// What a scene leaves to look at when it does not say.
+std::vector<std::string> read_pictures(const TomlTable& root) {
+  const auto table = root.find_table("output", {"pictures"});
+  if (!table || !table->has("pictures")) return default_pictures();
+  std::vector<std::string> names;
+  for (const PictureFormat& format : picture_formats()) names.emplace_back(format.name);
+  return table->choices("pictures", names);
+}
+
 /// The names of the sections at the top of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed", "catalogue", "container",   "drop",       "grain",
-                                    "time", "solver",    "compression", "broad_phase"};
+  std::vector<std::string> names = {"seed", "catalogue", "container",   "drop",        "grain",
+                                    "time", "solver",    "compression", "broad_phase", "output"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -191,6 +201,7 @@ Scene load_scene(const std::string& path) {
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   scene.compression = read_compression(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
+  scene.pictures = read_pictures(root);
   check_memory(root, scene.bodies());
   check_fit(root, scene);
   return scene;

@@ -98,6 +98,26 @@ std::string TomlTable::choice(std::string_view key, const std::vector<std::strin
   fail(key, full_name(key) + " is " + in_quotes(word) + did_you_mean(word, allowed) + "; allowed: " + join(allowed));
 }
 
+std::vector<std::string> TomlTable::choices(std::string_view key, const std::vector<std::string>& allowed) const {
+  const std::string all = "an array of different words of: " + join(allowed);
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, all);
+  const toml::array* array = value->as_array();
+  if (array == nullptr) fail_value(key, all);
+  std::vector<std::string> result;
+  for (const toml::node& element : *array) {
+    const auto word = element.value_exact<std::string>();
+    const bool is_allowed = word && std::ranges::find(allowed, *word) != allowed.end();
+    if (!is_allowed || std::ranges::find(result, *word) != result.end()) {
+      throw InputError(node_->file, line_of(element),
+                       full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) +
+                           (word ? did_you_mean(*word, allowed) : "") + "; allowed: " + all);
+    }
+    result.push_back(*word);
+  }
+  return result;
+}
+
 double TomlTable::number(std::string_view key, const Interval& allowed) const {
   const toml::node* value = node_->table->get(key);
   if (value == nullptr) fail_missing(key, allowed.describe());

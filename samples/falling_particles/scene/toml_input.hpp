@@ -21,6 +21,8 @@ class TomlTable {
   double number(std::string_view key, const Interval& allowed) const;
   std::vector<double> numbers(std::string_view key, std::size_t count, const Interval& allowed) const;
   std::string choice(std::string_view key, const std::vector<std::string>& allowed) const;
+  /// A list of different words of `allowed`, maybe empty.
+  std::vector<std::string> choices(std::string_view key, const std::vector<std::string>& allowed) const;
   std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest) const;
 
   bool has(std::string_view key) const;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <variant>
+#include <vector>
 
 #include "compression.hpp"
 #include "interrupt.hpp"
@@ -15,6 +17,7 @@
 #include "measure/leaks.hpp"
 #include "output/output_files.hpp"
 #include "output/output_folder.hpp"
+#include "output/picture.hpp"
 #include "output/summary.hpp"
 #include "placement.hpp"
 #include "progress.hpp"
@@ -54,18 +57,26 @@ class Recorder {
         trajectory_(folder.file(std::string(kTrajectoryFile))),
         energies_(folder.file(std::string(kEnergiesFile))) {
     if (discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
+    for (const std::string& name : scene.pictures) {
+      pictures_.push_back(find_picture_format(name)->make(folder, cast_of(world, scene)));
+    }
   }
 
-  void record(double time, std::size_t contacts) {
+  /// `stepper`: null before the first step.
+  void record(double time, const Stepper* stepper) {
     trajectory_.write(time, world_);
-    energies_.write(time, measure_energy(world_, scene_), contacts);
+    energies_.write(time, measure_energy(world_, scene_), stepper == nullptr ? 0 : stepper->contacts());
     if (discharge_file_) discharge_file_->write(time, discharge_->mass(), discharge_->count());
+    if (pictures_.empty()) return;
+    const Frame frame = frame_of(time, world_, scene_, stepper);
+    for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
   }
 
   void close() {
     trajectory_.close();
     energies_.close();
     if (discharge_file_) discharge_file_->close();
+    for (const std::unique_ptr<Picture>& picture : pictures_) picture->finish();
   }
 
  private:
@@ -75,6 +86,7 @@ class Recorder {
   Trajectory trajectory_;
   Energies energies_;
   std::optional<DischargeFile> discharge_file_;
+  std::vector<std::unique_ptr<Picture>> pictures_;
 };
 
 double time_after(int step, const Time& time) {
@@ -87,7 +99,7 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& 
   const int steps = time.steps();
   std::optional<Progress> progress;
   if (!quiet) progress.emplace(stderr, steps);
-  recorder.record(0, 0);
+  recorder.record(0, nullptr);
   int step = 0;
   while (step < steps && !interrupted()) {
     stepper.step();
@@ -95,7 +107,7 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& 
     const double now = time_after(step, time);
     watches.after_step(now, stepper);
     const bool last = step == steps || interrupted();
-    if (last || step % time.steps_per_frame() == 0) recorder.record(now, stepper.contacts());
+    if (last || step % time.steps_per_frame() == 0) recorder.record(now, &stepper);
     if (progress) progress->update(step, now, stepper.contacts());
     if (last) break;
   }

@@ -1,0 +1,43 @@
+// The formats in which a run can be looked at.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/frame.hpp"
+#include "output/output_folder.hpp"
+
+namespace falling_particles {
+
+/// Writes a run in one format. A picture is told every frame as the run goes, and then that it has ended.
+class Picture {
+ public:
+  Picture() = default;
+  virtual ~Picture() = default;
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
+
+  virtual void add(const Frame& frame) = 0;
+  /// Writes what is left to write; throws std::runtime_error when anything could not be written.
+  virtual void finish() = 0;
+};
+
+/// A format that a scene can ask for: [output] pictures = ["name", …].
+struct PictureFormat {
+  std::string_view name;
+  std::vector<std::string_view> files;  ///< names of the files and folders that it writes into the output folder
+  std::unique_ptr<Picture> (*make)(const OutputFolder& folder, const Cast& cast);
+};
+
+/// All formats, in the order in which they are listed for users.
+const std::vector<PictureFormat>& picture_formats();
+
+/// The formats that a run leaves when its scene does not name any.
+std::vector<std::string> default_pictures();
+
+/// Null if there is no such format.
+const PictureFormat* find_picture_format(std::string_view name);
+
+}  // namespace falling_particles
