@@ -16,6 +16,10 @@ namespace supernormal {
 
 namespace {
 
+// Normals m and n that are nearer than this have the same s to its rounding: |s(m) - s(n)| <= |m - n| L for bodies within L of one
+// another, and GapFunction::rounding() is so many units of L.
+constexpr double kSameNormal = 8 * std::numeric_limits<double>::epsilon();
+
 /// How thoroughly other maxima are looked for; not at all where no evaluation is allowed.
 ExpandingPolytope::Goal search_goal(const GapFunction& gap, const Settings& settings, Branch branch, double tolerance,
                                     double depth) {
@@ -65,7 +69,10 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPl
     if (goal.max_evaluations > 0) out = search(gap, cuts, ascent, settings, goal, best, status);
   }
   out.contact = contact_point(gap, best);
-  if (gap.shape2().has_kinks() && status != Status::InvalidInput) out.normal = VertexCache(gap).held_normal(best);
+  if (gap.shape2().has_kinks() && status != Status::InvalidInput) {
+    const Vector3 held = VertexCache(gap).held_normal(best);
+    if ((held - best.n).norm() <= kSameNormal) out.normal = held;
+  }
   return out;
 }
 
