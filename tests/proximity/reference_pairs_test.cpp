@@ -1,4 +1,4 @@
-// The hybrid solver against 1600 pairs with known answers, none excluded: what issue 2 promises.
+// The hybrid solver against 1600 pairs with known answers, none excluded: the contract.
 #include "reference_pairs.hpp"
 
 #include <doctest/doctest.h>

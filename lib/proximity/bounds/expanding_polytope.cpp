@@ -135,10 +135,11 @@ void ExpandingPolytope::remember_top(const LocalCandidate& top) {
 void ExpandingPolytope::climb_from_tops() {
   if (goal_.near == 0) return;
   // Bodies with centres of symmetry have s(-n) = s(n) - 2 n.c: about concentric, they may leave one another on either side.
-  if (std::abs(2 * best_.n.dot(gap_.offset())) < goal_.near) climb_from(-best_.n);
+  const auto may_climb = [&] { return gap_.evaluations() < settings_.max_evaluations; };
+  if (may_climb() && std::abs(2 * best_.n.dot(gap_.offset())) < goal_.near) climb_from(-best_.n);
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
-  for (auto top = tops_.begin(); top != end && gap_.evaluations() < settings_.max_evaluations; ++top) {
+  for (auto top = tops_.begin(); top != end && may_climb(); ++top) {
     if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < kTuning.same_hill_cosine) climb_from(top->n);
   }
 }
