@@ -142,6 +142,23 @@ TEST_CASE("every mistake in a scene file ends with one line: file, line, what is
   for (const Mistake& mistake : mistakes) check_says(complaint(replaced(kSceneText, mistake.from, mistake.to)), mistake.says);
 }
 
+TEST_CASE("a scene names what it leaves to look at") {
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  const auto pictures_of = [&](const std::string& output) {
+    return load_scene(folder.write("scene.toml", kSceneText + output)).pictures;
+  };
+  CHECK(pictures_of("") == std::vector<std::string>{"glb"});
+  CHECK(pictures_of("[output]\n") == std::vector<std::string>{"glb"});
+  CHECK(pictures_of("[output]\npictures = []\n").empty());
+  CHECK(pictures_of("[output]\npictures = [\"povray\", \"vtk\"]\n") == std::vector<std::string>{"povray", "vtk"});
+  for (const char* wrong : {"\"glb\"", "[\"gltf\"]", "[1]", "[\"vtk\", \"vtk\"]"}) {
+    const std::string text = complaint(std::string(kSceneText) + "[output]\npictures = " + wrong + "\n");
+    CHECK(text.find("pictures") != std::string::npos);
+    CHECK(text.find("allowed: an array of different words of: glb, lammps, vtk, povray") != std::string::npos);
+  }
+}
+
 TEST_CASE("fractions that do not sum to one are refused") {
   std::string text = replaced(kSceneText, "count = 5", "fraction = 0.5");
   text = replaced(text, "count = 2", "fraction = 0.4");

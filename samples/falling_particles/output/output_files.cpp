@@ -1,20 +1,11 @@
 #include "output_files.hpp"
 
-#include <stdexcept>
 #include <string>
 
+#include "output/close_stream.hpp"
 #include "scene/interval.hpp"
 
 namespace falling_particles {
-namespace {
-
-void close_or_throw(std::ofstream& stream, const std::filesystem::path& path) {
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write \"" + path.string() + "\" (is the disk full?)");
-}
-
-}  // namespace
-
 Trajectory::Trajectory(const std::filesystem::path& path) : path_(path), stream_(path) {
   stream_ << "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n";
 }

@@ -2,14 +2,34 @@
 
 #include <algorithm>
 
+#include "output/lammps_dump.hpp"
+#include "output/povray_scene.hpp"
+#include "output/scene_glb.hpp"
+#include "output/vtk_series.hpp"
+
 namespace falling_particles {
+namespace {
+
+template <typename Format>
+std::unique_ptr<Picture> make_file(const OutputFolder& folder, const PictureFormat& format, const Cast& cast) {
+  return std::make_unique<Format>(folder.file(std::string(format.files.front())), cast);
+}
+
+std::unique_ptr<Picture> make_vtk(const OutputFolder& folder, const PictureFormat&, const Cast& cast) {
+  return std::make_unique<VtkSeries>(folder, cast);
+}
+
+}  // namespace
 
 const std::vector<PictureFormat>& picture_formats() {
-  static const std::vector<PictureFormat> formats = {};
+  static const std::vector<PictureFormat> formats = {{"glb", {"scene.glb"}, make_file<SceneGlb>},
+                                                     {"lammps", {"grains.lammpstrj"}, make_file<LammpsDump>},
+                                                     {"vtk", {"grains.pvd", "contacts.pvd", "vtk"}, make_vtk},
+                                                     {"povray", {"still.pov"}, make_file<PovrayScene>}};
   return formats;
 }
 
-std::vector<std::string> default_pictures() { return {}; }
+std::vector<std::string> default_pictures() { return {"glb"}; }
 
 const PictureFormat* find_picture_format(std::string_view name) {
   const auto found = std::ranges::find(picture_formats(), name, &PictureFormat::name);

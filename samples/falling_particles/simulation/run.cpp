@@ -6,7 +6,6 @@
 #include <fstream>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "measure/discharge.hpp"
 #include "measure/energy.hpp"
 #include "measure/leaks.hpp"
+#include "output/close_stream.hpp"
 #include "output/output_files.hpp"
 #include "output/output_folder.hpp"
 #include "output/picture.hpp"
@@ -58,7 +58,8 @@ class Recorder {
         energies_(folder.file(std::string(kEnergiesFile))) {
     if (discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
     for (const std::string& name : scene.pictures) {
-      pictures_.push_back(find_picture_format(name)->make(folder, cast_of(world, scene)));
+      const PictureFormat& format = *find_picture_format(name);
+      pictures_.push_back(format.make(folder, format, cast_of(world, scene)));
     }
   }
 
@@ -126,8 +127,7 @@ std::optional<Heap> find_heap(const World& world, const Container& container) {
 void write_file(const std::filesystem::path& path, const std::string& text) {
   std::ofstream stream(path);
   stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write \"" + path.string() + "\" (is the disk full?)");
+  close_or_throw(stream, path);
 }
 
 }  // namespace

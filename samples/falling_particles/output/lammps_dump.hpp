@@ -1,0 +1,28 @@
+// A run as particle programs read it.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+#include "output/picture.hpp"
+
+namespace falling_particles {
+
+/// grains.lammpstrj: a LAMMPS text dump for OVITO, and whatever else reads these. An atom per grain, its type that of its kind in
+/// the order of the scene file, from 1 on. As LAMMPS has written them since July 2020, shapex, shapey, shapez are diameters (m),
+/// which OVITO halves; quati, quatj, quatk, quatw are the attitude. roundness_phi = 2/delta and roundness_theta = 2/epsilon are
+/// what OVITO calls Superquadric Roundness. The rounding of a grain's edges has no column.
+class LammpsDump final : public Picture {
+ public:
+  LammpsDump(const std::filesystem::path& path, const Cast& cast);
+  void add(const Frame& frame) override;
+  void finish() override;
+
+ private:
+  std::filesystem::path path_;
+  Cast cast_;
+  std::ofstream stream_;
+  int frames_ = 0;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,125 @@
+#include "output/povray_scene.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include "output/close_stream.hpp"
+#include "output/grain_shape.hpp"
+#include "output/palette.hpp"
+#include "output/tessellation.hpp"
+#include "scene/interval.hpp"
+
+namespace falling_particles {
+namespace {
+
+using supernormal::Vector3;
+
+// Of the smallest half-axis: finer than a pixel of a picture of a bed.
+constexpr double kChordError = 0.005;
+
+template <typename Numbers>
+std::string vector(const Numbers& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "<" : ", ") + shortest(number);
+  return text + '>';
+}
+
+std::string vector(const Vector3& v) { return vector(std::array{v.x(), v.y(), v.z()}); }
+
+/// POV-Ray's superellipsoid has half-axes 1 and the exponents 2/e of its xy-section and 2/n along z.
+std::string superellipsoid(const Grain& grain) {
+  return "superellipsoid { " + vector(std::array{2 / grain.delta, 2 / grain.epsilon}) + " scale " + vector(grain.half_axes) + " }";
+}
+
+std::string mesh(const Grain& grain) {
+  const Tessellation body = tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
+  const auto list = [](const char* name, const auto& items, const auto& text_of) {
+    std::string text = std::string("  ") + name + " { " + std::to_string(items.size());
+    for (const auto& item : items) text += ",\n    " + text_of(item);
+    return text + "\n  }\n";
+  };
+  const auto of_vector = [](const Vector3& v) { return vector(v); };
+  const auto of_triangle = [](const std::array<std::uint32_t, 3>& corners) { return vector(corners); };
+  return "mesh2 {\n" + list("vertex_vectors", body.points, of_vector) + list("normal_vectors", body.normals, of_vector) +
+         list("face_indices", body.triangles, of_triangle) + "}";
+}
+
+/// The corners of a box around the grains.
+struct Extent {
+  Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 most = -least;
+};
+
+Extent extent_of(const Frame& frame, double radius) {
+  Extent extent;
+  for (const BodyState& body : frame.bodies) {
+    const Vector3 centre(body.position[0], body.position[1], body.position[2]);
+    extent.least = extent.least.cwiseMin((centre.array() - radius).matrix());
+    extent.most = extent.most.cwiseMax((centre.array() + radius).matrix());
+  }
+  return extent;
+}
+
+/// A camera to the side and above, from which all grains just fit into the picture, however wide it is.
+std::string camera_on(const Frame& frame, double radius) {
+  const Extent extent = extent_of(frame, radius);
+  const Vector3 centre = 0.5 * (extent.least + extent.most);
+  const double size = (extent.most - extent.least).norm();
+  const Vector3 back = Vector3(0.45, -0.75, 0.48).normalized();
+  const Vector3 right = Vector3::UnitZ().cross(back).normalized(), up = back.cross(right);
+  const Vector3 eye = centre + 2 * size * back;
+  // Half of the width and the height of the picture at a distance of 1.
+  double width = 0, height = 0;
+  for (const BodyState& body : frame.bodies) {
+    const Vector3 from_eye = Vector3(body.position[0], body.position[1], body.position[2]) - eye;
+    const double distance = -from_eye.dot(back) - radius;
+    width = std::max(width, (std::abs(from_eye.dot(right)) + radius) / distance);
+    height = std::max(height, (std::abs(from_eye.dot(up)) + radius) / distance);
+  }
+  const Vector3 light = centre + 4 * size * Vector3(0.1, -0.5, 0.85).normalized();
+  const std::string side = shortest(size / 2);
+  // The mirrored x makes POV-Ray's frame right-handed.
+  return "#declare Aspect = image_width / image_height;\n#declare High = max(" + shortest(height) + ", " + shortest(width) +
+         " / Aspect);\ncamera {\n  location " + vector(eye) +
+         "\n  sky z\n  right -x * 2 * High * Aspect\n  up y * 2 * High\n  look_at " + vector(centre) + "\n}\nlight_source { " +
+         vector(light) + " rgb 1 area_light " + side + " * x, " + side + " * y, 4, 4 adaptive 1 jitter }\nlight_source { " +
+         vector(eye) + " rgb 0.35 shadowless }\nbackground { rgb 1 }\n";
+}
+
+}  // namespace
+
+PovrayScene::PovrayScene(const std::filesystem::path& path, const Cast& cast) : path_(path), cast_(cast) {}
+
+void PovrayScene::finish() {
+  std::string text =
+      "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + camera_on(last_, cast_.scene->largest_bounding_radius());
+  if (std::holds_alternative<Box>(cast_.scene->container)) {
+    text += "plane { z, 0 pigment { rgb 0.9 } finish { ambient 0.1 diffuse 0.8 } }\n";
+  }
+  for (std::size_t kind = 0; kind < cast_.scene->grains.size(); ++kind) {
+    const Grain& grain = cast_.scene->grains[kind].grain;
+    text += "\n// " + grain.name + "\n#declare Kind" + std::to_string(kind) + " = object {\n" +
+            (grain.rounding > 0 ? mesh(grain) : superellipsoid(grain)) + "\n  pigment { srgb " + vector(colour_of_kind(kind)) +
+            " }\n  finish { ambient 0.1 diffuse 0.8 specular 0.15 roughness 0.03 }\n}\n";
+  }
+  text += '\n';
+  for (std::size_t k = 0; k < last_.bodies.size(); ++k) {
+    const BodyState& body = last_.bodies[k];
+    const auto& [w, x, y, z] = body.quaternion;
+    const supernormal::Matrix3 R = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
+    std::vector<double> rows;  // of POV-Ray's matrix: where the axes go, then the origin
+    for (const int axis : {0, 1, 2}) rows.insert(rows.end(), R.col(axis).begin(), R.col(axis).end());
+    rows.insert(rows.end(), body.position.begin(), body.position.end());
+    text += "object { Kind" + std::to_string(cast_.kinds[k]) + " matrix " + vector(rows) + " }\n";
+  }
+  std::ofstream stream(path_);
+  stream << text;
+  close_or_throw(stream, path_);
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,25 @@
+// The end of a run as a still.
+#pragma once
+
+#include <filesystem>
+
+#include "output/picture.hpp"
+
+namespace falling_particles {
+
+/// still.pov: the last frame for POV-Ray, whose superellipsoids are exact; a grain with rounded edges is a mesh. `povray still.pov`
+/// renders it. Each kind has a colour (palette.hpp); of containers only the floor of a box is drawn, since walls would hide the
+/// grains.
+class PovrayScene final : public Picture {
+ public:
+  PovrayScene(const std::filesystem::path& path, const Cast& cast);
+  void add(const Frame& frame) override { last_ = frame; }
+  void finish() override;
+
+ private:
+  std::filesystem::path path_;
+  Cast cast_;
+  Frame last_;
+};
+
+}  // namespace falling_particles

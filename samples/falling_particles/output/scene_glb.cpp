@@ -1,0 +1,216 @@
+#include "output/scene_glb.hpp"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <string>
+
+#include "output/close_stream.hpp"
+#include "output/grain_shape.hpp"
+#include "output/palette.hpp"
+#include "output/tessellation.hpp"
+
+namespace falling_particles {
+namespace {
+
+// m, of the smallest half-axis of a grain: a few hundred triangles for most, and no corners to be seen.
+constexpr double kChordError = 0.02;
+
+using Channel = std::vector<std::vector<float>>;
+
+/// The buffer of a file and what is in it.
+class Builder {
+ public:
+  explicit Builder(const Cast& cast) {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "falling_particles";
+    model_.buffers.resize(1);
+    for (std::size_t kind = 0; kind < cast.scene->grains.size(); ++kind) add_kind(cast.scene->grains[kind].grain, kind);
+    add_nodes(cast);
+  }
+
+  void animate(const std::vector<float>& times, const Channel& translations, const Channel& rotations) {
+    tinygltf::Animation animation;
+    animation.name = "run";
+    const std::size_t view = add_view(times.size() * sizeof(float) * (1 + 7 * translations.size()), 0);
+    const int input = add_accessor(view, times, TINYGLTF_TYPE_SCALAR);
+    model_.accessors[static_cast<std::size_t>(input)].minValues = {times.front()};
+    model_.accessors[static_cast<std::size_t>(input)].maxValues = {times.back()};
+    for (std::size_t body = 0; body < translations.size(); ++body) {
+      animate(animation, body, "translation", input, add_moving(view, translations[body], 3));
+      animate(animation, body, "rotation", input, add_moving(view, rotations[body], 4));
+    }
+    model_.bufferViews[view].byteLength = model_.buffers[0].data.size() - model_.bufferViews[view].byteOffset;
+    if (!animation.channels.empty()) model_.animations.push_back(std::move(animation));
+  }
+
+  void place(std::size_t body, std::span<const float> translation, std::span<const float> rotation) {
+    model_.nodes[body].translation.assign(translation.begin(), translation.end());
+    model_.nodes[body].rotation.assign(rotation.begin(), rotation.end());
+  }
+
+  void write(const std::filesystem::path& path) {
+    std::ofstream stream(path, std::ios::binary);
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, stream, false, true);
+    close_or_throw(stream, path);
+  }
+
+ private:
+  std::size_t add_view(std::size_t bytes, int target) {
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = model_.buffers[0].data.size();
+    view.byteLength = bytes;
+    view.target = target;
+    model_.bufferViews.push_back(view);
+    return model_.bufferViews.size() - 1;
+  }
+
+  template <typename Number>
+  int add_accessor(std::size_t view, const std::vector<Number>& numbers, int type) {
+    std::vector<unsigned char>& data = model_.buffers[0].data;
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(view);
+    accessor.byteOffset = data.size() - model_.bufferViews[view].byteOffset;
+    accessor.componentType = std::is_same_v<Number, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    accessor.type = type;
+    accessor.count = numbers.size() / static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+    const std::size_t start = data.size();
+    data.resize(start + numbers.size() * sizeof(Number));
+    std::memcpy(data.data() + start, numbers.data(), numbers.size() * sizeof(Number));
+    model_.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model_.accessors.size() - 1);
+  }
+
+  /// -1 where the numbers of the first frame hold for all.
+  int add_moving(std::size_t view, const std::vector<float>& numbers, std::size_t components) {
+    const auto repeats = [&](std::size_t k) { return numbers[k] == numbers[k % components]; };
+    bool is_still = true;
+    for (std::size_t k = 0; k < numbers.size() && is_still; ++k) is_still = repeats(k);
+    if (is_still) return -1;
+    return add_accessor(view, numbers, components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4);
+  }
+
+  static void animate(tinygltf::Animation& animation, std::size_t body, const char* path, int input, int output) {
+    if (output < 0) return;
+    tinygltf::AnimationSampler sampler;
+    sampler.input = input;
+    sampler.output = output;
+    sampler.interpolation = "LINEAR";
+    tinygltf::AnimationChannel channel;
+    channel.sampler = static_cast<int>(animation.samplers.size());
+    channel.target_node = static_cast<int>(body);
+    channel.target_path = path;
+    animation.samplers.push_back(std::move(sampler));
+    animation.channels.push_back(std::move(channel));
+  }
+
+  template <typename Corner>
+  int add_vectors(const std::vector<Corner>& vectors) {
+    std::vector<float> numbers;
+    numbers.reserve(3 * vectors.size());
+    for (const Corner& vector : vectors) {
+      for (const int i : {0, 1, 2}) numbers.push_back(static_cast<float>(vector[i]));
+    }
+    const std::size_t view = add_view(numbers.size() * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER);
+    return add_accessor(view, numbers, TINYGLTF_TYPE_VEC3);
+  }
+
+  void add_kind(const Grain& grain, std::size_t kind) {
+    const Tessellation body = tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = static_cast<int>(kind);
+    const int positions = add_vectors(body.points);
+    bound(model_.accessors[static_cast<std::size_t>(positions)], body);
+    primitive.attributes["POSITION"] = positions;
+    primitive.attributes["NORMAL"] = add_vectors(body.normals);
+    std::vector<std::uint32_t> corners;
+    for (const auto& triangle : body.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+    const std::size_t view = add_view(corners.size() * sizeof(std::uint32_t), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    primitive.indices = add_accessor(view, corners, TINYGLTF_TYPE_SCALAR);
+    tinygltf::Mesh mesh;
+    mesh.name = grain.name;
+    mesh.primitives.push_back(std::move(primitive));
+    model_.meshes.push_back(std::move(mesh));
+    add_material(grain, kind);
+  }
+
+  static void bound(tinygltf::Accessor& positions, const Tessellation& body) {
+    for (const int i : {0, 1, 2}) {
+      const auto along = [i](const auto& a, const auto& b) { return a[i] < b[i]; };
+      const auto [least, most] = std::minmax_element(body.points.begin(), body.points.end(), along);
+      positions.minValues.push_back(static_cast<float>((*least)[i]));
+      positions.maxValues.push_back(static_cast<float>((*most)[i]));
+    }
+  }
+
+  void add_material(const Grain& grain, std::size_t kind) {
+    const Colour colour = colour_of_kind(kind);
+    tinygltf::Material material;
+    material.name = grain.name;
+    // glTF takes linear light.
+    for (std::size_t i = 0; i < 3; ++i) material.pbrMetallicRoughness.baseColorFactor[i] = std::pow(colour[i], 2.2);
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.6;
+    model_.materials.push_back(std::move(material));
+  }
+
+  /// A node per body, then the root above them.
+  void add_nodes(const Cast& cast) {
+    tinygltf::Node root;
+    root.name = cast.scene->name;
+    root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // glTF has y upwards
+    for (std::size_t body = 0; body < cast.kinds.size(); ++body) {
+      tinygltf::Node node;
+      node.name = cast.scene->grains[cast.kinds[body]].grain.name + " " + std::to_string(body);
+      node.mesh = static_cast<int>(cast.kinds[body]);
+      model_.nodes.push_back(std::move(node));
+      root.children.push_back(static_cast<int>(body));
+    }
+    model_.nodes.push_back(std::move(root));
+    tinygltf::Scene scene;
+    scene.name = cast.scene->name;
+    scene.nodes = {static_cast<int>(cast.kinds.size())};
+    model_.scenes.push_back(std::move(scene));
+    model_.defaultScene = 0;
+  }
+
+  tinygltf::Model model_;
+};
+
+}  // namespace
+
+SceneGlb::SceneGlb(const std::filesystem::path& path, const Cast& cast)
+    : path_(path), cast_(cast), translations_(cast.kinds.size()), rotations_(cast.kinds.size()) {}
+
+void SceneGlb::add(const Frame& frame) {
+  times_.push_back(static_cast<float>(frame.time));
+  for (std::size_t body = 0; body < frame.bodies.size(); ++body) {
+    const BodyState& state = frame.bodies[body];
+    for (const double x : state.position) translations_[body].push_back(static_cast<float>(x));
+    // w, x, y, z there; and of the two quaternions of an attitude the one on the side of the last, between which players
+    // interpolate.
+    const auto& [w, x, y, z] = state.quaternion;
+    std::vector<float>& rotation = rotations_[body];
+    std::array<double, 4> now = {x, y, z, w};
+    double along = 0;
+    for (std::size_t i = 0; i < 4 && rotation.size() >= 4; ++i) along += now[i] * rotation[rotation.size() - 4 + i];
+    for (const double component : now) rotation.push_back(static_cast<float>(along < 0 ? -component : component));
+  }
+}
+
+void SceneGlb::finish() {
+  Builder builder(cast_);
+  for (std::size_t body = 0; body < translations_.size(); ++body) {
+    builder.place(body, std::span(translations_[body]).first(3), std::span(rotations_[body]).first(4));
+  }
+  if (times_.size() > 1) builder.animate(times_, translations_, rotations_);
+  builder.write(path_);
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,29 @@
+// The animation of a run as a glTF file.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "output/picture.hpp"
+
+namespace falling_particles {
+
+/// scene.glb: glTF 2.0, binary. A mesh per kind of grain, through its normals, shared by its bodies; a node per body, in the
+/// scene's order, whose translation and rotation are animated where the body moves; a root that turns z upwards. Lengths are in m.
+/// Written at the end of a run; until then a body and frame take 28 bytes.
+class SceneGlb final : public Picture {
+ public:
+  SceneGlb(const std::filesystem::path& path, const Cast& cast);
+  void add(const Frame& frame) override;
+  void finish() override;
+
+ private:
+  std::filesystem::path path_;
+  Cast cast_;
+  std::vector<float> times_;
+  std::vector<std::vector<float>> translations_;  // of each body: x, y, z of every frame
+  std::vector<std::vector<float>> rotations_;     // x, y, z, w
+};
+
+}  // namespace falling_particles

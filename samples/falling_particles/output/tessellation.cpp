@@ -1,0 +1,128 @@
+#include "output/tessellation.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace falling_particles {
+namespace {
+
+using supernormal::Shape;
+using supernormal::Vector3;
+using Index = std::uint32_t;
+
+// Normals closer than this (radians) are not halved any more: between them an edge bends as if it were sharp.
+constexpr double kClosest = 1e-9;
+
+constexpr Index kWhole = ~Index{0};
+
+class Tessellator {
+ public:
+  Tessellator(const Shape& shape, double chord_error) : shape_(shape), chord_error_(chord_error) {}
+
+  Tessellation run() {
+    for (const int axis : {0, 1, 2}) {
+      add(Vector3::Unit(axis));
+      add(-Vector3::Unit(axis));
+    }
+    for (const Index x : {0U, 1U}) {
+      for (const Index y : {2U, 3U}) {
+        for (const Index z : {4U, 5U}) {
+          const bool is_mirrored = (x + y + z) % 2 == 1;
+          mesh_.triangles.push_back(is_mirrored ? Triangle{x, z, y} : Triangle{x, y, z});
+        }
+      }
+    }
+    while (halve_edges()) {
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  using Triangle = std::array<Index, 3>;
+
+  Index add(const Vector3& normal) {
+    mesh_.normals.push_back(normal);
+    mesh_.points.push_back(shape_.point(normal));
+    return static_cast<Index>(mesh_.points.size() - 1);
+  }
+
+  bool is_straight(Index i, Index j) const {
+    const Vector3 edge = mesh_.points[j] - mesh_.points[i];
+    const Vector3 &normal1 = mesh_.normals[i], &normal2 = mesh_.normals[j];
+    if ((normal1 - normal2).norm() < kClosest) return true;
+    if (!(normal1.dot(normal2) > 0)) return false;
+    const double length = edge.norm();
+    if (length <= chord_error_) return true;
+    // How far the ends are below one another's tangent planes, and the angles of these planes to the edge.
+    const auto tangent = [length](double below) { return below / std::sqrt(std::max(length * length - below * below, 0.0)); };
+    const double tangent1 = tangent(std::max(-normal1.dot(edge), 0.0)), tangent2 = tangent(std::max(normal2.dot(edge), 0.0));
+    return length * tangent1 * tangent2 <= chord_error_ * (tangent1 + tangent2);
+  }
+
+  /// The corner in the middle of an edge; kWhole if it stays as it is.
+  Index middle_of(Index i, Index j) {
+    const auto [place, is_new] = middles_.try_emplace(std::minmax(i, j), kWhole);
+    if (is_new && !is_straight(i, j)) {
+      const Vector3 between = (mesh_.normals[i] + mesh_.normals[j]).normalized();
+      place->second = add(between);
+    }
+    return place->second;
+  }
+
+  /// Splits every triangle along the edges that are not straight; whether there was one.
+  bool halve_edges() {
+    bool is_changed = false;
+    std::vector<Triangle> old;
+    old.swap(mesh_.triangles);
+    for (const auto& [a, b, c] : old) {
+      const Triangle middle = {middle_of(a, b), middle_of(b, c), middle_of(c, a)};
+      const auto halved = std::ranges::count_if(middle, [](Index m) { return m != kWhole; });
+      is_changed = is_changed || halved > 0;
+      split({a, b, c}, middle, static_cast<int>(halved));
+    }
+    return is_changed;
+  }
+
+  void split(const Triangle& corner, const Triangle& middle, int halved) {
+    if (halved == 3) {
+      const auto& [a, b, c] = corner;
+      const auto& [ab, bc, ca] = middle;
+      for (const Triangle& part : {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
+        mesh_.triangles.push_back(part);
+      return;
+    }
+    if (halved == 0) {
+      mesh_.triangles.push_back(corner);
+      return;
+    }
+    // Turned so that the first edge is halved and, of two, the second too.
+    std::size_t first = 0;
+    while (middle[first] == kWhole || (halved == 2 && middle[(first + 1) % 3] == kWhole)) ++first;
+    const Index a = corner[first], b = corner[(first + 1) % 3], c = corner[(first + 2) % 3], ab = middle[first];
+    if (halved == 1) {
+      mesh_.triangles.push_back({a, ab, c});
+      mesh_.triangles.push_back({ab, b, c});
+      return;
+    }
+    const Index bc = middle[(first + 1) % 3];
+    mesh_.triangles.push_back({ab, b, bc});
+    // The shorter diagonal of the rest.
+    const bool is_from_a = (mesh_.points[a] - mesh_.points[bc]).norm() < (mesh_.points[ab] - mesh_.points[c]).norm();
+    mesh_.triangles.push_back(is_from_a ? Triangle{a, ab, bc} : Triangle{a, ab, c});
+    mesh_.triangles.push_back(is_from_a ? Triangle{a, bc, c} : Triangle{ab, bc, c});
+  }
+
+  const Shape& shape_;
+  double chord_error_;
+  Tessellation mesh_;
+  std::map<std::pair<Index, Index>, Index> middles_;
+};
+
+}  // namespace
+
+Tessellation tessellate(const Shape& shape, double chord_error) { return Tessellator(shape, chord_error).run(); }
+
+}  // namespace falling_particles

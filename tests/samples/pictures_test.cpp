@@ -1,0 +1,202 @@
+// Tests of the formats that a run can be looked at in: each says where the grains are at every frame, as the frames do.
+#include <doctest/doctest.h>
+#include <tiny_gltf.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "output/picture.hpp"
+#include "scenes.hpp"
+#include "temporary_folder.hpp"
+
+using namespace falling_particles;
+
+namespace {
+
+constexpr std::size_t kBodies = 5, kFrames = 4;
+
+Scene scene_of_two_kinds() {
+  Scene scene{};
+  scene.name = "pictures";
+  scene.container = Box{{0.1, 0.1}};
+  scene.grains = {{{"bean", {0.006, 0.004, 0.003}, 2.5, 2.2, 0, 1200, "typical"}, 3},
+                  {{"die", {0.008, 0.008, 0.008}, 20, 20, 0.001, 1200, "typical"}, 2}};
+  return scene;
+}
+
+/// Grains that turn and move, but for the last, which stands still; two of them touch from the second frame on.
+Frame frame_at(std::size_t index) {
+  Frame frame;
+  const double t = static_cast<double>(index);
+  frame.time = 0.1 * t;
+  for (std::size_t k = 0; k < kBodies; ++k) {
+    const double moved = k + 1 == kBodies ? 0 : t, body = static_cast<double>(k);
+    const double half = 0.4 * moved + body;
+    frame.bodies.push_back({{0.01 * body + 1.0 / 3, 0.02 * moved, 0.05 - 0.01 * moved},
+                            {std::cos(half), 0, std::sin(half) * 0.6, std::sin(half) * 0.8},
+                            {0, 0.2, -0.1},
+                            {0, 0, 8 * body}});
+  }
+  if (index > 0) frame.contacts = {{{0.1, 0.2, 0.3}, {0, 0, 1}, 1e-5, 0, 1}, {{0.1, 0.2, 0}, {0, 1, 0}, 2e-5, 3, kWall}};
+  frame.energy = {1, 2};
+  return frame;
+}
+
+/// Writes the frames in one format and gives the folder to look at.
+class Written {
+ public:
+  explicit Written(std::string_view format) : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
+    const PictureFormat& found = *find_picture_format(format);
+    const std::unique_ptr<Picture> picture = found.make(out_, found, Cast{&scene_, {0, 1, 0, 1, 0}});
+    for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
+    picture->finish();
+    for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
+  }
+  std::string path(const std::string& name) const { return out_.file(name).string(); }
+  std::string text(const std::string& name) const {
+    std::ifstream stream(path(name));
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  TemporaryFolder folder_;
+  Scene scene_;
+  OutputFolder out_;
+};
+
+std::vector<float> read(const tinygltf::Model& model, int accessor) {
+  const tinygltf::Accessor& found = model.accessors[static_cast<std::size_t>(accessor)];
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(found.bufferView)];
+  std::vector<float> numbers(found.count *
+                             static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(found.type))));
+  std::memcpy(numbers.data(), model.buffers[0].data.data() + view.byteOffset + found.byteOffset, numbers.size() * sizeof(float));
+  return numbers;
+}
+
+/// The numbers of the array of that name in a .vtp file.
+std::vector<double> read_array(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find("Name=\"" + name + "\"");
+  REQUIRE(at != std::string::npos);
+  const std::size_t start = text.find('>', at) + 1;
+  std::istringstream stream(text.substr(start, text.find('<', start) - start));
+  return {std::istream_iterator<double>(stream), {}};
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
+  const Written written("glb");
+  tinygltf::Model model;
+  tinygltf::TinyGLTF reader;
+  std::string error, warning;
+  REQUIRE(reader.LoadBinaryFromFile(&model, &error, &warning, written.path("scene.glb")));
+  CHECK(error.empty());
+  CHECK(warning.empty());
+  REQUIRE(model.meshes.size() == 2);
+  CHECK(model.meshes[1].name == "die");
+  REQUIRE(model.nodes.size() == kBodies + 1);
+  CHECK(model.nodes[3].mesh == 1);
+  REQUIRE(model.animations.size() == 1);
+  const tinygltf::Animation& animation = model.animations[0];
+  CHECK(animation.channels.size() == 2 * (kBodies - 1));
+  for (const tinygltf::AnimationChannel& channel : animation.channels) {
+    const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
+    CHECK(read(model, sampler.input).size() == kFrames);
+    const std::vector<float> track = read(model, sampler.output);
+    const std::size_t width = channel.target_path == "translation" ? 3 : 4;
+    REQUIRE(track.size() == width * kFrames);
+    for (std::size_t index = 0; index < kFrames; ++index) {
+      const BodyState body = frame_at(index).bodies[static_cast<std::size_t>(channel.target_node)];
+      const auto& [w, x, y, z] = body.quaternion;
+      const std::array<double, 4> turned = {x, y, z, w};
+      double along = 0;
+      for (std::size_t i = 0; i < width; ++i) {
+        if (width == 3) CHECK(track[3 * index + i] == static_cast<float>(body.position[i]));
+        if (width == 4) along += track[4 * index + i] * turned[i];
+      }
+      if (width == 4) CHECK(std::abs(along) == doctest::Approx(1).epsilon(1e-6));
+    }
+  }
+  // The one that stands still is placed, not animated.
+  CHECK(model.nodes[kBodies - 1].translation[0] == doctest::Approx(frame_at(0).bodies[kBodies - 1].position[0]).epsilon(1e-7));
+}
+
+TEST_CASE("lammps: diameters, quaternions with w last, roundness") {
+  const Written written("lammps");
+  std::istringstream stream(written.text("grains.lammpstrj"));
+  std::string line;
+  for (std::size_t index = 0; index < kFrames; ++index) {
+    const Frame frame = frame_at(index);
+    while (std::getline(stream, line) && !line.starts_with("ITEM: ATOMS")) {
+    }
+    for (std::size_t k = 0; k < kBodies; ++k) {
+      REQUIRE(std::getline(stream, line));
+      std::istringstream words(line);
+      const std::vector<double> numbers{std::istream_iterator<double>(words), {}};
+      REQUIRE(numbers.size() == 20);
+      CHECK(numbers[0] == static_cast<double>(k + 1));
+      CHECK(numbers[1] == (k % 2 == 1 ? 2 : 1));
+      for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(numbers[2 + i] == frame.bodies[k].position[i]);
+        CHECK(numbers[11 + i] == frame.bodies[k].quaternion[1 + i]);
+        CHECK(numbers[15 + i] == 2 * written.scene().grains[k % 2].grain.half_axes[i]);
+      }
+      CHECK(numbers[14] == frame.bodies[k].quaternion[0]);
+      CHECK(numbers[18] == 2 / written.scene().grains[k % 2].grain.delta);
+    }
+  }
+}
+
+TEST_CASE("vtk: grains and contacts of every frame, also where there are none") {
+  const Written written("vtk");
+  CHECK(count_of(written.text("grains.pvd"), "<DataSet ") == kFrames);
+  CHECK(count_of(written.text("contacts.pvd"), "<DataSet ") == kFrames);
+  for (std::size_t index = 0; index < kFrames; ++index) {
+    const Frame frame = frame_at(index);
+    const std::string grains = written.text("vtk/grains_00000" + std::to_string(index) + ".vtp");
+    const std::vector<double> positions = read_array(grains, "position"), quaternions = read_array(grains, "quaternion");
+    REQUIRE(positions.size() == 3 * kBodies);
+    REQUIRE(quaternions.size() == 4 * kBodies);
+    for (std::size_t k = 0; k < kBodies; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) CHECK(positions[3 * k + i] == frame.bodies[k].position[i]);
+      for (std::size_t i = 0; i < 4; ++i) CHECK(quaternions[4 * k + i] == frame.bodies[k].quaternion[i]);
+    }
+    const std::string contacts = written.text("vtk/contacts_00000" + std::to_string(index) + ".vtp");
+    CHECK(read_array(contacts, "depth").size() == frame.contacts.size());
+    CHECK(read_array(contacts, "bodies").size() == 2 * frame.contacts.size());
+    CHECK(contacts.find("Name=\"position\" NumberOfComponents=\"3\"") != std::string::npos);
+  }
+}
+
+TEST_CASE("povray: a grain with rounded edges is a mesh, another is exact") {
+  const Written written("povray");
+  const std::string text = written.text("still.pov");
+  CHECK(count_of(text, "superellipsoid {") == 1);
+  CHECK(count_of(text, "mesh2 {") == 1);
+  CHECK(count_of(text, "object { Kind0 matrix") == 3);
+  CHECK(count_of(text, "object { Kind1 matrix") == 2);
+}
+
+TEST_CASE("a file that cannot be written is named") {
+  const Scene scene = scene_of_two_kinds();
+  TemporaryFolder folder;
+  OutputFolder out(folder.path(), "pictures");
+  for (const PictureFormat& format : picture_formats()) {
+    if (format.files.size() > 1) continue;
+    const std::filesystem::path path = out.file(std::string(format.files.front()));
+    std::filesystem::create_directory(path);  // in its place
+    const std::unique_ptr<Picture> picture = format.make(out, format, Cast{&scene, {0, 1, 0, 1, 0}});
+    picture->add(frame_at(0));
+    CHECK_THROWS_WITH_AS(picture->finish(), doctest::Contains(path.c_str()), std::runtime_error);
+  }
+}

@@ -1,0 +1,99 @@
+// Tests of meshes of bodies: corners on the boundary, closed, oriented, within the chord error.
+#include "output/tessellation.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+#include <supernormal/shapes/ellipsoid.hpp>
+#include <supernormal/shapes/rounded.hpp>
+#include <supernormal/shapes/superellipsoid.hpp>
+#include <utility>
+
+using namespace falling_particles;
+using namespace supernormal;
+
+namespace {
+
+/// Every edge belongs to two triangles, which run along it in opposite directions.
+void check_closed(const Tessellation& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed;
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) ++directed[{triangle[k], triangle[(k + 1) % 3]}];
+  }
+  const auto is_shared = [&](const auto& edge) {
+    return edge.second == 1 && directed.count({edge.first.second, edge.first.first}) == 1;
+  };
+  CHECK(std::all_of(directed.begin(), directed.end(), is_shared));
+  // Euler: a sphere.
+  CHECK(mesh.points.size() + mesh.triangles.size() == directed.size() / 2 + 2);
+}
+
+double volume(const Tessellation& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) sum += mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6;
+  return sum;
+}
+
+/// m; how far the boundary is beyond the mesh: along any normal, no corner reaches as far as the body by more than this.
+double farthest_beyond(const Shape& shape, const Tessellation& mesh) {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> gauss;
+  double farthest = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Vector3 n = Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized();
+    double reach = -1e300;
+    for (const Vector3& point : mesh.points) reach = std::max(reach, n.dot(point));
+    farthest = std::max(farthest, shape.support(n) - reach);
+  }
+  return farthest;
+}
+
+}  // namespace
+
+TEST_CASE("a flat face takes few triangles") {
+  // A die whose faces are flat to a thousandth, and a sphere of the same size.
+  const std::size_t die = tessellate(Superellipsoid(Vector3(1, 1, 1), 100, 100), 0.01).triangles.size();
+  const std::size_t sphere = tessellate(Ellipsoid(Vector3(1, 1, 1)), 0.01).triangles.size();
+  CHECK(die < sphere);
+}
+
+TEST_CASE("a rounded body's mesh is closed, too") {
+  const auto core = std::make_shared<Superellipsoid>(Vector3(0.9, 0.8, 0.7), 20, 20);
+  const Rounded body(core, 0.1);
+  const Tessellation mesh = tessellate(body, 0.005);
+  check_closed(mesh);
+  CHECK(farthest_beyond(body, mesh) <= 0.005);
+}
+
+TEST_CASE("a mesh of a body is closed, has its corners on the boundary and its chords within the error") {
+  for (const double exponent : {1.05, 1.5, 2.0, 3.0, 8.0, 30.0, 100.0}) {
+    for (const double other : {1.05, 2.0, 100.0}) {
+      for (const Vector3& axes : {Vector3(1, 1, 1), Vector3(1, 0.6, 0.3), Vector3(1, 1, 0.01)}) {
+        const Superellipsoid body(axes, exponent, other);
+        for (const double chord_error : {0.05, 0.01}) {
+          CAPTURE(exponent);
+          CAPTURE(other);
+          CAPTURE(axes.z());
+          CAPTURE(chord_error);
+          const Tessellation mesh = tessellate(body, chord_error * axes.minCoeff());
+          CHECK(mesh.normals.size() == mesh.points.size());
+          double farthest = 0;  // of a corner from the boundary
+          for (std::size_t k = 0; k < mesh.points.size(); ++k) {
+            farthest = std::max(farthest, std::abs(mesh.normals[k].dot(mesh.points[k]) - body.support(mesh.normals[k])));
+          }
+          CHECK(farthest <= 1e-12);
+          check_closed(mesh);
+          const double exact = body.mass_properties().volume;
+          CHECK(volume(mesh) <= exact * (1 + 1e-9));
+          CHECK(volume(mesh) >= exact * (1 - 6 * chord_error));
+          CHECK(farthest_beyond(body, mesh) <= chord_error * axes.minCoeff());
+        }
+      }
+    }
+  }
+}
