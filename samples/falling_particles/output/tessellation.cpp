@@ -56,10 +56,10 @@ class Tessellator {
     if (!(normal1.dot(normal2) > 0)) return false;
     const double length = edge.norm();
     if (length <= chord_error_) return true;
-    // How far the ends are below one another's tangent planes, and the angles of these planes to the edge.
-    const auto tangent = [length](double below) { return below / std::sqrt(std::max(length * length - below * below, 0.0)); };
-    const double tangent1 = tangent(std::max(-normal1.dot(edge), 0.0)), tangent2 = tangent(std::max(normal2.dot(edge), 0.0));
-    return length * tangent1 * tangent2 <= chord_error_ * (tangent1 + tangent2);
+    // How far the ends are below one another's tangent planes, and along them from one another.
+    const double below1 = std::max(-normal1.dot(edge), 0.0), below2 = std::max(normal2.dot(edge), 0.0);
+    const auto along = [length](double below) { return std::sqrt(std::max(length * length - below * below, 0.0)); };
+    return length * below1 * below2 <= chord_error_ * (below1 * along(below2) + below2 * along(below1));
   }
 
   /// The corner in the middle of an edge; kWhole if it stays as it is.
