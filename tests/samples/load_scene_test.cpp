@@ -151,8 +151,10 @@ TEST_CASE("a scene names what it leaves to look at") {
   CHECK(pictures_of("") == std::vector<std::string>{"glb"});
   CHECK(pictures_of("[output]\n") == std::vector<std::string>{"glb"});
   CHECK(pictures_of("[output]\npictures = []\n").empty());
-  CHECK(pictures_of("[output]\npictures = [\"povray\", \"vtk\"]\n") == std::vector<std::string>{"povray", "vtk"});
-  for (const char* wrong : {"\"glb\"", "[\"gltf\"]", "[1]", "[\"vtk\", \"vtk\"]"}) {
+  CHECK(pictures_of("[output]\n"
+                    R"(pictures = ["povray", "vtk"])"
+                    "\n") == std::vector<std::string>{"povray", "vtk"});
+  for (const char* wrong : {R"("glb")", R"(["gltf"])", "[1]", R"(["vtk", "vtk"])"}) {
     const std::string text = complaint(std::string(kSceneText) + "[output]\npictures = " + wrong + "\n");
     CHECK(text.find("pictures") != std::string::npos);
     CHECK(text.find("allowed: an array of different words of: glb, lammps, vtk, povray") != std::string::npos);

@@ -30,10 +30,11 @@ Scene scene_of_two_kinds() {
 /// Grains that turn and move, but for the last, which stands still; two of them touch from the second frame on.
 Frame frame_at(std::size_t index) {
   Frame frame;
-  const double t = static_cast<double>(index);
+  const auto t = static_cast<double>(index);
   frame.time = 0.1 * t;
   for (std::size_t k = 0; k < kBodies; ++k) {
-    const double moved = k + 1 == kBodies ? 0 : t, body = static_cast<double>(k);
+    const double moved = k + 1 == kBodies ? 0 : t;
+    const auto body = static_cast<double>(k);
     const double half = 0.4 * moved + body;
     frame.bodies.push_back({{0.01 * body + 1.0 / 3, 0.02 * moved, 0.05 - 0.01 * moved},
                             {std::cos(half), 0, std::sin(half) * 0.6, std::sin(half) * 0.8},
