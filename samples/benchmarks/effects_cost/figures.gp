@@ -16,6 +16,6 @@ set grid ytics
 set xtics rotate by 35 right nomirror font ",11"
 set key top left
 
-plot ARG1 using (1e3 * $4):xtic(1) title "collision" linecolor rgb "#6fa8dc", \
-     "" using (1e3 * $2) title "effects' passes, contact joints" linecolor rgb "#e69138", \
-     "" using (1e3 * $3) title "solver" linecolor rgb "#0b5394"
+plot ARG1 skip 1 using (1e3 * $4):xtic(1) title "collision" linecolor rgb "#6fa8dc", \
+     "" skip 1 using (1e3 * $2) title "effects' passes, contact joints" linecolor rgb "#e69138", \
+     "" skip 1 using (1e3 * $3) title "solver" linecolor rgb "#0b5394"
