@@ -24,8 +24,8 @@ struct Tuning {
 
   // The search for other maxima of overlapping bodies (hybrid.cpp, bounds/expanding_polytope.hpp).
   double followed_depth = 0.02;  ///< of the length unit: shallower, a warm query follows its branch without a look at others
-  double depth_per_radius = 1;   ///< no other maximum is looked for while the depth is less than so many of the least radii of
-                                 ///< curvature: with 1 it is Blaschke's theorem, but for the estimate of the radii
+  double depth_per_radius = 1;   ///< between smooth bodies no other maximum is looked for while the depth is less than so many of
+                                 ///< the least radii of curvature: with 1 it is Blaschke's theorem, but for the estimate of these
   double search_width = 0.003;   ///< of the depth: the search ends when no depth can be less by more
   int search_evaluations = 200;  ///< or after so many
   double near_best = 0.03;       ///< of the depth: other hills whose normals come as near to the best are climbed in the end

@@ -42,7 +42,6 @@ Frame frame_at(std::size_t index) {
                             {0, 0, 8 * body}});
   }
   if (index > 0) frame.contacts = {{{0.1, 0.2, 0.3}, {0, 0, 1}, 1e-5, 0, 1}, {{0.1, 0.2, 0}, {0, 1, 0}, 2e-5, 3, kWall}};
-  frame.energy = {1, 2};
   return frame;
 }
 
@@ -51,7 +50,7 @@ class Written {
  public:
   explicit Written(std::string_view format) : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
     const PictureFormat& found = *find_picture_format(format);
-    const std::unique_ptr<Picture> picture = found.make(out_, found, Cast{&scene_, {0, 1, 0, 1, 0}});
+    const std::unique_ptr<Picture> picture = found.make(out_, found, BodyKinds{&scene_, {0, 1, 0, 1, 0}});
     for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
     picture->finish();
     for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
@@ -196,7 +195,7 @@ TEST_CASE("a file that cannot be written is named") {
     if (format.files.size() > 1) continue;
     const std::filesystem::path path = out.file(std::string(format.files.front()));
     std::filesystem::create_directory(path);  // in its place
-    const std::unique_ptr<Picture> picture = format.make(out, format, Cast{&scene, {0, 1, 0, 1, 0}});
+    const std::unique_ptr<Picture> picture = format.make(out, format, BodyKinds{&scene, {0, 1, 0, 1, 0}});
     picture->add(frame_at(0));
     CHECK_THROWS_WITH_AS(picture->finish(), doctest::Contains(path.c_str()), std::runtime_error);
   }

@@ -32,9 +32,8 @@ class InnerPolytope {
     Vector3 normal;   ///< unit, outward
   };
 
-  /// Starts from a tetrahedron that has the origin inside; false where it has not, or is flat. Its vertices are points
-  /// of the body less `centre`, a point so near to the origin that its distance counts as an error: the surface is one around the
-  /// centre.
+  /// Starts from a tetrahedron that has the origin inside; false where it has not, or is flat. Its vertices are points of the body
+  /// less `centre`, a point so near to the origin that its distance counts as an error: the surface is one around the centre.
   bool start(const std::array<Vector3, 4>& tetrahedron, const Vector3& centre = Vector3::Zero());
 
   /// Adds a point that lies beyond a facet that is the nearest, or beyond any. Returns whether the surface has changed.

@@ -1,6 +1,7 @@
 #include "output/frame.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "simulation/stepper.hpp"
 #include "simulation/world.hpp"
@@ -17,21 +18,32 @@ int index_of(dGeomID geom, const World& world) {
 
 }  // namespace
 
-Cast cast_of(const World& world, const Scene& scene) {
-  Cast cast{&scene, {}};
-  cast.kinds.reserve(world.bodies().size());
+Extent extent_of(const Frame& frame, double radius) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Extent extent{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (const BodyState& body : frame.bodies) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent.least[axis] = std::min(extent.least[axis], body.position[axis] - radius);
+      extent.most[axis] = std::max(extent.most[axis], body.position[axis] + radius);
+    }
+  }
+  return extent;
+}
+
+BodyKinds kinds_of(const World& world, const Scene& scene) {
+  BodyKinds kinds{&scene, {}};
+  kinds.of_body.reserve(world.bodies().size());
   for (const Body& body : world.bodies()) {
     const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == body.grain; };
     const auto kind = std::ranges::find_if(scene.grains, is_kind);
-    cast.kinds.push_back(static_cast<std::size_t>(kind - scene.grains.begin()));
+    kinds.of_body.push_back(static_cast<std::size_t>(kind - scene.grains.begin()));
   }
-  return cast;
+  return kinds;
 }
 
-Frame frame_of(double time, const World& world, const Scene& scene, const Stepper* stepper) {
+Frame frame_of(double time, const World& world, const Stepper* stepper) {
   Frame frame;
   frame.time = time;
-  frame.energy = measure_energy(world, scene);
   frame.bodies.reserve(world.bodies().size());
   for (const Body& body : world.bodies()) {
     frame.bodies.push_back(

@@ -3,16 +3,15 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "container/geometry.hpp"
-#include "measure/energy.hpp"
 #include "scene/scene.hpp"
 
 namespace falling_particles {
 
 class Stepper;
+class World;
 
 /// A body at one time, in the world's frame.
 struct BodyState {
@@ -38,18 +37,27 @@ struct Frame {
   double time = 0;  ///< s
   std::vector<BodyState> bodies;
   std::vector<ContactState> contacts;  ///< of the step that led to this moment; none at the start. Those of a pair are consecutive
-  Energy energy;
 };
 
-/// The bodies of a run: what does not change from frame to frame. The scene must outlive it.
-struct Cast {
+/// A box along the axes.
+struct Extent {
+  Point least, most;  ///< m
+};
+
+/// The least box around spheres of that radius (m) about the bodies.
+Extent extent_of(const Frame& frame, double radius);
+
+/// What the bodies of a run are, which does not change from frame to frame. The scene must outlive it.
+struct BodyKinds {
   const Scene* scene;
-  std::vector<std::size_t> kinds;  ///< of each body: index into scene->grains
+  std::vector<std::size_t> of_body;  ///< index into scene->grains
+
+  const Grain& grain(std::size_t body) const { return scene->grains[of_body[body]].grain; }
 };
 
-Cast cast_of(const World& world, const Scene& scene);
+BodyKinds kinds_of(const World& world, const Scene& scene);
 
 /// `stepper`: null at the start, before the first step.
-Frame frame_of(double time, const World& world, const Scene& scene, const Stepper* stepper);
+Frame frame_of(double time, const World& world, const Stepper* stepper);
 
 }  // namespace falling_particles

@@ -1,26 +1,18 @@
 #include "output/lammps_dump.hpp"
 
-#include <algorithm>
-#include <limits>
+#include <initializer_list>
 #include <string>
 
-#include "output/close_stream.hpp"
+#include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
 namespace falling_particles {
 namespace {
 
-/// The sides of a box around all grains, whatever their attitudes; dumps need one.
-std::string bounds_of(const Frame& frame, double radius) {
+/// The sides of the box that a dump needs.
+std::string bounds_of(const Extent& extent) {
   std::string lines;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (const BodyState& body : frame.bodies) {
-      least = std::min(least, body.position[axis]);
-      most = std::max(most, body.position[axis]);
-    }
-    lines += shortest(least - radius) + ' ' + shortest(most + radius) + '\n';
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis) lines += shortest(extent.least[axis]) + ' ' + shortest(extent.most[axis]) + '\n';
   return lines;
 }
 
@@ -30,20 +22,20 @@ void append(std::string& line, std::initializer_list<double> numbers) {
 
 }  // namespace
 
-LammpsDump::LammpsDump(const std::filesystem::path& path, const Cast& cast) : path_(path), cast_(cast), stream_(path) {}
+LammpsDump::LammpsDump(const std::filesystem::path& path, const BodyKinds& kinds) : path_(path), kinds_(kinds), stream_(path) {}
 
 void LammpsDump::add(const Frame& frame) {
   std::string text = "ITEM: TIMESTEP\n" + std::to_string(frames_++) + "\nITEM: TIME\n" + shortest(frame.time) +
                      "\nITEM: NUMBER OF ATOMS\n" + std::to_string(frame.bodies.size()) + "\nITEM: BOX BOUNDS ff ff ff\n" +
-                     bounds_of(frame, cast_.scene->largest_bounding_radius()) +
+                     bounds_of(extent_of(frame, kinds_.scene->largest_bounding_radius())) +
                      "ITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz quati quatj quatk quatw shapex shapey shapez "
                      "roundness_phi roundness_theta\n";
   for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
     const BodyState& body = frame.bodies[k];
-    const Grain& grain = cast_.scene->grains[cast_.kinds[k]].grain;
+    const Grain& grain = kinds_.grain(k);
     const auto& [a, b, c] = grain.half_axes;
     const auto& [w, x, y, z] = body.quaternion;
-    text += std::to_string(k + 1) + ' ' + std::to_string(cast_.kinds[k] + 1);
+    text += std::to_string(k + 1) + ' ' + std::to_string(kinds_.of_body[k] + 1);
     for (const Point* vector : {&body.position, &body.velocity, &body.angular_velocity})
       append(text, {(*vector)[0], (*vector)[1], (*vector)[2]});
     append(text, {x, y, z, w, 2 * a, 2 * b, 2 * c, 2 / grain.delta, 2 / grain.epsilon});

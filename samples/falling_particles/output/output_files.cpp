@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "output/close_stream.hpp"
+#include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
 namespace falling_particles {

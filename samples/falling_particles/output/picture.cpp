@@ -11,12 +11,12 @@ namespace falling_particles {
 namespace {
 
 template <typename Format>
-std::unique_ptr<Picture> make_file(const OutputFolder& folder, const PictureFormat& format, const Cast& cast) {
-  return std::make_unique<Format>(folder.file(std::string(format.files.front())), cast);
+std::unique_ptr<Picture> make_file(const OutputFolder& folder, const PictureFormat& format, const BodyKinds& kinds) {
+  return std::make_unique<Format>(folder.file(std::string(format.files.front())), kinds);
 }
 
-std::unique_ptr<Picture> make_vtk(const OutputFolder& folder, const PictureFormat&, const Cast& cast) {
-  return std::make_unique<VtkSeries>(folder, cast);
+std::unique_ptr<Picture> make_vtk(const OutputFolder& folder, const PictureFormat&, const BodyKinds& kinds) {
+  return std::make_unique<VtkSeries>(folder, kinds);
 }
 
 }  // namespace

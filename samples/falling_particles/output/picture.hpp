@@ -28,7 +28,7 @@ class Picture {
 struct PictureFormat {
   std::string_view name;
   std::vector<std::string_view> files;  ///< names of the files and folders that it writes into the output folder
-  std::unique_ptr<Picture> (*make)(const OutputFolder& folder, const PictureFormat& format, const Cast& cast);
+  std::unique_ptr<Picture> (*make)(const OutputFolder& folder, const PictureFormat& format, const BodyKinds& kinds);
 };
 
 /// All formats, in the order in which they are listed for users.

@@ -3,15 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <string>
 #include <variant>
 
-#include "output/close_stream.hpp"
 #include "output/grain_shape.hpp"
 #include "output/palette.hpp"
 #include "output/tessellation.hpp"
+#include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
 namespace falling_particles {
@@ -49,34 +47,20 @@ std::string mesh(const Grain& grain) {
          list("face_indices", body.triangles, of_triangle) + "}";
 }
 
-/// The corners of a box around the grains.
-struct Extent {
-  Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 most = -least;
-};
-
-Extent extent_of(const Frame& frame, double radius) {
-  Extent extent;
-  for (const BodyState& body : frame.bodies) {
-    const Vector3 centre(body.position[0], body.position[1], body.position[2]);
-    extent.least = extent.least.cwiseMin((centre.array() - radius).matrix());
-    extent.most = extent.most.cwiseMax((centre.array() + radius).matrix());
-  }
-  return extent;
-}
+Vector3 to_vector(const Point& point) { return {point[0], point[1], point[2]}; }
 
 /// A camera to the side and above, from which all grains just fit into the picture, however wide it is.
 std::string camera_on(const Frame& frame, double radius) {
   const Extent extent = extent_of(frame, radius);
-  const Vector3 centre = 0.5 * (extent.least + extent.most);
-  const double size = (extent.most - extent.least).norm();
+  const Vector3 least = to_vector(extent.least), most = to_vector(extent.most), centre = 0.5 * (least + most);
+  const double size = (most - least).norm();
   const Vector3 back = Vector3(0.45, -0.75, 0.48).normalized();
   const Vector3 right = Vector3::UnitZ().cross(back).normalized(), up = back.cross(right);
   const Vector3 eye = centre + 2 * size * back;
   // Half of the width and the height of the picture at a distance of 1.
   double width = 0, height = 0;
   for (const BodyState& body : frame.bodies) {
-    const Vector3 from_eye = Vector3(body.position[0], body.position[1], body.position[2]) - eye;
+    const Vector3 from_eye = to_vector(body.position) - eye;
     const double distance = -from_eye.dot(back) - radius;
     width = std::max(width, (std::abs(from_eye.dot(right)) + radius) / distance);
     height = std::max(height, (std::abs(from_eye.dot(up)) + radius) / distance);
@@ -93,16 +77,16 @@ std::string camera_on(const Frame& frame, double radius) {
 
 }  // namespace
 
-PovrayScene::PovrayScene(const std::filesystem::path& path, const Cast& cast) : path_(path), cast_(cast) {}
+PovrayScene::PovrayScene(const std::filesystem::path& path, const BodyKinds& kinds) : path_(path), kinds_(kinds) {}
 
 void PovrayScene::finish() {
   std::string text =
-      "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + camera_on(last_, cast_.scene->largest_bounding_radius());
-  if (std::holds_alternative<Box>(cast_.scene->container)) {
+      "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + camera_on(last_, kinds_.scene->largest_bounding_radius());
+  if (std::holds_alternative<Box>(kinds_.scene->container)) {
     text += "plane { z, 0 pigment { rgb 0.9 } finish { ambient 0.1 diffuse 0.8 } }\n";
   }
-  for (std::size_t kind = 0; kind < cast_.scene->grains.size(); ++kind) {
-    const Grain& grain = cast_.scene->grains[kind].grain;
+  for (std::size_t kind = 0; kind < kinds_.scene->grains.size(); ++kind) {
+    const Grain& grain = kinds_.scene->grains[kind].grain;
     text += "\n// " + grain.name + "\n#declare Kind" + std::to_string(kind) + " = object {\n" +
             (grain.rounding > 0 ? mesh(grain) : superellipsoid(grain)) + "\n  pigment { srgb " + vector(colour_of_kind(kind)) +
             " }\n  finish { ambient 0.1 diffuse 0.8 specular 0.15 roughness 0.03 }\n}\n";
@@ -115,11 +99,9 @@ void PovrayScene::finish() {
     std::vector<double> rows;  // of POV-Ray's matrix: where the axes go, then the origin
     for (const int axis : {0, 1, 2}) rows.insert(rows.end(), R.col(axis).begin(), R.col(axis).end());
     rows.insert(rows.end(), body.position.begin(), body.position.end());
-    text += "object { Kind" + std::to_string(cast_.kinds[k]) + " matrix " + vector(rows) + " }\n";
+    text += "object { Kind" + std::to_string(kinds_.of_body[k]) + " matrix " + vector(rows) + " }\n";
   }
-  std::ofstream stream(path_);
-  stream << text;
-  close_or_throw(stream, path_);
+  write_file(path_, text);
 }
 
 }  // namespace falling_particles

@@ -12,13 +12,13 @@ namespace falling_particles {
 /// grains.
 class PovrayScene final : public Picture {
  public:
-  PovrayScene(const std::filesystem::path& path, const Cast& cast);
+  PovrayScene(const std::filesystem::path& path, const BodyKinds& kinds);
   void add(const Frame& frame) override { last_ = frame; }
   void finish() override;
 
  private:
   std::filesystem::path path_;
-  Cast cast_;
+  BodyKinds kinds_;
   Frame last_;
 };
 

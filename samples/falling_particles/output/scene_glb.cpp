@@ -9,15 +9,15 @@
 #include <span>
 #include <string>
 
-#include "output/close_stream.hpp"
 #include "output/grain_shape.hpp"
 #include "output/palette.hpp"
 #include "output/tessellation.hpp"
+#include "output/write_file.hpp"
 
 namespace falling_particles {
 namespace {
 
-// m, of the smallest half-axis of a grain: a few hundred triangles for most, and no corners to be seen.
+// Of the smallest half-axis of a grain: a few hundred triangles for most, and no corners to be seen.
 constexpr double kChordError = 0.02;
 
 using Channel = std::vector<std::vector<float>>;
@@ -25,18 +25,18 @@ using Channel = std::vector<std::vector<float>>;
 /// The buffer of a file and what is in it.
 class Builder {
  public:
-  explicit Builder(const Cast& cast) {
+  explicit Builder(const BodyKinds& kinds) {
     model_.asset.version = "2.0";
     model_.asset.generator = "falling_particles";
     model_.buffers.resize(1);
-    for (std::size_t kind = 0; kind < cast.scene->grains.size(); ++kind) add_kind(cast.scene->grains[kind].grain, kind);
-    add_nodes(cast);
+    for (std::size_t kind = 0; kind < kinds.scene->grains.size(); ++kind) add_kind(kinds.scene->grains[kind].grain, kind);
+    add_nodes(kinds);
   }
 
   void animate(const std::vector<float>& times, const Channel& translations, const Channel& rotations) {
     tinygltf::Animation animation;
     animation.name = "run";
-    const std::size_t view = add_view(times.size() * sizeof(float) * (1 + 7 * translations.size()), 0);
+    const std::size_t view = add_view(0);
     const int input = add_accessor(view, times, TINYGLTF_TYPE_SCALAR);
     model_.accessors[static_cast<std::size_t>(input)].minValues = {times.front()};
     model_.accessors[static_cast<std::size_t>(input)].maxValues = {times.back()};
@@ -44,7 +44,6 @@ class Builder {
       animate(animation, body, "translation", input, add_moving(view, translations[body], 3));
       animate(animation, body, "rotation", input, add_moving(view, rotations[body], 4));
     }
-    model_.bufferViews[view].byteLength = model_.buffers[0].data.size() - model_.bufferViews[view].byteOffset;
     if (!animation.channels.empty()) model_.animations.push_back(std::move(animation));
   }
 
@@ -60,11 +59,11 @@ class Builder {
   }
 
  private:
-  std::size_t add_view(std::size_t bytes, int target) {
+  /// A part of the buffer, which its accessors fill one after the other.
+  std::size_t add_view(int target) {
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = model_.buffers[0].data.size();
-    view.byteLength = bytes;
     view.target = target;
     model_.bufferViews.push_back(view);
     return model_.bufferViews.size() - 1;
@@ -79,6 +78,7 @@ class Builder {
     accessor.componentType = std::is_same_v<Number, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     accessor.type = type;
     accessor.count = numbers.size() / static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+    model_.bufferViews[view].byteLength += numbers.size() * sizeof(Number);
     const std::size_t start = data.size();
     data.resize(start + numbers.size() * sizeof(Number));
     std::memcpy(data.data() + start, numbers.data(), numbers.size() * sizeof(Number));
@@ -109,14 +109,13 @@ class Builder {
     animation.channels.push_back(std::move(channel));
   }
 
-  template <typename Corner>
-  int add_vectors(const std::vector<Corner>& vectors) {
+  int add_vectors(const std::vector<supernormal::Vector3>& vectors) {
     std::vector<float> numbers;
     numbers.reserve(3 * vectors.size());
-    for (const Corner& vector : vectors) {
+    for (const supernormal::Vector3& vector : vectors) {
       for (const int i : {0, 1, 2}) numbers.push_back(static_cast<float>(vector[i]));
     }
-    const std::size_t view = add_view(numbers.size() * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER);
+    const std::size_t view = add_view(TINYGLTF_TARGET_ARRAY_BUFFER);
     return add_accessor(view, numbers, TINYGLTF_TYPE_VEC3);
   }
 
@@ -131,7 +130,7 @@ class Builder {
     primitive.attributes["NORMAL"] = add_vectors(body.normals);
     std::vector<std::uint32_t> corners;
     for (const auto& triangle : body.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-    const std::size_t view = add_view(corners.size() * sizeof(std::uint32_t), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    const std::size_t view = add_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     primitive.indices = add_accessor(view, corners, TINYGLTF_TYPE_SCALAR);
     tinygltf::Mesh mesh;
     mesh.name = grain.name;
@@ -161,21 +160,21 @@ class Builder {
   }
 
   /// A node per body, then the root above them.
-  void add_nodes(const Cast& cast) {
+  void add_nodes(const BodyKinds& kinds) {
     tinygltf::Node root;
-    root.name = cast.scene->name;
+    root.name = kinds.scene->name;
     root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // glTF has y upwards
-    for (std::size_t body = 0; body < cast.kinds.size(); ++body) {
+    for (std::size_t body = 0; body < kinds.of_body.size(); ++body) {
       tinygltf::Node node;
-      node.name = cast.scene->grains[cast.kinds[body]].grain.name + " " + std::to_string(body);
-      node.mesh = static_cast<int>(cast.kinds[body]);
+      node.name = kinds.grain(body).name + " " + std::to_string(body);
+      node.mesh = static_cast<int>(kinds.of_body[body]);
       model_.nodes.push_back(std::move(node));
       root.children.push_back(static_cast<int>(body));
     }
     model_.nodes.push_back(std::move(root));
     tinygltf::Scene scene;
-    scene.name = cast.scene->name;
-    scene.nodes = {static_cast<int>(cast.kinds.size())};
+    scene.name = kinds.scene->name;
+    scene.nodes = {static_cast<int>(kinds.of_body.size())};
     model_.scenes.push_back(std::move(scene));
     model_.defaultScene = 0;
   }
@@ -185,8 +184,8 @@ class Builder {
 
 }  // namespace
 
-SceneGlb::SceneGlb(const std::filesystem::path& path, const Cast& cast)
-    : path_(path), cast_(cast), translations_(cast.kinds.size()), rotations_(cast.kinds.size()) {}
+SceneGlb::SceneGlb(const std::filesystem::path& path, const BodyKinds& kinds)
+    : path_(path), kinds_(kinds), translations_(kinds.of_body.size()), rotations_(kinds.of_body.size()) {}
 
 void SceneGlb::add(const Frame& frame) {
   times_.push_back(static_cast<float>(frame.time));
@@ -205,7 +204,7 @@ void SceneGlb::add(const Frame& frame) {
 }
 
 void SceneGlb::finish() {
-  Builder builder(cast_);
+  Builder builder(kinds_);
   for (std::size_t body = 0; body < translations_.size(); ++body) {
     builder.place(body, std::span(translations_[body]).first(3), std::span(rotations_[body]).first(4));
   }

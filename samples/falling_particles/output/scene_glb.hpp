@@ -14,13 +14,13 @@ namespace falling_particles {
 /// Written at the end of a run; until then a body and frame take 28 bytes.
 class SceneGlb final : public Picture {
  public:
-  SceneGlb(const std::filesystem::path& path, const Cast& cast);
+  SceneGlb(const std::filesystem::path& path, const BodyKinds& kinds);
   void add(const Frame& frame) override;
   void finish() override;
 
  private:
   std::filesystem::path path_;
-  Cast cast_;
+  BodyKinds kinds_;
   std::vector<float> times_;
   std::vector<std::vector<float>> translations_;  // of each body: x, y, z of every frame
   std::vector<std::vector<float>> rotations_;     // x, y, z, w

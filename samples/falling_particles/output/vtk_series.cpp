@@ -2,23 +2,16 @@
 
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <tuple>
 #include <type_traits>
 
-#include "output/close_stream.hpp"
+#include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
 namespace falling_particles {
 namespace {
 
 constexpr std::string_view kFramesFolder = "vtk";
-
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path);
-  stream << text;
-  close_or_throw(stream, path);
-}
 
 /// An array with a value for each of `count` points, which numbers(k) gives as a std::array.
 template <typename Numbers>
@@ -58,17 +51,17 @@ std::string contacts_of(const Frame& frame) {
 }
 
 void write_list(const std::filesystem::path& path, const std::string& entries) {
-  write(path, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" + entries +
-                  "</Collection>\n</VTKFile>\n");
+  write_file(path, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" + entries +
+                       "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace
 
-VtkSeries::VtkSeries(const OutputFolder& folder, const Cast& cast)
+VtkSeries::VtkSeries(const OutputFolder& folder, const BodyKinds& kinds)
     : grains_file_(folder.file("grains.pvd")),
       contacts_file_(folder.file("contacts.pvd")),
       frames_folder_(folder.file(std::string(kFramesFolder))),
-      cast_(cast) {
+      kinds_(kinds) {
   std::filesystem::create_directory(frames_folder_);
 }
 
@@ -87,25 +80,26 @@ void VtkSeries::write_frame(std::string_view what, double time, const std::strin
   std::array<char, 16> number{};
   std::snprintf(number.data(), number.size(), "_%06d.vtp", frames_);
   const std::string name = std::string(what) + number.data();
-  write(frames_folder_ / name, text);
+  write_file(frames_folder_ / name, text);
   list += "<DataSet timestep=\"" + shortest(time) + "\" file=\"" + std::string(kFramesFolder) + '/' + name + "\"/>\n";
 }
 
 std::string VtkSeries::grains_of(const Frame& frame) const {
   const std::size_t count = frame.bodies.size();
-  const auto grain = [&](std::size_t k) -> const Grain& { return cast_.scene->grains[cast_.kinds[k]].grain; };
+  const auto grain = [&](std::size_t k) -> const Grain& { return kinds_.grain(k); };
   const auto numbers = [&](std::string_view name, const auto& of) { return array(name, "Float64", count, of); };
-  return poly_data(count, numbers("position", [&](std::size_t k) { return frame.bodies[k].position; }),
-                   array("kind", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(cast_.kinds[k])}; }) +
-                       numbers("quaternion", [&](std::size_t k) { return frame.bodies[k].quaternion; }) +
-                       numbers("half_axes", [&](std::size_t k) { return grain(k).half_axes; }) +
-                       numbers("exponents",
-                               [&](std::size_t k) {
-                                 return std::array{grain(k).delta, grain(k).epsilon};
-                               }) +
-                       numbers("rounding", [&](std::size_t k) { return std::array{grain(k).rounding}; }) +
-                       numbers("velocity", [&](std::size_t k) { return frame.bodies[k].velocity; }) +
-                       numbers("angular_velocity", [&](std::size_t k) { return frame.bodies[k].angular_velocity; }));
+  return poly_data(
+      count, numbers("position", [&](std::size_t k) { return frame.bodies[k].position; }),
+      array("kind", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(kinds_.of_body[k])}; }) +
+          numbers("quaternion", [&](std::size_t k) { return frame.bodies[k].quaternion; }) +
+          numbers("half_axes", [&](std::size_t k) { return grain(k).half_axes; }) +
+          numbers("exponents",
+                  [&](std::size_t k) {
+                    return std::array{grain(k).delta, grain(k).epsilon};
+                  }) +
+          numbers("rounding", [&](std::size_t k) { return std::array{grain(k).rounding}; }) +
+          numbers("velocity", [&](std::size_t k) { return frame.bodies[k].velocity; }) +
+          numbers("angular_velocity", [&](std::size_t k) { return frame.bodies[k].angular_velocity; }));
 }
 
 }  // namespace falling_particles

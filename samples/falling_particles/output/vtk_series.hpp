@@ -16,7 +16,7 @@ namespace falling_particles {
 /// 1), depth (m) and the two bodies (-1: a wall).
 class VtkSeries final : public Picture {
  public:
-  VtkSeries(const OutputFolder& folder, const Cast& cast);
+  VtkSeries(const OutputFolder& folder, const BodyKinds& kinds);
   void add(const Frame& frame) override;
   void finish() override;
 
@@ -25,7 +25,7 @@ class VtkSeries final : public Picture {
   std::string grains_of(const Frame& frame) const;
 
   std::filesystem::path grains_file_, contacts_file_, frames_folder_;
-  Cast cast_;
+  BodyKinds kinds_;
   std::string grains_, contacts_;  // entries of the two lists
   int frames_ = 0;
 };

@@ -19,9 +19,14 @@ double farthest(double a, double b, double exponent) {
 
 double Grain::smallest_half_axis() const { return *std::ranges::min_element(half_axes); }
 
-double Grain::bounding_radius() const {
+std::array<double, 3> Grain::core_half_axes() const {
   const auto [a, b, c] = half_axes;
-  return farthest(farthest(a - rounding, b - rounding, delta), c - rounding, epsilon) + rounding;
+  return {a - rounding, b - rounding, c - rounding};
+}
+
+double Grain::bounding_radius() const {
+  const auto [a, b, c] = core_half_axes();
+  return farthest(farthest(a, b, delta), c, epsilon) + rounding;
 }
 
 }  // namespace falling_particles

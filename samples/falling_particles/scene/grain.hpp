@@ -17,6 +17,8 @@ struct Grain {
   std::string source;               ///< where the dimensions come from; "typical" when there is no published source
 
   double smallest_half_axis() const;
+  /// m; of the superellipsoid that the sphere of the rounding sweeps.
+  std::array<double, 3> core_half_axes() const;
   /// m; the radius of the smallest sphere about the centre that holds the grain.
   double bounding_radius() const;
 };

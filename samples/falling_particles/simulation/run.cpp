@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -14,11 +13,11 @@
 #include "measure/discharge.hpp"
 #include "measure/energy.hpp"
 #include "measure/leaks.hpp"
-#include "output/close_stream.hpp"
 #include "output/output_files.hpp"
 #include "output/output_folder.hpp"
 #include "output/picture.hpp"
 #include "output/summary.hpp"
+#include "output/write_file.hpp"
 #include "placement.hpp"
 #include "progress.hpp"
 #include "random.hpp"
@@ -59,7 +58,7 @@ class Recorder {
     if (discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
     for (const std::string& name : scene.pictures) {
       const PictureFormat& format = *find_picture_format(name);
-      pictures_.push_back(format.make(folder, format, cast_of(world, scene)));
+      pictures_.push_back(format.make(folder, format, kinds_of(world, scene)));
     }
   }
 
@@ -69,7 +68,7 @@ class Recorder {
     energies_.write(time, measure_energy(world_, scene_), stepper == nullptr ? 0 : stepper->contacts());
     if (discharge_file_) discharge_file_->write(time, discharge_->mass(), discharge_->count());
     if (pictures_.empty()) return;
-    const Frame frame = frame_of(time, world_, scene_, stepper);
+    const Frame frame = frame_of(time, world_, stepper);
     for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
   }
 
@@ -122,12 +121,6 @@ std::optional<Heap> find_heap(const World& world, const Container& container) {
   const Hopper* hopper = std::get_if<Hopper>(&container);
   if (hopper == nullptr || !hopper->dish) return std::nullopt;
   return measure_heap(world, {0, 0, hopper->dish->height}, hopper->dish->diameter / 2);
-}
-
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path);
-  stream << text;
-  close_or_throw(stream, path);
 }
 
 }  // namespace

@@ -26,12 +26,10 @@ void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
 }  // namespace
 
 dGeomID create_geom(dSpaceID space, const Grain& grain) {
-  const double r = grain.rounding;
-  const auto [a, b, c] = grain.half_axes;
-  dGeomID geom = grain.delta == 2 && grain.epsilon == 2
-                     ? snCreateEllipsoid(space, a - r, b - r, c - r)
-                     : snCreateSuperellipsoid(space, a - r, b - r, c - r, grain.delta, grain.epsilon);
-  if (geom == nullptr || (r > 0 && snGeomSetRounding(geom, r) == 0)) {
+  const auto [a, b, c] = grain.core_half_axes();
+  dGeomID geom = grain.delta == 2 && grain.epsilon == 2 ? snCreateEllipsoid(space, a, b, c)
+                                                        : snCreateSuperellipsoid(space, a, b, c, grain.delta, grain.epsilon);
+  if (geom == nullptr || (grain.rounding > 0 && snGeomSetRounding(geom, grain.rounding) == 0)) {
     throw std::runtime_error("grain \"" + grain.name + "\" was refused: " + snLastError());
   }
   return geom;
