@@ -24,8 +24,8 @@ enum ExitCode { Done = 0, Failed = 1, BadInput = 2, Leaked = 3, Interrupted = 13
 
 constexpr const char* kFooter =
     "Writes OUT/<scene>/trajectory.csv, energies.csv, summary.toml, of a hopper discharge.csv, and the pictures that the scene\n"
-    "asks for, scene.glb if it does not say; until the end they are in OUT/<scene>.unfinished-1. If the run is killed the tables\n"
-    "stay there, up to the last frame, until the next run of the scene.\n"
+    "asks for, view.html and scene.glb if it does not say; until the end they are in OUT/<scene>.unfinished-1. If the run is\n"
+    "killed the tables stay there, up to the last frame, until the next run of the scene.\n"
     "Exit code: 0 done; 1 failed (disk full, say, or stdout closed); 2 bad input, nothing written;\n"
     "3 with --check-leaks: a grain left the container, all results written;\n"
     "130 stopped by Ctrl-C, with all results up to then written.";

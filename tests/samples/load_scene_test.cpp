@@ -148,8 +148,8 @@ TEST_CASE("a scene names what it leaves to look at") {
   const auto pictures_of = [&](const std::string& output) {
     return load_scene(folder.write("scene.toml", kSceneText + output)).pictures;
   };
-  CHECK(pictures_of("") == std::vector<std::string>{"glb"});
-  CHECK(pictures_of("[output]\n") == std::vector<std::string>{"glb"});
+  CHECK(pictures_of("") == std::vector<std::string>{"page", "glb"});
+  CHECK(pictures_of("[output]\n") == std::vector<std::string>{"page", "glb"});
   CHECK(pictures_of("[output]\npictures = []\n").empty());
   CHECK(pictures_of("[output]\n"
                     R"(pictures = ["povray", "vtk"])"
@@ -157,8 +157,15 @@ TEST_CASE("a scene names what it leaves to look at") {
   for (const char* wrong : {R"("glb")", R"(["gltf"])", "[1]", R"(["vtk", "vtk"])"}) {
     const std::string text = complaint(std::string(kSceneText) + "[output]\npictures = " + wrong + "\n");
     CHECK(text.find("pictures") != std::string::npos);
-    CHECK(text.find("allowed: an array of different words of: glb, lammps, vtk, povray") != std::string::npos);
+    CHECK(text.find("allowed: an array of different words of: page, glb, lammps, vtk, povray") != std::string::npos);
   }
+}
+
+TEST_CASE("pictures show forces where the scene asks for them") {
+  const std::string text = kSceneText;
+  CHECK_FALSE(scene_of(text).forces);
+  CHECK(scene_of(text + "[output]\nforces = true\n").forces);
+  check_says(complaint(text + "[output]\nforces = 1\n"), {"output.forces", "allowed: true or false"});
 }
 
 TEST_CASE("fractions that do not sum to one are refused") {

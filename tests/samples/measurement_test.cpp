@@ -7,6 +7,7 @@
 #include "measure/bed.hpp"
 #include "measure/energy.hpp"
 #include "measure/overlap.hpp"
+#include "output/frame.hpp"
 #include "relative.hpp"
 #include "simulation/stepper.hpp"
 #include "simulation/world.hpp"
@@ -125,6 +126,29 @@ TEST_CASE("a dropped grain falls freely, comes to rest on the floor and touches 
   CHECK(std::abs(position[2] - 0.01) < 1e-3 * 0.01 + 1e-5);
   CHECK(kinetic_height(world, scene) < 1e-9);
   CHECK(stepper.costs().pairs_tested >= stepper.costs().contacts);
+}
+
+TEST_CASE("the contacts of a frame carry the weight of the grains, and measuring them changes no motion") {
+  const Scene scene = scene_of(ellipsoid(), 2);
+  const std::vector<Placement> start = {upright(0.05, 0.1, 0.01), upright(0.1, 0.1, 0.01)};
+  const auto settle = [&](bool measures, Frame* frame) {
+    const World world(scene, start);
+    Stepper stepper(world, scene);
+    for (int i = 0; i < 500; ++i) stepper.step(measures);
+    if (frame != nullptr) *frame = frame_of(0.5, {}, contents_of(world, scene), world, &stepper);
+    return world.bodies()[1].position();
+  };
+  Frame frame;
+  CHECK(settle(true, &frame) == settle(false, nullptr));
+  REQUIRE(frame.contacts.size() == 2);
+  const double weight = 10 * scene.grains[0].grain.density * 4 * std::numbers::pi / 3 * 0.02 * 0.03 * 0.01;
+  for (const ContactState& contact : frame.contacts) {
+    REQUIRE(contact.force.has_value());
+    // On body 1, whichever of the two the grain is; the normal points into it.
+    const double sign = contact.body1 == kWall ? -1 : 1;
+    CHECK(contact.normal[2] == doctest::Approx(sign));
+    CHECK((*contact.force)[2] == doctest::Approx(sign * weight).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("friction stops a sliding grain and without friction it slides on") {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "output/picture.hpp"
@@ -17,13 +18,14 @@ using namespace falling_particles;
 namespace {
 
 constexpr std::size_t kBodies = 5, kFrames = 4;
+const std::string kSummary = "[run]\nscene = \"pictures\"\n";
 
 Scene scene_of_two_kinds() {
   Scene scene{};
   scene.name = "pictures";
   scene.container = Box{{0.1, 0.1}};
   scene.grains = {{{"bean", {0.006, 0.004, 0.003}, 2.5, 2.2, 0, 1200, "typical"}, 3},
-                  {{"die", {0.008, 0.008, 0.008}, 20, 20, 0.001, 1200, "typical"}, 2}};
+                  {{"die </script>", {0.008, 0.008, 0.008}, 20, 20, 0.001, 1200, "typical"}, 2}};
   return scene;
 }
 
@@ -32,6 +34,8 @@ Frame frame_at(std::size_t index) {
   Frame frame;
   const auto t = static_cast<double>(index);
   frame.time = 0.1 * t;
+  frame.energy = {0.5 * t, 1 - t};
+  frame.part_scales = {1, 1};
   for (std::size_t k = 0; k < kBodies; ++k) {
     const double moved = k + 1 == kBodies ? 0 : t;
     const auto body = static_cast<double>(k);
@@ -50,9 +54,10 @@ class Written {
  public:
   explicit Written(std::string_view format) : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
     const PictureFormat& found = *find_picture_format(format);
-    const std::unique_ptr<Picture> picture = found.make(out_, found, BodyKinds{&scene_, {0, 1, 0, 1, 0}});
+    const std::unique_ptr<Picture> picture =
+        found.make(out_, found, Contents{&scene_, {0, 1, 0, 1, 0}, parts_of(scene_.container, 0.1)});
     for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
-    picture->finish();
+    picture->finish(kSummary);
     for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
   }
   std::string path(const std::string& name) const { return out_.file(name).string(); }
@@ -103,7 +108,7 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
   CHECK(error.empty());
   CHECK(warning.empty());
   REQUIRE(model.meshes.size() == 2);
-  CHECK(model.meshes[1].name == "die");
+  CHECK(model.meshes[1].name == "die </script>");
   REQUIRE(model.nodes.size() == kBodies + 1);
   CHECK(model.nodes[3].mesh == 1);
   REQUIRE(model.animations.size() == 1);
@@ -129,6 +134,32 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
   }
   // The one that stands still is placed, not animated.
   CHECK(model.nodes[kBodies - 1].translation[0] == doctest::Approx(frame_at(0).bodies[kBodies - 1].position[0]).epsilon(1e-7));
+}
+
+TEST_CASE("page: what it needs is in it, and names cannot end a script") {
+  const Written written("page");
+  const std::string text = written.text("view.html");
+  CHECK(count_of(text, "<!-- the run -->") == 0);
+  CHECK(count_of(text, "src=") == 0);  // nothing beside it
+  const std::string start = "<script type=\"application/json\" id=\"run\">";
+  const std::size_t at = text.find(start) + start.size();
+  const std::string description = text.substr(at, text.find('\n', at) - at - std::string("</script>").size());
+  CHECK(description.find('<') == std::string::npos);
+  const nlohmann::json run = nlohmann::json::parse(description);
+  CHECK(run["times"].size() == kFrames);
+  CHECK(run["kinetic"][2] == frame_at(2).energy.kinetic);
+  REQUIRE(run["kinds"].size() == 2);
+  CHECK(run["kinds"][1]["name"] == "die </script>");
+  CHECK(run["kinds"][1]["exponents"] == std::vector{20.0, 20.0});
+  CHECK(run["parts"].size() == 2);
+  CHECK(run["partScales"][1] == std::vector{1.0, 1.0});
+  CHECK(run["contacts"].size() == kFrames);
+  CHECK(run["contacts"][0]["count"] == 0);
+  CHECK(run["contacts"][3]["count"] == 2);
+  CHECK(run["summary"] == kSummary);
+  const std::size_t bodies = text.find("id=\"bodies\">\n");
+  const std::string lines = text.substr(bodies, text.find("</script>", bodies) - bodies);
+  CHECK(count_of(lines, "\n") == kFrames + 1);
 }
 
 TEST_CASE("lammps: diameters, quaternions with w last, roundness") {
@@ -195,8 +226,8 @@ TEST_CASE("a file that cannot be written is named") {
     if (format.files.size() > 1) continue;
     const std::filesystem::path path = out.file(std::string(format.files.front()));
     std::filesystem::create_directory(path);  // in its place
-    const std::unique_ptr<Picture> picture = format.make(out, format, BodyKinds{&scene, {0, 1, 0, 1, 0}});
+    const std::unique_ptr<Picture> picture = format.make(out, format, Contents{&scene, {0, 1, 0, 1, 0}});
     picture->add(frame_at(0));
-    CHECK_THROWS_WITH_AS(picture->finish(), doctest::Contains(path.c_str()), std::runtime_error);
+    CHECK_THROWS_WITH_AS(picture->finish(""), doctest::Contains(path.c_str()), std::runtime_error);
   }
 }

@@ -22,6 +22,8 @@ class Walls {
 
   const std::vector<dGeomID>& geoms() const { return geoms_; }
 
+  /// Whether a lid closes a hopper's outlet.
+  bool has_lid() const { return lid_ != nullptr; }
   /// Takes the lid off a hopper's outlet; call it once.
   void open_outlet();
 

@@ -16,6 +16,35 @@ int index_of(dGeomID geom, const World& world) {
   return body == nullptr ? kWall : static_cast<int>(body - world.bodies().data());
 }
 
+/// The factor by which a part of the container is scaled.
+double scale_of(const ContainerPart& part, const World& world) {
+  switch (part.role) {
+    case ContainerPart::Role::Lid:
+      return world.walls().has_lid() ? 1 : 0;
+    case ContainerPart::Role::Cell:
+      return world.cell()->side();
+    case ContainerPart::Role::Still:
+      break;
+  }
+  return 1;
+}
+
+ContactState state_of(const dContactGeom& contact, const World& world) {
+  return {to_point(contact.pos),       to_point(contact.normal),    contact.depth,
+          index_of(contact.g1, world), index_of(contact.g2, world), {}};
+}
+
+/// Where forces are measured, the contacts are those that effects have left to the joints.
+void add_contacts(Frame& frame, const World& world, const Stepper& stepper) {
+  for (const MeasuredContact& contact : stepper.measured_contacts()) {
+    frame.contacts.push_back(state_of(contact.geom, world));
+    frame.contacts.back().force = contact.force();
+  }
+  if (!frame.contacts.empty()) return;
+  frame.contacts.reserve(stepper.contact_geoms().size());
+  for (const dContactGeom& contact : stepper.contact_geoms()) frame.contacts.push_back(state_of(contact, world));
+}
+
 }  // namespace
 
 Extent extent_of(const Frame& frame, double radius) {
@@ -30,31 +59,31 @@ Extent extent_of(const Frame& frame, double radius) {
   return extent;
 }
 
-BodyKinds kinds_of(const World& world, const Scene& scene) {
-  BodyKinds kinds{&scene, {}};
-  kinds.of_body.reserve(world.bodies().size());
+Contents contents_of(const World& world, const Scene& scene) {
+  Contents contents{&scene, {}, {}};
+  contents.kind_of_body.reserve(world.bodies().size());
+  double top = 0;
   for (const Body& body : world.bodies()) {
     const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == body.grain; };
     const auto kind = std::ranges::find_if(scene.grains, is_kind);
-    kinds.of_body.push_back(static_cast<std::size_t>(kind - scene.grains.begin()));
+    contents.kind_of_body.push_back(static_cast<std::size_t>(kind - scene.grains.begin()));
+    top = std::max(top, body.position()[2] + body.grain->bounding_radius());
   }
-  return kinds;
+  contents.parts = parts_of(scene.container, top);
+  return contents;
 }
 
-Frame frame_of(double time, const World& world, const Stepper* stepper) {
+Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper) {
   Frame frame;
   frame.time = time;
+  frame.energy = energy;
+  for (const ContainerPart& part : contents.parts) frame.part_scales.push_back(scale_of(part, world));
   frame.bodies.reserve(world.bodies().size());
   for (const Body& body : world.bodies()) {
     frame.bodies.push_back(
         {body.position(), body.quaternion(), to_point(dBodyGetLinearVel(body.body)), to_point(dBodyGetAngularVel(body.body))});
   }
-  if (stepper == nullptr) return frame;
-  frame.contacts.reserve(stepper->contact_geoms().size());
-  for (const dContactGeom& contact : stepper->contact_geoms()) {
-    frame.contacts.push_back(
-        {to_point(contact.pos), to_point(contact.normal), contact.depth, index_of(contact.g1, world), index_of(contact.g2, world)});
-  }
+  if (stepper != nullptr) add_contacts(frame, world, *stepper);
   return frame;
 }
 

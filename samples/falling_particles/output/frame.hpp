@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "container/geometry.hpp"
+#include "container/parts.hpp"
+#include "measure/energy.hpp"
 #include "scene/scene.hpp"
 
 namespace falling_particles {
@@ -28,6 +31,7 @@ struct ContactState {
   double depth;    ///< m
   int body1;       ///< index of the body; kWall for a wall
   int body2;
+  std::optional<Point> force = {};  ///< N, on body 1; where the scene asks for forces
 };
 
 inline constexpr int kWall = -1;
@@ -35,8 +39,10 @@ inline constexpr int kWall = -1;
 /// One moment of a run. The bodies are those of the scene, always in the same order.
 struct Frame {
   double time = 0;  ///< s
+  Energy energy{};
   std::vector<BodyState> bodies;
   std::vector<ContactState> contacts;  ///< of the step that led to this moment; none at the start. Those of a pair are consecutive
+  std::vector<double> part_scales;     ///< of the container's parts about the origin; 0: the part is gone
 };
 
 /// A box along the axes.
@@ -47,17 +53,19 @@ struct Extent {
 /// The least box around spheres of that radius (m) about the bodies.
 Extent extent_of(const Frame& frame, double radius);
 
-/// What the bodies of a run are, which does not change from frame to frame. The scene must outlive it.
-struct BodyKinds {
+/// What a run shows, which does not change from frame to frame. The scene must outlive it.
+struct Contents {
   const Scene* scene;
-  std::vector<std::size_t> of_body;  ///< index into scene->grains
+  std::vector<std::size_t> kind_of_body;  ///< index into scene->grains
+  std::vector<ContainerPart> parts = {};  ///< of the container
 
-  const Grain& grain(std::size_t body) const { return scene->grains[of_body[body]].grain; }
+  const Grain& grain(std::size_t body) const { return scene->grains[kind_of_body[body]].grain; }
 };
 
-BodyKinds kinds_of(const World& world, const Scene& scene);
+/// Of a run that has not started: walls without end are shown up to the highest grain.
+Contents contents_of(const World& world, const Scene& scene);
 
 /// `stepper`: null at the start, before the first step.
-Frame frame_of(double time, const World& world, const Stepper* stepper);
+Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper);
 
 }  // namespace falling_particles

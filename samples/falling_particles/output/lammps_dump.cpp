@@ -22,20 +22,21 @@ void append(std::string& line, std::initializer_list<double> numbers) {
 
 }  // namespace
 
-LammpsDump::LammpsDump(const std::filesystem::path& path, const BodyKinds& kinds) : path_(path), kinds_(kinds), stream_(path) {}
+LammpsDump::LammpsDump(const std::filesystem::path& path, const Contents& contents)
+    : path_(path), contents_(contents), stream_(path) {}
 
 void LammpsDump::add(const Frame& frame) {
   std::string text = "ITEM: TIMESTEP\n" + std::to_string(frames_++) + "\nITEM: TIME\n" + shortest(frame.time) +
                      "\nITEM: NUMBER OF ATOMS\n" + std::to_string(frame.bodies.size()) + "\nITEM: BOX BOUNDS ff ff ff\n" +
-                     bounds_of(extent_of(frame, kinds_.scene->largest_bounding_radius())) +
+                     bounds_of(extent_of(frame, contents_.scene->largest_bounding_radius())) +
                      "ITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz quati quatj quatk quatw shapex shapey shapez "
                      "roundness_phi roundness_theta\n";
   for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
     const BodyState& body = frame.bodies[k];
-    const Grain& grain = kinds_.grain(k);
+    const Grain& grain = contents_.grain(k);
     const auto& [a, b, c] = grain.half_axes;
     const auto& [w, x, y, z] = body.quaternion;
-    text += std::to_string(k + 1) + ' ' + std::to_string(kinds_.of_body[k] + 1);
+    text += std::to_string(k + 1) + ' ' + std::to_string(contents_.kind_of_body[k] + 1);
     for (const Point* vector : {&body.position, &body.velocity, &body.angular_velocity})
       append(text, {(*vector)[0], (*vector)[1], (*vector)[2]});
     append(text, {x, y, z, w, 2 * a, 2 * b, 2 * c, 2 / grain.delta, 2 / grain.epsilon});
@@ -44,6 +45,6 @@ void LammpsDump::add(const Frame& frame) {
   stream_ << text << std::flush;
 }
 
-void LammpsDump::finish() { close_or_throw(stream_, path_); }
+void LammpsDump::finish(const std::string& /*summary*/) { close_or_throw(stream_, path_); }
 
 }  // namespace falling_particles

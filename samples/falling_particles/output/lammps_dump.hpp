@@ -14,13 +14,13 @@ namespace falling_particles {
 /// what OVITO calls Superquadric Roundness. The rounding of a grain's edges has no column.
 class LammpsDump final : public Picture {
  public:
-  LammpsDump(const std::filesystem::path& path, const BodyKinds& kinds);
+  LammpsDump(const std::filesystem::path& path, const Contents& contents);
   void add(const Frame& frame) override;
-  void finish() override;
+  void finish(const std::string& summary) override;
 
  private:
   std::filesystem::path path_;
-  BodyKinds kinds_;
+  Contents contents_;
   std::ofstream stream_;
   int frames_ = 0;
 };

@@ -5,31 +5,33 @@
 #include "output/lammps_dump.hpp"
 #include "output/povray_scene.hpp"
 #include "output/scene_glb.hpp"
+#include "output/view_page.hpp"
 #include "output/vtk_series.hpp"
 
 namespace falling_particles {
 namespace {
 
 template <typename Format>
-std::unique_ptr<Picture> make_file(const OutputFolder& folder, const PictureFormat& format, const BodyKinds& kinds) {
-  return std::make_unique<Format>(folder.file(std::string(format.files.front())), kinds);
+std::unique_ptr<Picture> make_file(const OutputFolder& folder, const PictureFormat& format, const Contents& contents) {
+  return std::make_unique<Format>(folder.file(std::string(format.files.front())), contents);
 }
 
-std::unique_ptr<Picture> make_vtk(const OutputFolder& folder, const PictureFormat&, const BodyKinds& kinds) {
-  return std::make_unique<VtkSeries>(folder, kinds);
+std::unique_ptr<Picture> make_vtk(const OutputFolder& folder, const PictureFormat&, const Contents& contents) {
+  return std::make_unique<VtkSeries>(folder, contents);
 }
 
 }  // namespace
 
 const std::vector<PictureFormat>& picture_formats() {
-  static const std::vector<PictureFormat> formats = {{"glb", {"scene.glb"}, make_file<SceneGlb>},
+  static const std::vector<PictureFormat> formats = {{"page", {"view.html"}, make_file<ViewPage>},
+                                                     {"glb", {"scene.glb"}, make_file<SceneGlb>},
                                                      {"lammps", {"grains.lammpstrj"}, make_file<LammpsDump>},
                                                      {"vtk", {"grains.pvd", "contacts.pvd", "vtk"}, make_vtk},
                                                      {"povray", {"still.pov"}, make_file<PovrayScene>}};
   return formats;
 }
 
-std::vector<std::string> default_pictures() { return {"glb"}; }
+std::vector<std::string> default_pictures() { return {"page", "glb"}; }
 
 const PictureFormat* find_picture_format(std::string_view name) {
   const auto found = std::ranges::find(picture_formats(), name, &PictureFormat::name);

@@ -20,15 +20,16 @@ class Picture {
   Picture& operator=(const Picture&) = delete;
 
   virtual void add(const Frame& frame) = 0;
-  /// Writes what is left to write; throws std::runtime_error when anything could not be written.
-  virtual void finish() = 0;
+  /// Writes what is left to write; throws std::runtime_error when anything could not be written. `summary`: the text of
+  /// summary.toml.
+  virtual void finish(const std::string& summary) = 0;
 };
 
 /// A format that a scene can ask for: [output] pictures = ["name", …].
 struct PictureFormat {
   std::string_view name;
   std::vector<std::string_view> files;  ///< names of the files and folders that it writes into the output folder
-  std::unique_ptr<Picture> (*make)(const OutputFolder& folder, const PictureFormat& format, const BodyKinds& kinds);
+  std::unique_ptr<Picture> (*make)(const OutputFolder& folder, const PictureFormat& format, const Contents& contents);
 };
 
 /// All formats, in the order in which they are listed for users.

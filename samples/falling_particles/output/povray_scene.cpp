@@ -77,16 +77,16 @@ std::string camera_on(const Frame& frame, double radius) {
 
 }  // namespace
 
-PovrayScene::PovrayScene(const std::filesystem::path& path, const BodyKinds& kinds) : path_(path), kinds_(kinds) {}
+PovrayScene::PovrayScene(const std::filesystem::path& path, const Contents& contents) : path_(path), contents_(contents) {}
 
-void PovrayScene::finish() {
+void PovrayScene::finish(const std::string& /*summary*/) {
   std::string text =
-      "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + camera_on(last_, kinds_.scene->largest_bounding_radius());
-  if (std::holds_alternative<Box>(kinds_.scene->container)) {
+      "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + camera_on(last_, contents_.scene->largest_bounding_radius());
+  if (std::holds_alternative<Box>(contents_.scene->container)) {
     text += "plane { z, 0 pigment { rgb 0.9 } finish { ambient 0.1 diffuse 0.8 } }\n";
   }
-  for (std::size_t kind = 0; kind < kinds_.scene->grains.size(); ++kind) {
-    const Grain& grain = kinds_.scene->grains[kind].grain;
+  for (std::size_t kind = 0; kind < contents_.scene->grains.size(); ++kind) {
+    const Grain& grain = contents_.scene->grains[kind].grain;
     text += "\n// " + grain.name + "\n#declare Kind" + std::to_string(kind) + " = object {\n" +
             (grain.rounding > 0 ? mesh(grain) : superellipsoid(grain)) + "\n  pigment { srgb " + vector(colour_of_kind(kind)) +
             " }\n  finish { ambient 0.1 diffuse 0.8 specular 0.15 roughness 0.03 }\n}\n";
@@ -99,7 +99,7 @@ void PovrayScene::finish() {
     std::vector<double> rows;  // of POV-Ray's matrix: where the axes go, then the origin
     for (const int axis : {0, 1, 2}) rows.insert(rows.end(), R.col(axis).begin(), R.col(axis).end());
     rows.insert(rows.end(), body.position.begin(), body.position.end());
-    text += "object { Kind" + std::to_string(kinds_.of_body[k]) + " matrix " + vector(rows) + " }\n";
+    text += "object { Kind" + std::to_string(contents_.kind_of_body[k]) + " matrix " + vector(rows) + " }\n";
   }
   write_file(path_, text);
 }

@@ -12,13 +12,13 @@ namespace falling_particles {
 /// grains.
 class PovrayScene final : public Picture {
  public:
-  PovrayScene(const std::filesystem::path& path, const BodyKinds& kinds);
+  PovrayScene(const std::filesystem::path& path, const Contents& contents);
   void add(const Frame& frame) override { last_ = frame; }
-  void finish() override;
+  void finish(const std::string& summary) override;
 
  private:
   std::filesystem::path path_;
-  BodyKinds kinds_;
+  Contents contents_;
   Frame last_;
 };
 

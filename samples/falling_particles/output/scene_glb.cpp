@@ -25,12 +25,12 @@ using Channel = std::vector<std::vector<float>>;
 /// The buffer of a file and what is in it.
 class Builder {
  public:
-  explicit Builder(const BodyKinds& kinds) {
+  explicit Builder(const Contents& contents) {
     model_.asset.version = "2.0";
     model_.asset.generator = "falling_particles";
     model_.buffers.resize(1);
-    for (std::size_t kind = 0; kind < kinds.scene->grains.size(); ++kind) add_kind(kinds.scene->grains[kind].grain, kind);
-    add_nodes(kinds);
+    for (std::size_t kind = 0; kind < contents.scene->grains.size(); ++kind) add_kind(contents.scene->grains[kind].grain, kind);
+    add_nodes(contents);
   }
 
   void animate(const std::vector<float>& times, const Channel& translations, const Channel& rotations) {
@@ -160,21 +160,21 @@ class Builder {
   }
 
   /// A node per body, then the root above them.
-  void add_nodes(const BodyKinds& kinds) {
+  void add_nodes(const Contents& contents) {
     tinygltf::Node root;
-    root.name = kinds.scene->name;
+    root.name = contents.scene->name;
     root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // glTF has y upwards
-    for (std::size_t body = 0; body < kinds.of_body.size(); ++body) {
+    for (std::size_t body = 0; body < contents.kind_of_body.size(); ++body) {
       tinygltf::Node node;
-      node.name = kinds.grain(body).name + " " + std::to_string(body);
-      node.mesh = static_cast<int>(kinds.of_body[body]);
+      node.name = contents.grain(body).name + " " + std::to_string(body);
+      node.mesh = static_cast<int>(contents.kind_of_body[body]);
       model_.nodes.push_back(std::move(node));
       root.children.push_back(static_cast<int>(body));
     }
     model_.nodes.push_back(std::move(root));
     tinygltf::Scene scene;
-    scene.name = kinds.scene->name;
-    scene.nodes = {static_cast<int>(kinds.of_body.size())};
+    scene.name = contents.scene->name;
+    scene.nodes = {static_cast<int>(contents.kind_of_body.size())};
     model_.scenes.push_back(std::move(scene));
     model_.defaultScene = 0;
   }
@@ -184,8 +184,8 @@ class Builder {
 
 }  // namespace
 
-SceneGlb::SceneGlb(const std::filesystem::path& path, const BodyKinds& kinds)
-    : path_(path), kinds_(kinds), translations_(kinds.of_body.size()), rotations_(kinds.of_body.size()) {}
+SceneGlb::SceneGlb(const std::filesystem::path& path, const Contents& contents)
+    : path_(path), contents_(contents), translations_(contents.kind_of_body.size()), rotations_(contents.kind_of_body.size()) {}
 
 void SceneGlb::add(const Frame& frame) {
   times_.push_back(static_cast<float>(frame.time));
@@ -203,8 +203,8 @@ void SceneGlb::add(const Frame& frame) {
   }
 }
 
-void SceneGlb::finish() {
-  Builder builder(kinds_);
+void SceneGlb::finish(const std::string& /*summary*/) {
+  Builder builder(contents_);
   for (std::size_t body = 0; body < translations_.size(); ++body) {
     builder.place(body, std::span(translations_[body]).first(3), std::span(rotations_[body]).first(4));
   }

@@ -14,13 +14,13 @@ namespace falling_particles {
 /// Written at the end of a run; until then a body and frame take 28 bytes.
 class SceneGlb final : public Picture {
  public:
-  SceneGlb(const std::filesystem::path& path, const BodyKinds& kinds);
+  SceneGlb(const std::filesystem::path& path, const Contents& contents);
   void add(const Frame& frame) override;
-  void finish() override;
+  void finish(const std::string& summary) override;
 
  private:
   std::filesystem::path path_;
-  BodyKinds kinds_;
+  Contents contents_;
   std::vector<float> times_;
   std::vector<std::vector<float>> translations_;  // of each body: x, y, z of every frame
   std::vector<std::vector<float>> rotations_;     // x, y, z, w

@@ -57,11 +57,11 @@ void write_list(const std::filesystem::path& path, const std::string& entries) {
 
 }  // namespace
 
-VtkSeries::VtkSeries(const OutputFolder& folder, const BodyKinds& kinds)
+VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
     : grains_file_(folder.file("grains.pvd")),
       contacts_file_(folder.file("contacts.pvd")),
       frames_folder_(folder.file(std::string(kFramesFolder))),
-      kinds_(kinds) {
+      contents_(contents) {
   std::filesystem::create_directory(frames_folder_);
 }
 
@@ -71,7 +71,7 @@ void VtkSeries::add(const Frame& frame) {
   ++frames_;
 }
 
-void VtkSeries::finish() {
+void VtkSeries::finish(const std::string& /*summary*/) {
   write_list(grains_file_, grains_);
   write_list(contacts_file_, contacts_);
 }
@@ -86,11 +86,11 @@ void VtkSeries::write_frame(std::string_view what, double time, const std::strin
 
 std::string VtkSeries::grains_of(const Frame& frame) const {
   const std::size_t count = frame.bodies.size();
-  const auto grain = [&](std::size_t k) -> const Grain& { return kinds_.grain(k); };
+  const auto grain = [&](std::size_t k) -> const Grain& { return contents_.grain(k); };
   const auto numbers = [&](std::string_view name, const auto& of) { return array(name, "Float64", count, of); };
   return poly_data(
       count, numbers("position", [&](std::size_t k) { return frame.bodies[k].position; }),
-      array("kind", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(kinds_.of_body[k])}; }) +
+      array("kind", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_body[k])}; }) +
           numbers("quaternion", [&](std::size_t k) { return frame.bodies[k].quaternion; }) +
           numbers("half_axes", [&](std::size_t k) { return grain(k).half_axes; }) +
           numbers("exponents",

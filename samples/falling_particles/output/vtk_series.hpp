@@ -16,16 +16,16 @@ namespace falling_particles {
 /// 1), depth (m) and the two bodies (-1: a wall).
 class VtkSeries final : public Picture {
  public:
-  VtkSeries(const OutputFolder& folder, const BodyKinds& kinds);
+  VtkSeries(const OutputFolder& folder, const Contents& contents);
   void add(const Frame& frame) override;
-  void finish() override;
+  void finish(const std::string& summary) override;
 
  private:
   void write_frame(std::string_view what, double time, const std::string& text, std::string& list) const;
   std::string grains_of(const Frame& frame) const;
 
   std::filesystem::path grains_file_, contacts_file_, frames_folder_;
-  BodyKinds kinds_;
+  Contents contents_;
   std::string grains_, contacts_;  // entries of the two lists
   int frames_ = 0;
 };

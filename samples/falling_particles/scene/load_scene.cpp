@@ -169,13 +169,15 @@ std::optional<Axis> read_sweep_axis(const TomlTable& root) {
   return Axis::Z;
 }
 
-/// What a scene leaves to look at when it does not say.
-std::vector<std::string> read_pictures(const TomlTable& root) {
-  const auto table = root.find_table("output", {"pictures"});
-  if (!table || !table->has("pictures")) return default_pictures();
+void read_output(const TomlTable& root, Scene& scene) {
+  scene.pictures = default_pictures();
+  const auto table = root.find_table("output", {"pictures", "forces"});
+  if (!table) return;
+  if (table->has("forces")) scene.forces = table->boolean("forces");
+  if (!table->has("pictures")) return;
   std::vector<std::string> names;
   for (const PictureFormat& format : picture_formats()) names.emplace_back(format.name);
-  return table->choices("pictures", names);
+  scene.pictures = table->choices("pictures", names);
 }
 
 /// The names of the sections at the top of the file.
@@ -201,7 +203,7 @@ Scene load_scene(const std::string& path) {
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   scene.compression = read_compression(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
-  scene.pictures = read_pictures(root);
+  read_output(root, scene);
   check_memory(root, scene.bodies());
   check_fit(root, scene);
   return scene;

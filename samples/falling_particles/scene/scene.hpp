@@ -55,6 +55,7 @@ struct Scene {
   std::vector<supernormal::effects::Effect> effects;  ///< those that the scene names, and no others
   std::optional<Compression> compression = {};        ///< for the grains in a periodic container
   std::vector<std::string> pictures = {};             ///< formats that a run leaves besides its tables (output/picture.hpp)
+  bool forces = false;                                ///< whether pictures show the forces of the contacts
   std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen by the positions of the grains if empty
 
   /// Null when the scene names none.

@@ -153,6 +153,15 @@ std::int64_t TomlTable::integer(std::string_view key, std::int64_t lowest, std::
   return *number;
 }
 
+bool TomlTable::boolean(std::string_view key) const {
+  const std::string allowed = "true or false";
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const auto truth = value->value_exact<bool>();
+  if (!truth) fail_value(key, allowed);
+  return *truth;
+}
+
 TomlTable TomlTable::table(std::string_view key, std::vector<std::string> keys) const {
   TomlTable result = part(key, "a table with " + join(keys));
   result.refuse_unknown_keys(keys);

@@ -24,6 +24,7 @@ class TomlTable {
   /// A list of different words of `allowed`, maybe empty.
   std::vector<std::string> choices(std::string_view key, const std::vector<std::string>& allowed) const;
   std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest) const;
+  bool boolean(std::string_view key) const;
 
   bool has(std::string_view key) const;
 

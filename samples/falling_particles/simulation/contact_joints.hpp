@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <deque>
 #include <span>
 
 #include "world.hpp"
@@ -11,6 +12,15 @@ namespace falling_particles {
 
 /// The most contacts that a pair may ask for: a face on a face is held by four points and the deepest one.
 inline constexpr int kContactsPerPair = 5;
+
+/// A contact whose joint says with which force it holds the bodies apart.
+struct MeasuredContact {
+  dContactGeom geom;
+  dJointFeedback feedback;
+
+  /// N, in the world's frame, on the body of geom.g1; after the step.
+  Point force() const;
+};
 
 /// The contacts of a step as joints of a world, which must outlive them.
 class ContactJoints {
@@ -23,14 +33,18 @@ class ContactJoints {
   ContactJoints& operator=(ContactJoints&&) = delete;
 
   /// Replaces the joints of the last step by those for `contacts`, as the effects of the world set them up. The contacts of a
-  /// pair, at most kContactsPerPair, are consecutive.
-  void replace(std::span<const dContactGeom> contacts);
+  /// pair, at most kContactsPerPair, are consecutive. If `measures`, the next step tells measured() their forces.
+  void replace(std::span<const dContactGeom> contacts, bool measures);
+
+  /// The contacts that the effects have left, in the order of their pairs; none when the last ones were not to be measured.
+  const std::deque<MeasuredContact>& measured() const { return measured_; }
 
  private:
-  void attach(std::span<const dContactGeom> pair);
+  void attach(std::span<const dContactGeom> pair, bool measures);
 
   const World& world_;
   dJointGroupID joints_;
+  std::deque<MeasuredContact> measured_;  // the joints hold pointers to its elements, which stay where they are
 };
 
 }  // namespace falling_particles

@@ -53,36 +53,45 @@ class Recorder {
       : world_(world),
         scene_(scene),
         discharge_(discharge),
+        contents_(contents_of(world, scene)),
         trajectory_(folder.file(std::string(kTrajectoryFile))),
         energies_(folder.file(std::string(kEnergiesFile))) {
     if (discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
     for (const std::string& name : scene.pictures) {
       const PictureFormat& format = *find_picture_format(name);
-      pictures_.push_back(format.make(folder, format, kinds_of(world, scene)));
+      pictures_.push_back(format.make(folder, format, contents_));
     }
   }
 
   /// `stepper`: null before the first step.
   void record(double time, const Stepper* stepper) {
     trajectory_.write(time, world_);
-    energies_.write(time, measure_energy(world_, scene_), stepper == nullptr ? 0 : stepper->contacts());
+    const Energy energy = measure_energy(world_, scene_);
+    energies_.write(time, energy, stepper == nullptr ? 0 : stepper->contacts());
     if (discharge_file_) discharge_file_->write(time, discharge_->mass(), discharge_->count());
     if (pictures_.empty()) return;
-    const Frame frame = frame_of(time, world_, stepper);
+    const Frame frame = frame_of(time, energy, contents_, world_, stepper);
     for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
   }
 
-  void close() {
+  /// Whether the contacts of a frame are to tell their forces.
+  bool wants_forces() const { return scene_.forces && !pictures_.empty(); }
+
+  void close_tables() {
     trajectory_.close();
     energies_.close();
     if (discharge_file_) discharge_file_->close();
-    for (const std::unique_ptr<Picture>& picture : pictures_) picture->finish();
+  }
+
+  void finish_pictures(const std::string& summary) {
+    for (const std::unique_ptr<Picture>& picture : pictures_) picture->finish(summary);
   }
 
  private:
   const World& world_;
   const Scene& scene_;
   const std::optional<Discharge>& discharge_;
+  Contents contents_;
   Trajectory trajectory_;
   Energies energies_;
   std::optional<DischargeFile> discharge_file_;
@@ -102,16 +111,17 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& 
   recorder.record(0, nullptr);
   int step = 0;
   while (step < steps && !interrupted()) {
-    stepper.step();
     ++step;
+    const bool is_frame = step == steps || step % time.steps_per_frame() == 0;
+    stepper.step(is_frame && recorder.wants_forces());
     const double now = time_after(step, time);
     watches.after_step(now, stepper);
     const bool last = step == steps || interrupted();
-    if (last || step % time.steps_per_frame() == 0) recorder.record(now, &stepper);
+    if (last || is_frame) recorder.record(now, &stepper);
     if (progress) progress->update(step, now, stepper.contacts());
     if (last) break;
   }
-  recorder.close();
+  recorder.close_tables();
   if (progress) progress->finish();
   return step;
 }
@@ -165,6 +175,7 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         world.effects().costs()};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);
+  recorder.finish_pictures(text);
   folder.commit();
   std::fputs(text.c_str(), stdout);
   if (early) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", steps, scene.time.steps());

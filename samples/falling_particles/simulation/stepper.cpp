@@ -29,7 +29,7 @@ Stepper::Stepper(const World& world, const Scene& scene, int threads)
 
 Stepper::~Stepper() { snBatchDestroy(batch_); }
 
-void Stepper::step() {
+void Stepper::step(bool measures) {
   contacts_.clear();
   if (PeriodicCell* cell = world_.cell()) cell->place_images();
   world_.sweep().before_step();
@@ -41,7 +41,7 @@ void Stepper::step() {
   }
   {
     const Stopwatch::Lap lap(costs_.contact_setup);
-    joints_.replace(contacts_);
+    joints_.replace(contacts_, measures);
     world_.effects().apply_forces();
   }
   costs_.contacts += contacts_.size();

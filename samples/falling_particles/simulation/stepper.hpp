@@ -4,6 +4,7 @@
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
 
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -34,11 +35,14 @@ class Stepper {
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
-  void step();
+  /// If `measures`, measured_contacts() tells the forces of this step; the motion is the same.
+  void step(bool measures = false);
 
   std::size_t contacts() const { return contacts_.size(); }                     ///< number of contacts in the last step
   const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< contacts of the last step
-  double deepest_contact() const { return deepest_contact_; }                   ///< m, over all steps
+  /// The contacts of the last step with their forces, if it measured them.
+  const std::deque<MeasuredContact>& measured_contacts() const { return joints_.measured(); }
+  double deepest_contact() const { return deepest_contact_; }  ///< m, over all steps
   const StepCosts& costs() const { return costs_; }
 
  private:

@@ -1,0 +1,26 @@
+// What a picture shows of a container.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "container/container.hpp"
+
+namespace falling_particles {
+
+/// A piece of a container.
+struct ContainerPart {
+  /// A lid vanishes when the outlet opens; a cell, whose mesh has the side 1, is scaled about the origin by its side.
+  enum class Role { Still, Lid, Cell };
+
+  std::string name;
+  Role role;
+  Mesh mesh;                                       ///< bodies are on the side from which its triangles run anticlockwise
+  std::vector<std::array<unsigned int, 2>> edges;  ///< of vertices of the mesh, where a line makes the part easier to see
+};
+
+/// The parts of a container. Walls without upper end are shown up to z = top (m).
+std::vector<ContainerPart> parts_of(const Container& container, double top);
+
+}  // namespace falling_particles

@@ -1,0 +1,150 @@
+#include "output/view_page.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "output/base64.hpp"
+#include "output/grain_shape.hpp"
+#include "output/palette.hpp"
+#include "output/tessellation.hpp"
+#include "output/write_file.hpp"
+
+// The page as `npm run build` leaves it in page/ (view_page_html.S).
+extern "C" const char view_page_html[], view_page_html_end[];
+
+namespace falling_particles {
+namespace {
+
+using nlohmann::json;
+
+// What the page says where the run goes.
+constexpr std::string_view kPlace = "<!-- the run -->";
+
+// Bytes: with them the page of 1000 bodies and 150 frames stays below 8 MB.
+constexpr std::size_t kContactBudget = 2'500'000;
+
+// Of the smallest half-axis of a grain. The first one shows no corners; coarser ones are taken for so many grains that a frame
+// would have more triangles than a browser without a graphics card draws thirty times a second.
+constexpr std::array kChordErrors = {0.02, 0.05, 0.1, 0.2};
+constexpr std::size_t kTriangles = 400'000;
+
+template <typename Number>
+std::string packed(const std::vector<Number>& numbers) {
+  std::string bytes(numbers.size() * sizeof(Number), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return to_base64(bytes);
+}
+
+std::vector<float> coordinates(const std::vector<supernormal::Vector3>& vectors) {
+  std::vector<float> numbers;
+  for (const supernormal::Vector3& vector : vectors) {
+    for (const double x : vector) numbers.push_back(static_cast<float>(x));
+  }
+  return numbers;
+}
+
+template <typename Item, std::size_t N>
+std::vector<std::uint32_t> indices(const std::vector<std::array<Item, N>>& tuples) {
+  std::vector<std::uint32_t> numbers;
+  for (const auto& tuple : tuples) numbers.insert(numbers.end(), tuple.begin(), tuple.end());
+  return numbers;
+}
+
+std::vector<Tessellation> tessellate_kinds(const Scene& scene) {
+  std::vector<Tessellation> bodies;
+  for (const double chord_error : kChordErrors) {
+    bodies.clear();
+    std::size_t triangles = 0;
+    for (const GrainCount& kind : scene.grains) {
+      bodies.push_back(tessellate(*shape_of(kind.grain), chord_error * kind.grain.smallest_half_axis()));
+      triangles += static_cast<std::size_t>(kind.count) * bodies.back().triangles.size();
+    }
+    if (triangles <= kTriangles) break;
+  }
+  return bodies;
+}
+
+json describe(const Grain& grain, std::size_t index, const Tessellation& body) {
+  return {{"name", grain.name},
+          {"halfAxes", grain.half_axes},
+          {"exponents", {grain.delta, grain.epsilon}},
+          {"rounding", grain.rounding},
+          {"radius", grain.bounding_radius()},
+          {"density", grain.density},
+          {"source", grain.source},
+          {"colour", colour_of_kind(index)},
+          {"points", packed(coordinates(body.points))},
+          {"normals", packed(coordinates(body.normals))},
+          {"triangles", packed(indices(body.triangles))}};
+}
+
+json describe(const ContainerPart& part) {
+  std::vector<float> points;
+  for (const auto& vertex : part.mesh.vertices) points.insert(points.end(), vertex.begin(), vertex.end());
+  return {{"name", part.name},
+          {"points", packed(points)},
+          {"triangles", packed(indices(part.mesh.triangles))},
+          {"edges", packed(indices(part.edges))}};
+}
+
+/// A script that holds text for another one. In JSON a '<', which might end the script, can be written otherwise.
+void write_json(std::ostream& stream, const json& value) {
+  std::string text = value.dump();
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
+  stream << "<script type=\"application/json\" id=\"run\">" << text << "</script>\n";
+}
+
+template <typename Texts>
+void write_lines(std::ostream& stream, const char* id, const Texts& texts) {
+  stream << "<script type=\"text/plain\" id=\"" << id << "\">\n";
+  for (const std::string& text : texts) stream << text << '\n';
+  stream << "</script>\n";
+}
+
+}  // namespace
+
+ViewPage::ViewPage(const std::filesystem::path& path, const Contents& contents)
+    : path_(path), contents_(contents), bodies_(contents.kind_of_body.size()), contacts_(kContactBudget) {}
+
+void ViewPage::add(const Frame& frame) {
+  times_.push_back(frame.time);
+  kinetic_.push_back(frame.energy.kinetic);
+  potential_.push_back(frame.energy.potential);
+  part_scales_.push_back(frame.part_scales);
+  bodies_.add(frame);
+  contacts_.add(frame);
+}
+
+void ViewPage::finish(const std::string& summary) {
+  const Scene& scene = *contents_.scene;
+  json run = {{"scene", scene.name},     {"container", kind_of(scene.container)},
+              {"times", times_},         {"kinetic", kinetic_},
+              {"potential", potential_}, {"partScales", part_scales_},
+              {"forces", scene.forces},  {"summary", summary}};
+  const std::vector<Tessellation> meshes = tessellate_kinds(scene);
+  for (std::size_t kind = 0; kind < meshes.size(); ++kind)
+    run["kinds"].push_back(describe(scene.grains[kind].grain, kind, meshes[kind]));
+  run["kindOfBody"] = packed(std::vector<std::uint16_t>(contents_.kind_of_body.begin(), contents_.kind_of_body.end()));
+  for (const ContainerPart& part : contents_.parts) run["parts"].push_back(describe(part));
+  std::vector<std::string> contacts;
+  for (PackedContacts::Packed& packed : contacts_.texts()) {
+    run["contacts"].push_back({{"frame", packed.frame}, {"count", packed.count}, {"length", packed.length}});
+    contacts.push_back(std::move(packed.text));
+  }
+
+  const std::string_view page(view_page_html, static_cast<std::size_t>(view_page_html_end - view_page_html));
+  const std::size_t place = page.find(kPlace);
+  std::ofstream stream(path_, std::ios::binary);
+  stream << page.substr(0, place);
+  write_json(stream, run);
+  write_lines(stream, "bodies", bodies_.texts());
+  write_lines(stream, "contacts", contacts);
+  stream << page.substr(place + kPlace.size());
+  close_or_throw(stream, path_);
+}
+
+}  // namespace falling_particles

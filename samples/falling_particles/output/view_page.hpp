@@ -1,0 +1,30 @@
+// A page that plays a run in a browser.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "output/packed_frames.hpp"
+#include "output/picture.hpp"
+
+namespace falling_particles {
+
+/// view.html: the page of `page/`, which needs nothing beside it, with the run in it. Written at the end of a run; until then a
+/// body and frame take up to 45 bytes.
+class ViewPage final : public Picture {
+ public:
+  ViewPage(const std::filesystem::path& path, const Contents& contents);
+  void add(const Frame& frame) override;
+  void finish(const std::string& summary) override;
+
+ private:
+  std::filesystem::path path_;
+  Contents contents_;
+  std::vector<double> times_, kinetic_, potential_;
+  std::vector<std::vector<double>> part_scales_;  // of each frame
+  PackedBodies bodies_;
+  PackedContacts contacts_;
+};
+
+}  // namespace falling_particles

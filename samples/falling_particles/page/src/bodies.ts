@@ -1,0 +1,148 @@
+// The bodies: a mesh for each kind, drawn once for all bodies of the kind.
+import {
+  Color,
+  DynamicDrawUsage,
+  type Group,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  Quaternion,
+  type Raycaster,
+  BackSide,
+  SRGBColorSpace,
+  Vector3,
+} from "three";
+import { geometryOf } from "./geometry";
+import { type Moment, type Run, type Vector } from "./run";
+import { ofFraction } from "./unpack";
+
+const unscaled = new Vector3(1, 1, 1);
+
+export interface Pose {
+  position: Vector3;
+  rotation: Quaternion;
+}
+
+export class Bodies {
+  private readonly meshes: InstancedMesh[] = [];
+  private readonly slot: Uint32Array; // of a body in the mesh of its kind
+  private readonly bodiesOf: number[][]; // of each kind
+  private readonly outline = new Mesh(undefined, new MeshBasicMaterial({ color: 0x101418, side: BackSide }));
+  readonly poses: Pose[];
+  private colours: Vector[] = [];
+
+  constructor(
+    private readonly run: Run,
+    world: Group,
+  ) {
+    this.slot = new Uint32Array(run.bodies);
+    this.bodiesOf = run.kinds.map(() => []);
+    run.kindOfBody.forEach((kind, body) => {
+      this.slot[body] = this.bodiesOf[kind].push(body) - 1;
+    });
+    for (const [index, kind] of run.kinds.entries()) {
+      const mesh = new InstancedMesh(geometryOf(kind.mesh), new MeshLambertMaterial(), this.bodiesOf[index].length);
+      mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+      mesh.frustumCulled = false;
+      mesh.setColorAt(0, new Color());
+      this.meshes.push(mesh);
+      world.add(mesh);
+    }
+    this.outline.visible = false;
+    this.outline.matrixAutoUpdate = false;
+    world.add(this.outline);
+    this.poses = Array.from({ length: run.bodies }, () => ({ position: new Vector3(), rotation: new Quaternion() }));
+  }
+
+  /** Places all bodies between the moment's frame and the next one. */
+  place({ frame, share }: Moment): void {
+    const { run } = this;
+    const count = run.bodies;
+    const now = run.frames[frame];
+    const next = run.frames[Math.min(frame + 1, run.frames.length - 1)];
+    const longest = this.longestStep(frame);
+    const [turned, end] = [new Quaternion(), new Quaternion()];
+    const matrix = new Matrix4();
+    const goal = new Vector3();
+    for (let body = 0; body < count; ++body) {
+      const { position, rotation } = this.poses[body];
+      position.set(now.positions[body], now.positions[count + body], now.positions[2 * count + body]);
+      rotationOf(now.rotations, count, body, turned);
+      if (share > 0) {
+        goal.set(next.positions[body], next.positions[count + body], next.positions[2 * count + body]);
+        rotationOf(next.rotations, count, body, end);
+        // A grain that has left a periodic cell comes in again on the other side.
+        if (goal.distanceTo(position) < longest) position.lerp(goal, share);
+        turned.set(
+          turned.x + share * (end.x - turned.x),
+          turned.y + share * (end.y - turned.y),
+          turned.z + share * (end.z - turned.z),
+          turned.w + share * (end.w - turned.w),
+        );
+      }
+      rotation.copy(turned).normalize();
+      const kind = run.kindOfBody[body];
+      this.meshes[kind].setMatrixAt(this.slot[body], matrix.compose(position, rotation, unscaled));
+    }
+    for (const mesh of this.meshes) {
+      mesh.instanceMatrix.needsUpdate = true;
+      mesh.boundingSphere = null; // picking finds it anew
+    }
+  }
+
+  private longestStep(frame: number): number {
+    const cell = this.run.parts.findIndex(({ name }) => name === "cell");
+    return cell < 0 ? Infinity : this.run.partScales[frame][cell] / 2;
+  }
+
+  paint(colours: Vector[]): void {
+    this.colours = colours;
+    const colour = new Color();
+    colours.forEach((rgb, body) => {
+      this.meshes[this.run.kindOfBody[body]].setColorAt(this.slot[body], colour.setRGB(...rgb, SRGBColorSpace));
+    });
+    for (const mesh of this.meshes) mesh.instanceColor!.needsUpdate = true;
+  }
+
+  colourOf(body: number): Vector {
+    return this.colours[body];
+  }
+
+  /** Without light, so that a body has one colour all over. */
+  makeFlat(): void {
+    for (const mesh of this.meshes) mesh.material = new MeshBasicMaterial();
+  }
+
+  makeSeeThrough(isSeeThrough: boolean): void {
+    for (const { material } of this.meshes) {
+      const lit = material as MeshLambertMaterial;
+      lit.transparent = isSeeThrough;
+      lit.opacity = isSeeThrough ? 0.3 : 1;
+      lit.depthWrite = !isSeeThrough;
+      lit.needsUpdate = true;
+    }
+  }
+
+  /** Draws a dark line around a body; null: around none. */
+  mark(body: number | null): void {
+    this.outline.visible = body !== null;
+    if (body === null) return;
+    const { position, rotation } = this.poses[body];
+    this.outline.geometry = this.meshes[this.run.kindOfBody[body]].geometry;
+    this.outline.matrix.compose(position, rotation, new Vector3(1.08, 1.08, 1.08));
+  }
+
+  /** The body that the ray meets first. */
+  pick(ray: Raycaster): number | null {
+    const hit = ray.intersectObjects(this.meshes, false)[0];
+    if (hit === undefined || hit.instanceId === undefined) return null;
+    return this.bodiesOf[this.meshes.indexOf(hit.object as InstancedMesh)][hit.instanceId];
+  }
+}
+
+function rotationOf(rotations: Uint16Array, count: number, body: number, to: Quaternion): void {
+  const at = (i: number) => ofFraction(rotations[i * count + body]);
+  to.set(at(0), at(1), at(2), at(3));
+}

@@ -1,0 +1,206 @@
+// The run that the page shows: what output/view_page.cpp has put into it.
+import { Box3, Vector3 } from "three";
+import { Unpacker, bytesOf, ofFraction, ofUpperHalf } from "./unpack";
+
+export type Vector = [number, number, number];
+
+export interface Mesh {
+  points: Float32Array;
+  normals?: Float32Array;
+  triangles: Uint32Array;
+  edges?: Uint32Array;
+}
+
+/** A kind of grain; lengths in m. */
+export interface Kind {
+  name: string;
+  halfAxes: Vector;
+  exponents: [number, number];
+  rounding: number;
+  radius: number;
+  density: number;
+  source: string;
+  colour: Vector;
+  mesh: Mesh;
+}
+
+export interface Part {
+  name: string;
+  mesh: Mesh;
+}
+
+/** The states of all bodies at one time. Of the numbers of a body, all first ones come before all second ones. */
+export interface Frame {
+  positions: Float32Array;
+  rotations: Uint16Array;
+  motions: Uint16Array;
+}
+
+export interface Contact {
+  bodies: [number, number]; // -1: a wall
+  /** m, from the centre of the first body that is none. */
+  point: Vector;
+  normal: Vector;
+  depth: number;
+  force?: Vector;
+}
+
+export interface Contacts {
+  frame: number;
+  list: Contact[];
+}
+
+interface Description {
+  scene: string;
+  container: string;
+  times: number[];
+  kinetic: number[];
+  potential: number[];
+  partScales: number[][];
+  forces: boolean;
+  summary: string;
+  kinds: (Omit<Kind, "mesh"> & { points: string; normals: string; triangles: string })[];
+  kindOfBody: string;
+  parts: { name: string; points: string; triangles: string; edges: string }[];
+  contacts: { frame: number; count: number; length: number }[];
+}
+
+function textOf(id: string): string {
+  return document.getElementById(id)?.textContent ?? "";
+}
+
+function linesOf(id: string): string[] {
+  return textOf(id).trim().split("\n");
+}
+
+const floats = (text: string) => new Float32Array(bytesOf(text).buffer);
+const indices = (text: string) => new Uint32Array(bytesOf(text).buffer);
+
+export class Run {
+  private readonly description: Description = JSON.parse(textOf("run"));
+  private bodyTexts = linesOf("bodies");
+  private readonly contactTexts = linesOf("contacts");
+
+  readonly name = this.description.scene;
+  readonly container = this.description.container;
+  readonly times = this.description.times;
+  readonly kinetic = this.description.kinetic;
+  readonly potential = this.description.potential;
+  readonly partScales = this.description.partScales;
+  readonly hasForces = this.description.forces;
+  readonly summary = this.description.summary;
+  readonly kinds: Kind[] = this.description.kinds.map(({ points, normals, triangles, ...kind }) => ({
+    ...kind,
+    mesh: { points: floats(points), normals: floats(normals), triangles: indices(triangles) },
+  }));
+  readonly parts: Part[] = this.description.parts.map(({ name, points, triangles, edges }) => ({
+    name,
+    mesh: { points: floats(points), triangles: indices(triangles), edges: indices(edges) },
+  }));
+  readonly kindOfBody = new Uint16Array(bytesOf(this.description.kindOfBody).buffer);
+  /** Those that have been unpacked. */
+  readonly frames: Frame[] = [];
+
+  get bodies(): number {
+    return this.kindOfBody.length;
+  }
+  get duration(): number {
+    return this.times[this.times.length - 1];
+  }
+  kindOf(body: number): Kind {
+    return this.kinds[this.kindOfBody[body]];
+  }
+
+  /** Unpacks the next frame, which takes the one before; false when there is none. */
+  async unpackFrame(): Promise<boolean> {
+    const index = this.frames.length;
+    if (index >= this.bodyTexts.length) return false;
+    const unpacker = await Unpacker.of(this.bodyTexts[index]);
+    this.bodyTexts[index] = "";
+    const before = index > 0 ? this.frames[index - 1] : null;
+    const count = this.bodies;
+    const positions = before ? before.positions.slice() : new Float32Array(3 * count);
+    const rotations = before ? before.rotations.slice() : new Uint16Array(4 * count);
+    const motions = before ? before.motions.slice() : new Uint16Array(6 * count);
+    const bits = new Uint32Array(positions.buffer);
+    for (let i = 0; i < 3; ++i) unpacker.change(bits.subarray(i * count, (i + 1) * count));
+    for (let i = 0; i < 4; ++i) unpacker.change(rotations.subarray(i * count, (i + 1) * count));
+    for (let i = 0; i < 6; ++i) unpacker.change(motions.subarray(i * count, (i + 1) * count));
+    this.frames.push({ positions, rotations, motions });
+    return true;
+  }
+
+  /** The frames whose contacts are kept. */
+  get contactFrames(): number[] {
+    return this.description.contacts.map(({ frame }) => frame);
+  }
+
+  /** The contacts of the last frame with contacts at or before `frame`. */
+  async contactsAt(frame: number): Promise<Contacts> {
+    const kept = this.description.contacts;
+    let at = kept.length - 1;
+    while (at > 0 && kept[at].frame > frame) --at;
+    const { count, length } = kept[at];
+    const unpacker = await Unpacker.of(this.contactTexts[at]);
+    const halves = () => unpacker.list(new Uint16Array(count));
+    const bodies = [unpacker.list(new Uint32Array(count)), unpacker.list(new Uint32Array(count))];
+    const points = [halves(), halves(), halves()];
+    const normals = [halves(), halves(), halves()];
+    const depths = halves();
+    const forces = this.hasForces && !unpacker.isAtEnd ? [halves(), halves(), halves()] : null;
+    const vector = (lists: Uint16Array[], k: number, convert: (number: number) => number) =>
+      lists.map((list) => convert(list[k])) as Vector;
+    const list = Array.from({ length: count }, (_, k) => ({
+      bodies: [bodies[0][k] | 0, bodies[1][k] | 0] as [number, number],
+      point: vector(points, k, (number) => length * ofFraction(number)),
+      normal: vector(normals, k, ofFraction),
+      depth: ofUpperHalf(depths[k]),
+      force: forces ? vector(forces, k, ofUpperHalf) : undefined,
+    }));
+    return { frame: kept[at].frame, list };
+  }
+
+  /** m, of the spheres around all bodies. */
+  extentOfBodies(frame: number): Box3 {
+    const extent = new Box3();
+    const { positions } = this.frames[frame];
+    for (let body = 0; body < this.bodies; ++body) {
+      const centre = new Vector3(...[0, 1, 2].map((i) => positions[i * this.bodies + body]));
+      extent.union(new Box3().setFromCenterAndSize(centre, new Vector3().setScalar(2 * this.kindOf(body).radius)));
+    }
+    return extent;
+  }
+
+  velocity(body: number, frame: number): Vector {
+    return this.motion(body, frame, 0);
+  }
+  spin(body: number, frame: number): Vector {
+    return this.motion(body, frame, 3);
+  }
+  private motion(body: number, frame: number, first: number): Vector {
+    const { motions } = this.frames[frame];
+    return [0, 1, 2].map((i) => ofUpperHalf(motions[(first + i) * this.bodies + body])) as Vector;
+  }
+  speed(body: number, frame: number): number {
+    return Math.hypot(...this.velocity(body, frame));
+  }
+}
+
+/** The moment of a time: the frame at or before it, and the share of the way to the next one. */
+export interface Moment {
+  frame: number;
+  share: number;
+}
+
+export function momentOf(run: Run, time: number): Moment {
+  const last = run.frames.length - 1;
+  let low = 0;
+  let high = last;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (run.times[middle] <= time) low = middle;
+    else high = middle - 1;
+  }
+  if (low >= last) return { frame: last, share: 0 };
+  return { frame: low, share: Math.max(0, (time - run.times[low]) / (run.times[low + 1] - run.times[low])) };
+}
