@@ -33,7 +33,7 @@ export class EnergyChart {
       svg.append(makeSvg("polyline", { points: points.join(" "), fill: "none", stroke: colour, "stroke-width": 1.6 }));
     }
     this.values = this.curves.map(({ colour }, k) => {
-      const key = makeSvg("text", { x: frame.left + 98 * k, y: 12 });
+      const key = makeSvg("text", { x: frame.left + [0, 88, 198][k], y: 12 });
       key.style.fill = colour;
       return key;
     });

@@ -1,6 +1,6 @@
 // A page that plays a run. The address may say what it shows: ?t=1.5 (s), play=1, colour=speed, show=contacts,boxes, pick=12 (index of
 // a body), camera=azimuth,elevation,zoom (degrees; 1 just shows
-// everything, with fit=bodies all bodies), panel=1.
+// everything, with fit=bodies all bodies), panel=1, antialias=0.
 import { Box3, Raycaster, Vector2 } from "three";
 import { Bodies } from "./bodies";
 import { EnergyChart } from "./chart";
@@ -36,8 +36,11 @@ class Page {
   private contacts: Contacts | null = null;
   private shownFrame = -1;
 
-  constructor(readonly run: Run) {
-    this.stage = new Stage(byId<HTMLCanvasElement>("canvas"), extentOf(run));
+  constructor(
+    readonly run: Run,
+    parameters: URLSearchParams,
+  ) {
+    this.stage = new Stage(byId<HTMLCanvasElement>("canvas"), extentOf(run), parameters.get("antialias") !== "0");
     this.container = new Container(run);
     this.stage.world.add(this.container.group);
     this.bodies = new Bodies(run, this.stage.world);
@@ -290,8 +293,8 @@ function extentOf(run: Run): Box3 {
 async function start(): Promise<Page> {
   const run = new Run();
   await run.unpackFrame();
-  const page = new Page(run);
   const parameters = new URLSearchParams(location.search);
+  const page = new Page(run, parameters);
   page.stage.draw();
   const loop = (now: number) => {
     page.player.tick(now);
