@@ -107,9 +107,11 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
   REQUIRE(reader.LoadBinaryFromFile(&model, &error, &warning, written.path("scene.glb")));
   CHECK(error.empty());
   CHECK(warning.empty());
-  REQUIRE(model.meshes.size() == 2);
+  REQUIRE(model.meshes.size() == 4);  // two of the grains, floor and walls
+  CHECK(model.meshes[2].name == "floor");
   CHECK(model.meshes[1].name == "die </script>");
-  REQUIRE(model.nodes.size() == kBodies + 1);
+  REQUIRE(model.nodes.size() == kBodies + 3);
+  CHECK(model.nodes[kBodies + 1].mesh == 3);
   CHECK(model.nodes[3].mesh == 1);
   REQUIRE(model.animations.size() == 1);
   const tinygltf::Animation& animation = model.animations[0];

@@ -72,7 +72,7 @@ function project(camera, point) {
   return { x: ((x / w + 1) / 2) * camera.size[0], y: ((1 - y / w) / 2) * camera.size[1], distance: -seen[2] };
 }
 
-const ids = (run, time) => `?colour=index&antialias=0&container=0&t=${time}${run === "hopper" ? "&fit=bodies" : ""}`;
+const ids = (run, time) => `?colour=index&container=0&t=${time}${run === "hopper" ? "&fit=bodies" : ""}`;
 
 describe("where the bodies are", () => {
   for (const run of ["box", "hopper", "cell"]) {
@@ -220,7 +220,7 @@ describe("what people do", () => {
       for (let body = 0; body < run.bodies; ++body) {
         const kind = run.kindOf(body);
         const half = marks.halfExtents(body);
-        const { points } = kind.mesh;
+        const { points } = kind.meshes[0];
         const reach = [0, 0, 0];
         for (let k = 0; k < points.length; k += 3) {
           const corner = half.clone().set(points[k], points[k + 1], points[k + 2]).applyQuaternion(bodies.poses[body].rotation);

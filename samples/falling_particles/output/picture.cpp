@@ -26,7 +26,7 @@ const std::vector<PictureFormat>& picture_formats() {
   static const std::vector<PictureFormat> formats = {{"page", {"view.html"}, make_file<ViewPage>},
                                                      {"glb", {"scene.glb"}, make_file<SceneGlb>},
                                                      {"lammps", {"grains.lammpstrj"}, make_file<LammpsDump>},
-                                                     {"vtk", {"grains.pvd", "contacts.pvd", "vtk"}, make_vtk},
+                                                     {"vtk", {"grains.pvd", "contacts.pvd", "container.pvd", "vtk"}, make_vtk},
                                                      {"povray", {"still.pov"}, make_file<PovrayScene>}};
   return formats;
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <variant>
 
 #include "output/grain_shape.hpp"
 #include "output/palette.hpp"
@@ -47,10 +46,34 @@ std::string mesh(const Grain& grain) {
          list("face_indices", body.triangles, of_triangle) + "}";
 }
 
+/// A part of the container: what carries grains is solid, and one sees through what surrounds them, of which a still of the last
+/// frame shows edges, as wide as a tenth of a grain. Walls are left out but for their lowest edges, the floor's.
+std::string container(const ContainerPart& part, double scale, double grain) {
+  if (scale == 0 || part.name == "walls") return {};
+  const bool is_solid = part.edges.empty() || part.name == "floor" || part.name == "dish";
+  const auto corner = [&](unsigned int index) {
+    const auto& [x, y, z] = part.mesh.vertices[index];
+    return vector(std::array{scale * x, scale * y, scale * z});
+  };
+  std::string text = "\n// " + part.name + "\n";
+  if (!part.mesh.triangles.empty()) {
+    text += "mesh {\n";
+    for (const auto& [a, b, c] : part.mesh.triangles)
+      text += "  triangle { " + corner(a) + ", " + corner(b) + ", " + corner(c) + " }\n";
+    text += is_solid ? "  pigment { rgb 0.9 }\n  finish { ambient 0.1 diffuse 0.8 }\n}\n"
+                     : "  pigment { rgbt <0.75, 0.8, 0.86, 0.85> }\n  finish { ambient 0.1 diffuse 0.5 }\n  no_shadow\n}\n";
+  }
+  for (const auto& [a, b] : part.edges) {
+    if (is_solid) break;
+    text += "cylinder { " + corner(a) + ", " + corner(b) + ", " + shortest(grain / 20) + " pigment { rgb 0.55 } no_shadow }\n";
+  }
+  return text;
+}
+
 Vector3 to_vector(const Point& point) { return {point[0], point[1], point[2]}; }
 
-/// A camera to the side and above, from which all grains just fit into the picture, however wide it is.
-std::string camera_on(const Frame& frame, double radius) {
+/// A camera to the side and above, from which all grains and a cell just fit into the picture, however wide it is.
+std::string camera_on(const Frame& frame, double radius, const std::vector<ContainerPart>& parts) {
   const Extent extent = extent_of(frame, radius);
   const Vector3 least = to_vector(extent.least), most = to_vector(extent.most), centre = 0.5 * (least + most);
   const double size = (most - least).norm();
@@ -59,11 +82,16 @@ std::string camera_on(const Frame& frame, double radius) {
   const Vector3 eye = centre + 2 * size * back;
   // Half of the width and the height of the picture at a distance of 1.
   double width = 0, height = 0;
-  for (const BodyState& body : frame.bodies) {
-    const Vector3 from_eye = to_vector(body.position) - eye;
-    const double distance = -from_eye.dot(back) - radius;
-    width = std::max(width, (std::abs(from_eye.dot(right)) + radius) / distance);
-    height = std::max(height, (std::abs(from_eye.dot(up)) + radius) / distance);
+  const auto hold = [&](const Vector3& point, double around) {
+    const Vector3 from_eye = point - eye;
+    const double distance = -from_eye.dot(back) - around;
+    width = std::max(width, (std::abs(from_eye.dot(right)) + around) / distance);
+    height = std::max(height, (std::abs(from_eye.dot(up)) + around) / distance);
+  };
+  for (const BodyState& body : frame.bodies) hold(to_vector(body.position), radius);
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (parts[part].role != ContainerPart::Role::Cell) continue;
+    for (const auto& [x, y, z] : parts[part].mesh.vertices) hold(frame.part_scales[part] * Vector3(x, y, z), 0);
   }
   const Vector3 light = centre + 4 * size * Vector3(0.1, -0.5, 0.85).normalized();
   const std::string side = shortest(size / 2);
@@ -80,10 +108,10 @@ std::string camera_on(const Frame& frame, double radius) {
 PovrayScene::PovrayScene(const std::filesystem::path& path, const Contents& contents) : path_(path), contents_(contents) {}
 
 void PovrayScene::finish(const std::string& /*summary*/) {
-  std::string text =
-      "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" + camera_on(last_, contents_.scene->largest_bounding_radius());
-  if (std::holds_alternative<Box>(contents_.scene->container)) {
-    text += "plane { z, 0 pigment { rgb 0.9 } finish { ambient 0.1 diffuse 0.8 } }\n";
+  std::string text = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" +
+                     camera_on(last_, contents_.scene->largest_bounding_radius(), contents_.parts);
+  for (std::size_t part = 0; part < contents_.parts.size(); ++part) {
+    text += container(contents_.parts[part], last_.part_scales[part], contents_.scene->smallest_half_axis());
   }
   for (std::size_t kind = 0; kind < contents_.scene->grains.size(); ++kind) {
     const Grain& grain = contents_.scene->grains[kind].grain;

@@ -30,10 +30,12 @@ class Builder {
     model_.asset.generator = "falling_particles";
     model_.buffers.resize(1);
     for (std::size_t kind = 0; kind < contents.scene->grains.size(); ++kind) add_kind(contents.scene->grains[kind].grain, kind);
+    for (const ContainerPart& part : contents.parts) add_part(part);
     add_nodes(contents);
   }
 
-  void animate(const std::vector<float>& times, const Channel& translations, const Channel& rotations) {
+  /// A track a node; what does not move has none.
+  void animate(const std::vector<float>& times, const Channel& translations, const Channel& rotations, const Channel& scales) {
     tinygltf::Animation animation;
     animation.name = "run";
     const std::size_t view = add_view(0);
@@ -41,8 +43,14 @@ class Builder {
     model_.accessors[static_cast<std::size_t>(input)].minValues = {times.front()};
     model_.accessors[static_cast<std::size_t>(input)].maxValues = {times.back()};
     for (std::size_t body = 0; body < translations.size(); ++body) {
-      animate(animation, body, "translation", input, add_moving(view, translations[body], 3));
-      animate(animation, body, "rotation", input, add_moving(view, rotations[body], 4));
+      animate(animation, body, "translation", input, add_moving(view, translations[body], 3), "LINEAR");
+      animate(animation, body, "rotation", input, add_moving(view, rotations[body], 4), "LINEAR");
+    }
+    for (std::size_t part = 0; part < scales.size(); ++part) {
+      // A lid is there or not, a cell shrinks from frame to frame.
+      const bool vanishes = std::ranges::find(scales[part], 0) != scales[part].end();
+      animate(animation, translations.size() + part, "scale", input, add_moving(view, scales[part], 3),
+              vanishes ? "STEP" : "LINEAR");
     }
     if (!animation.channels.empty()) model_.animations.push_back(std::move(animation));
   }
@@ -51,6 +59,8 @@ class Builder {
     model_.nodes[body].translation.assign(translation.begin(), translation.end());
     model_.nodes[body].rotation.assign(rotation.begin(), rotation.end());
   }
+
+  void scale(std::size_t node, std::span<const float> scale) { model_.nodes[node].scale.assign(scale.begin(), scale.end()); }
 
   void write(const std::filesystem::path& path) {
     std::ofstream stream(path, std::ios::binary);
@@ -95,15 +105,16 @@ class Builder {
     return add_accessor(view, numbers, components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4);
   }
 
-  static void animate(tinygltf::Animation& animation, std::size_t body, const char* path, int input, int output) {
+  static void animate(tinygltf::Animation& animation, std::size_t node, const char* path, int input, int output,
+                      const char* interpolation) {
     if (output < 0) return;
     tinygltf::AnimationSampler sampler;
     sampler.input = input;
     sampler.output = output;
-    sampler.interpolation = "LINEAR";
+    sampler.interpolation = interpolation;
     tinygltf::AnimationChannel channel;
     channel.sampler = static_cast<int>(animation.samplers.size());
-    channel.target_node = static_cast<int>(body);
+    channel.target_node = static_cast<int>(node);
     channel.target_path = path;
     animation.samplers.push_back(std::move(sampler));
     animation.channels.push_back(std::move(channel));
@@ -128,10 +139,7 @@ class Builder {
     bound(model_.accessors[static_cast<std::size_t>(positions)], body);
     primitive.attributes["POSITION"] = positions;
     primitive.attributes["NORMAL"] = add_vectors(body.normals);
-    std::vector<std::uint32_t> corners;
-    for (const auto& triangle : body.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-    const std::size_t view = add_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    primitive.indices = add_accessor(view, corners, TINYGLTF_TYPE_SCALAR);
+    primitive.indices = add_indices(body.triangles);
     tinygltf::Mesh mesh;
     mesh.name = grain.name;
     mesh.primitives.push_back(std::move(primitive));
@@ -148,6 +156,42 @@ class Builder {
     }
   }
 
+  template <typename Tuples>
+  int add_indices(const Tuples& tuples) {
+    std::vector<std::uint32_t> corners;
+    for (const auto& tuple : tuples) corners.insert(corners.end(), tuple.begin(), tuple.end());
+    return add_accessor(add_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), corners, TINYGLTF_TYPE_SCALAR);
+  }
+
+  /// Triangles through which one sees, and edges as lines; viewers give triangles without normals their flat ones.
+  void add_part(const ContainerPart& part) {
+    Tessellation points;
+    for (const auto& [x, y, z] : part.mesh.vertices) points.points.emplace_back(x, y, z);
+    const int positions = add_vectors(points.points);
+    bound(model_.accessors[static_cast<std::size_t>(positions)], points);
+    tinygltf::Mesh mesh;
+    mesh.name = part.name;
+    const auto add = [&](const auto& tuples, int mode) {
+      if (tuples.empty()) return;
+      tinygltf::Primitive primitive;
+      primitive.mode = mode;
+      primitive.material = static_cast<int>(model_.materials.size());
+      primitive.attributes["POSITION"] = positions;
+      primitive.indices = add_indices(tuples);
+      mesh.primitives.push_back(std::move(primitive));
+    };
+    add(part.mesh.triangles, TINYGLTF_MODE_TRIANGLES);
+    add(part.edges, TINYGLTF_MODE_LINE);
+    model_.meshes.push_back(std::move(mesh));
+    tinygltf::Material material;
+    material.name = part.name;
+    material.pbrMetallicRoughness.baseColorFactor = {0.25, 0.3, 0.37, 0.16};
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 1;
+    material.alphaMode = "BLEND";
+    model_.materials.push_back(std::move(material));
+  }
+
   void add_material(const Grain& grain, std::size_t kind) {
     const Colour colour = colour_of_kind(kind);
     tinygltf::Material material;
@@ -159,7 +203,7 @@ class Builder {
     model_.materials.push_back(std::move(material));
   }
 
-  /// A node per body, then the root above them.
+  /// A node per body, then one per part of the container, then the root above them.
   void add_nodes(const Contents& contents) {
     tinygltf::Node root;
     root.name = contents.scene->name;
@@ -171,10 +215,17 @@ class Builder {
       model_.nodes.push_back(std::move(node));
       root.children.push_back(static_cast<int>(body));
     }
+    for (std::size_t part = 0; part < contents.parts.size(); ++part) {
+      tinygltf::Node node;
+      node.name = contents.parts[part].name;
+      node.mesh = static_cast<int>(contents.scene->grains.size() + part);
+      root.children.push_back(static_cast<int>(model_.nodes.size()));
+      model_.nodes.push_back(std::move(node));
+    }
     model_.nodes.push_back(std::move(root));
     tinygltf::Scene scene;
     scene.name = contents.scene->name;
-    scene.nodes = {static_cast<int>(contents.kind_of_body.size())};
+    scene.nodes = {static_cast<int>(model_.nodes.size() - 1)};
     model_.scenes.push_back(std::move(scene));
     model_.defaultScene = 0;
   }
@@ -185,7 +236,11 @@ class Builder {
 }  // namespace
 
 SceneGlb::SceneGlb(const std::filesystem::path& path, const Contents& contents)
-    : path_(path), contents_(contents), translations_(contents.kind_of_body.size()), rotations_(contents.kind_of_body.size()) {}
+    : path_(path),
+      contents_(contents),
+      translations_(contents.kind_of_body.size()),
+      rotations_(contents.kind_of_body.size()),
+      scales_(contents.parts.size()) {}
 
 void SceneGlb::add(const Frame& frame) {
   times_.push_back(static_cast<float>(frame.time));
@@ -201,6 +256,9 @@ void SceneGlb::add(const Frame& frame) {
     for (std::size_t i = 0; i < 4 && rotation.size() >= 4; ++i) along += now[i] * rotation[rotation.size() - 4 + i];
     for (const double component : now) rotation.push_back(static_cast<float>(along < 0 ? -component : component));
   }
+  for (std::size_t part = 0; part < scales_.size(); ++part) {
+    scales_[part].insert(scales_[part].end(), 3, static_cast<float>(frame.part_scales[part]));
+  }
 }
 
 void SceneGlb::finish(const std::string& /*summary*/) {
@@ -208,7 +266,10 @@ void SceneGlb::finish(const std::string& /*summary*/) {
   for (std::size_t body = 0; body < translations_.size(); ++body) {
     builder.place(body, std::span(translations_[body]).first(3), std::span(rotations_[body]).first(4));
   }
-  if (times_.size() > 1) builder.animate(times_, translations_, rotations_);
+  for (std::size_t part = 0; part < scales_.size(); ++part) {
+    builder.scale(translations_.size() + part, std::span(scales_[part]).first(3));
+  }
+  if (times_.size() > 1) builder.animate(times_, translations_, rotations_, scales_);
   builder.write(path_);
 }
 

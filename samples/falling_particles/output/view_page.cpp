@@ -27,10 +27,9 @@ constexpr std::string_view kPlace = "<!-- the run -->";
 // Bytes: with them the page of 1000 bodies and 150 frames stays below 8 MB.
 constexpr std::size_t kContactBudget = 2'500'000;
 
-// Of the smallest half-axis of a grain. The first one shows no corners; coarser ones are taken for so many grains that a frame
-// would have more triangles than a browser without a graphics card draws thirty times a second.
-constexpr std::array kChordErrors = {0.02, 0.05, 0.1, 0.2};
-constexpr std::size_t kTriangles = 400'000;
+// Of the smallest half-axis of a grain. The first one shows no corners; the page takes coarser ones while it moves, where the finer
+// ones are too slow.
+constexpr std::array kChordErrors = {0.02, 0.1, 0.4};
 
 template <typename Number>
 std::string packed(const std::vector<Number>& numbers) {
@@ -54,32 +53,21 @@ std::vector<std::uint32_t> indices(const std::vector<std::array<Item, N>>& tuple
   return numbers;
 }
 
-std::vector<Tessellation> tessellate_kinds(const Scene& scene) {
-  std::vector<Tessellation> bodies;
+json meshes_of(const Grain& grain) {
+  json meshes;
   for (const double chord_error : kChordErrors) {
-    bodies.clear();
-    std::size_t triangles = 0;
-    for (const GrainCount& kind : scene.grains) {
-      bodies.push_back(tessellate(*shape_of(kind.grain), chord_error * kind.grain.smallest_half_axis()));
-      triangles += static_cast<std::size_t>(kind.count) * bodies.back().triangles.size();
-    }
-    if (triangles <= kTriangles) break;
+    const Tessellation body = tessellate(*shape_of(grain), chord_error * grain.smallest_half_axis());
+    meshes.push_back({{"points", packed(coordinates(body.points))},
+                      {"normals", packed(coordinates(body.normals))},
+                      {"triangles", packed(indices(body.triangles))}});
   }
-  return bodies;
+  return meshes;
 }
 
-json describe(const Grain& grain, std::size_t index, const Tessellation& body) {
-  return {{"name", grain.name},
-          {"halfAxes", grain.half_axes},
-          {"exponents", {grain.delta, grain.epsilon}},
-          {"rounding", grain.rounding},
-          {"radius", grain.bounding_radius()},
-          {"density", grain.density},
-          {"source", grain.source},
-          {"colour", colour_of_kind(index)},
-          {"points", packed(coordinates(body.points))},
-          {"normals", packed(coordinates(body.normals))},
-          {"triangles", packed(indices(body.triangles))}};
+json describe(const Grain& grain, std::size_t index) {
+  return {{"name", grain.name},         {"halfAxes", grain.half_axes},       {"exponents", {grain.delta, grain.epsilon}},
+          {"rounding", grain.rounding}, {"radius", grain.bounding_radius()}, {"density", grain.density},
+          {"source", grain.source},     {"colour", colour_of_kind(index)},   {"meshes", meshes_of(grain)}};
 }
 
 json describe(const ContainerPart& part) {
@@ -125,9 +113,7 @@ void ViewPage::finish(const std::string& summary) {
               {"times", times_},         {"kinetic", kinetic_},
               {"potential", potential_}, {"partScales", part_scales_},
               {"forces", scene.forces},  {"summary", summary}};
-  const std::vector<Tessellation> meshes = tessellate_kinds(scene);
-  for (std::size_t kind = 0; kind < meshes.size(); ++kind)
-    run["kinds"].push_back(describe(scene.grains[kind].grain, kind, meshes[kind]));
+  for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) run["kinds"].push_back(describe(scene.grains[kind].grain, kind));
   run["kindOfBody"] = packed(std::vector<std::uint16_t>(contents_.kind_of_body.begin(), contents_.kind_of_body.end()));
   for (const ContainerPart& part : contents_.parts) run["parts"].push_back(describe(part));
   std::vector<std::string> contacts;

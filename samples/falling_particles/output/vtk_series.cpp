@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "output/write_file.hpp"
 #include "scene/interval.hpp"
@@ -26,28 +27,66 @@ std::string array(std::string_view name, std::string_view type, std::size_t coun
   return text + "</DataArray>\n";
 }
 
-/// Points, each a cell of its own, so that filters for cells see them, too.
-std::string poly_data(std::size_t count, const std::string& points, const std::string& data) {
-  const auto self = [](std::size_t k) { return std::array{static_cast<double>(k)}; };
-  const auto next = [](std::size_t k) { return std::array{static_cast<double>(k + 1)}; };
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
-         "<Piece NumberOfPoints=\"" +
-         std::to_string(count) + "\" NumberOfVerts=\"" + std::to_string(count) +
-         "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n" + data + "</PointData>\n<Points>\n" +
-         points + "</Points>\n<Verts>\n" + array("connectivity", "Int64", count, self) + array("offsets", "Int64", count, next) +
-         "</Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+/// Cells of one kind, each with as many corners.
+template <std::size_t N>
+std::string cells(std::string_view kind, const std::vector<std::array<unsigned int, N>>& corners) {
+  const std::string tag(kind);
+  const auto corner = [&](std::size_t k) { return std::array{static_cast<double>(corners[k / N][k % N])}; };
+  const auto end = [](std::size_t k) { return std::array{static_cast<double>(N * (k + 1))}; };
+  return '<' + tag + ">\n" + array("connectivity", "Int64", N * corners.size(), corner) +
+         array("offsets", "Int64", corners.size(), end) + "</" + tag + ">\n";
 }
 
-std::string contacts_of(const Frame& frame) {
+struct CellCounts {
+  std::size_t verts, lines, polys;
+};
+
+std::string poly_data(std::size_t points, CellCounts counts, const std::string& content) {
+  const auto number = [](const char* of, std::size_t count) { return std::string(of) + "=\"" + std::to_string(count) + "\" "; };
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n<Piece " +
+         number("NumberOfPoints", points) + number("NumberOfVerts", counts.verts) + number("NumberOfLines", counts.lines) +
+         number("NumberOfStrips", 0) + number("NumberOfPolys", counts.polys) + ">\n" + content +
+         "</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+/// Points with data, each a cell of its own, so that filters for cells see them, too.
+std::string cloud(std::size_t count, const std::string& points, const std::string& data) {
+  std::vector<std::array<unsigned int, 1>> corners(count);
+  for (std::size_t k = 0; k < count; ++k) corners[k] = {static_cast<unsigned int>(k)};
+  return poly_data(count, {count, 0, 0},
+                   "<PointData>\n" + data + "</PointData>\n<Points>\n" + points + "</Points>\n" + cells("Verts", corners));
+}
+
+/// The parts of a container that are there, in one piece.
+std::string container_of(const std::vector<ContainerPart>& parts, const std::vector<double>& scales) {
+  std::vector<Point> points;
+  std::vector<std::array<unsigned int, 2>> edges;
+  std::vector<std::array<unsigned int, 3>> triangles;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (scales[part] == 0) continue;
+    const auto first = static_cast<unsigned int>(points.size());
+    for (const auto& [x, y, z] : parts[part].mesh.vertices) {
+      points.push_back({scales[part] * x, scales[part] * y, scales[part] * z});
+    }
+    for (const auto& [a, b] : parts[part].edges) edges.push_back({first + a, first + b});
+    for (const auto& [a, b, c] : parts[part].mesh.triangles) triangles.push_back({first + a, first + b, first + c});
+  }
+  return poly_data(points.size(), {0, edges.size(), triangles.size()},
+                   "<Points>\n" + array("position", "Float64", points.size(), [&](std::size_t k) { return points[k]; }) +
+                       "</Points>\n" + cells("Lines", edges) + cells("Polys", triangles));
+}
+
+std::string contacts_of(const Frame& frame, bool has_forces) {
   const std::size_t count = frame.contacts.size();
   const auto& contacts = frame.contacts;
   const auto bodies = [&](std::size_t k) {
     return std::array{static_cast<double>(contacts[k].body1), static_cast<double>(contacts[k].body2)};
   };
-  return poly_data(count, array("position", "Float64", count, [&](std::size_t k) { return contacts[k].position; }),
-                   array("normal", "Float64", count, [&](std::size_t k) { return contacts[k].normal; }) +
-                       array("depth", "Float64", count, [&](std::size_t k) { return std::array{contacts[k].depth}; }) +
-                       array("bodies", "Int32", count, bodies));
+  const auto force = [&](std::size_t k) { return contacts[k].force.value_or(Point{}); };
+  return cloud(count, array("position", "Float64", count, [&](std::size_t k) { return contacts[k].position; }),
+               array("normal", "Float64", count, [&](std::size_t k) { return contacts[k].normal; }) +
+                   array("depth", "Float64", count, [&](std::size_t k) { return std::array{contacts[k].depth}; }) +
+                   array("bodies", "Int32", count, bodies) + (has_forces ? array("force", "Float64", count, force) : ""));
 }
 
 void write_list(const std::filesystem::path& path, const std::string& entries) {
@@ -60,35 +99,44 @@ void write_list(const std::filesystem::path& path, const std::string& entries) {
 VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
     : grains_file_(folder.file("grains.pvd")),
       contacts_file_(folder.file("contacts.pvd")),
+      container_file_(folder.file("container.pvd")),
       frames_folder_(folder.file(std::string(kFramesFolder))),
       contents_(contents) {
   std::filesystem::create_directory(frames_folder_);
 }
 
 void VtkSeries::add(const Frame& frame) {
-  write_frame("grains", frame.time, grains_of(frame), grains_);
-  write_frame("contacts", frame.time, contacts_of(frame), contacts_);
+  list(grains_, frame.time, write("grains", grains_of(frame)));
+  list(contacts_, frame.time, write("contacts", contacts_of(frame, contents_.scene->forces)));
+  if (frame.part_scales != part_scales_) container_ = write("container", container_of(contents_.parts, frame.part_scales));
+  part_scales_ = frame.part_scales;
+  list(containers_, frame.time, container_);
   ++frames_;
 }
 
 void VtkSeries::finish(const std::string& /*summary*/) {
   write_list(grains_file_, grains_);
   write_list(contacts_file_, contacts_);
+  write_list(container_file_, containers_);
 }
 
-void VtkSeries::write_frame(std::string_view what, double time, const std::string& text, std::string& list) const {
+std::string VtkSeries::write(std::string_view what, const std::string& text) const {
   std::array<char, 16> number{};
   std::snprintf(number.data(), number.size(), "_%06d.vtp", frames_);
-  const std::string name = std::string(what) + number.data();
+  std::string name = std::string(what) + number.data();
   write_file(frames_folder_ / name, text);
-  list += "<DataSet timestep=\"" + shortest(time) + "\" file=\"" + std::string(kFramesFolder) + '/' + name + "\"/>\n";
+  return name;
+}
+
+void VtkSeries::list(std::string& entries, double time, const std::string& name) {
+  entries += "<DataSet timestep=\"" + shortest(time) + "\" file=\"" + std::string(kFramesFolder) + '/' + name + "\"/>\n";
 }
 
 std::string VtkSeries::grains_of(const Frame& frame) const {
   const std::size_t count = frame.bodies.size();
   const auto grain = [&](std::size_t k) -> const Grain& { return contents_.grain(k); };
   const auto numbers = [&](std::string_view name, const auto& of) { return array(name, "Float64", count, of); };
-  return poly_data(
+  return cloud(
       count, numbers("position", [&](std::size_t k) { return frame.bodies[k].position; }),
       array("kind", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_body[k])}; }) +
           numbers("quaternion", [&](std::size_t k) { return frame.bodies[k].quaternion; }) +

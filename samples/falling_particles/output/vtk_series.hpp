@@ -4,16 +4,19 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "output/picture.hpp"
 
 namespace falling_particles {
 
-/// grains.pvd and contacts.pvd, which name the files of every frame in the folder vtk: VTK's XML format for points, as text.
+/// grains.pvd, contacts.pvd and container.pvd, which name the files of every frame in the folder vtk: VTK's XML format
+/// for points, lines and polygons, as text.
 ///
 /// A grain is a point with its kind (from 0 on, in the order of the scene file), quaternion (w, x, y, z), half-axes (m), exponents
 /// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s); a contact one with its normal (unit, towards body
-/// 1), depth (m) and the two bodies (-1: a wall).
+/// 1), depth (m), the two bodies (-1: a wall) and, where the scene asks for forces, the force on body 1 (N). The container's
+/// triangles look at the grains; it has a new file when a part of it has changed.
 class VtkSeries final : public Picture {
  public:
   VtkSeries(const OutputFolder& folder, const Contents& contents);
@@ -21,12 +24,16 @@ class VtkSeries final : public Picture {
   void finish(const std::string& summary) override;
 
  private:
-  void write_frame(std::string_view what, double time, const std::string& text, std::string& list) const;
+  /// Writes a file of this frame and gives its name.
+  std::string write(std::string_view what, const std::string& text) const;
+  static void list(std::string& entries, double time, const std::string& name);
   std::string grains_of(const Frame& frame) const;
 
-  std::filesystem::path grains_file_, contacts_file_, frames_folder_;
+  std::filesystem::path grains_file_, contacts_file_, container_file_, frames_folder_;
   Contents contents_;
-  std::string grains_, contacts_;  // entries of the two lists
+  std::string grains_, contacts_, containers_;  // entries of the lists
+  std::string container_;                       // file of the container as it is
+  std::vector<double> part_scales_;             // with which it was written
   int frames_ = 0;
 };
 

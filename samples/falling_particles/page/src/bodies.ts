@@ -1,5 +1,6 @@
 // The bodies: a mesh for each kind, drawn once for all bodies of the kind.
 import {
+  type BufferGeometry,
   Color,
   DynamicDrawUsage,
   type Group,
@@ -27,6 +28,7 @@ export interface Pose {
 
 export class Bodies {
   private readonly meshes: InstancedMesh[] = [];
+  private readonly geometries: BufferGeometry[][]; // of each kind, the finest one first
   private readonly slot: Uint32Array; // of a body in the mesh of its kind
   private readonly bodiesOf: number[][]; // of each kind
   private readonly outline = new Mesh(undefined, new MeshBasicMaterial({ color: 0x101418, side: BackSide }));
@@ -42,8 +44,9 @@ export class Bodies {
     run.kindOfBody.forEach((kind, body) => {
       this.slot[body] = this.bodiesOf[kind].push(body) - 1;
     });
-    for (const [index, kind] of run.kinds.entries()) {
-      const mesh = new InstancedMesh(geometryOf(kind.mesh), new MeshLambertMaterial(), this.bodiesOf[index].length);
+    this.geometries = run.kinds.map(({ meshes }) => meshes.map(geometryOf));
+    for (const index of run.kinds.keys()) {
+      const mesh = new InstancedMesh(this.geometries[index][0], new MeshLambertMaterial(), this.bodiesOf[index].length);
       mesh.instanceMatrix.setUsage(DynamicDrawUsage);
       mesh.frustumCulled = false;
       mesh.setColorAt(0, new Color());
@@ -54,6 +57,15 @@ export class Bodies {
     this.outline.matrixAutoUpdate = false;
     world.add(this.outline);
     this.poses = Array.from({ length: run.bodies }, () => ({ position: new Vector3(), rotation: new Quaternion() }));
+  }
+
+  /** Triangles of all bodies together with meshes of that level; 0 is the finest. */
+  trianglesAt(level: number): number {
+    return this.run.kinds.reduce((sum, { meshes }, kind) => sum + (meshes[level].triangles.length / 3) * this.bodiesOf[kind].length, 0);
+  }
+
+  setLevel(level: number): void {
+    this.meshes.forEach((mesh, kind) => (mesh.geometry = this.geometries[kind][level]));
   }
 
   /** Places all bodies between the moment's frame and the next one. */
@@ -130,7 +142,7 @@ export class Bodies {
     this.outline.visible = body !== null;
     if (body === null) return;
     const { position, rotation } = this.poses[body];
-    this.outline.geometry = this.meshes[this.run.kindOfBody[body]].geometry;
+    this.outline.geometry = this.geometries[this.run.kindOfBody[body]][0];
     this.outline.matrix.compose(position, rotation, new Vector3(1.08, 1.08, 1.08));
   }
 

@@ -1,6 +1,6 @@
 // A page that plays a run. The address may say what it shows: ?t=1.5 (s), play=1, colour=speed, show=contacts,boxes, pick=12 (index of
 // a body), camera=azimuth,elevation,zoom (degrees; 1 just shows
-// everything, with fit=bodies all bodies), panel=1, antialias=0.
+// everything, with fit=bodies all bodies), panel=1.
 import { Box3, Raycaster, Vector2 } from "three";
 import { Bodies } from "./bodies";
 import { EnergyChart } from "./chart";
@@ -11,6 +11,7 @@ import { type MarkName, Marks, markNames } from "./marks";
 import { type Colouring, Painter, colourings } from "./paint";
 import { Panel } from "./panel";
 import { Player } from "./player";
+import { Governor } from "./quality";
 import { type Contacts, Run, momentOf } from "./run";
 import { Stage } from "./stage";
 
@@ -26,6 +27,7 @@ class Page {
   readonly stage: Stage;
   readonly player: Player;
   readonly bodies: Bodies;
+  readonly governor: Governor;
   private readonly container: Container;
   private readonly marks: Marks;
   private painter: Painter;
@@ -36,14 +38,12 @@ class Page {
   private contacts: Contacts | null = null;
   private shownFrame = -1;
 
-  constructor(
-    readonly run: Run,
-    parameters: URLSearchParams,
-  ) {
-    this.stage = new Stage(byId<HTMLCanvasElement>("canvas"), extentOf(run), parameters.get("antialias") !== "0");
+  constructor(readonly run: Run) {
+    this.stage = new Stage(byId<HTMLCanvasElement>("canvas"), extentOf(run));
     this.container = new Container(run);
     this.stage.world.add(this.container.group);
     this.bodies = new Bodies(run, this.stage.world);
+    this.governor = new Governor(this.stage, this.bodies);
     this.marks = new Marks(run, this.bodies, this.stage.world);
     this.painter = new Painter(run);
     this.panel = new Panel(run, () => this.pick(null));
@@ -121,7 +121,11 @@ class Page {
 
   colourBy(colouring: Colouring): void {
     this.painter.colouring = colouring;
-    if (colouring === "index") this.bodies.makeFlat();
+    if (colouring === "index") {
+      this.bodies.makeFlat();
+      this.stage.isPlain = true;
+      this.stage.setRatio(1);
+    }
     byId<HTMLSelectElement>("colour").value = colouring;
     byId("legend").replaceChildren(...this.painter.legend());
     this.paint();
@@ -294,11 +298,12 @@ async function start(): Promise<Page> {
   const run = new Run();
   await run.unpackFrame();
   const parameters = new URLSearchParams(location.search);
-  const page = new Page(run, parameters);
+  const page = new Page(run);
   page.stage.draw();
   const loop = (now: number) => {
     page.player.tick(now);
     page.stage.controls.update();
+    page.governor.beforeFrame(now, page.stage.isStale);
     page.stage.draw();
     requestAnimationFrame(loop);
   };

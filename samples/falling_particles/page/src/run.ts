@@ -21,7 +21,7 @@ export interface Kind {
   density: number;
   source: string;
   colour: Vector;
-  mesh: Mesh;
+  meshes: Mesh[]; // the finest one first
 }
 
 export interface Part {
@@ -59,7 +59,7 @@ interface Description {
   partScales: number[][];
   forces: boolean;
   summary: string;
-  kinds: (Omit<Kind, "mesh"> & { points: string; normals: string; triangles: string })[];
+  kinds: (Omit<Kind, "meshes"> & { meshes: { points: string; normals: string; triangles: string }[] })[];
   kindOfBody: string;
   parts: { name: string; points: string; triangles: string; edges: string }[];
   contacts: { frame: number; count: number; length: number }[];
@@ -89,9 +89,13 @@ export class Run {
   readonly partScales = this.description.partScales;
   readonly hasForces = this.description.forces;
   readonly summary = this.description.summary;
-  readonly kinds: Kind[] = this.description.kinds.map(({ points, normals, triangles, ...kind }) => ({
+  readonly kinds: Kind[] = this.description.kinds.map((kind) => ({
     ...kind,
-    mesh: { points: floats(points), normals: floats(normals), triangles: indices(triangles) },
+    meshes: kind.meshes.map(({ points, normals, triangles }) => ({
+      points: floats(points),
+      normals: floats(normals),
+      triangles: indices(triangles),
+    })),
   }));
   readonly parts: Part[] = this.description.parts.map(({ name, points, triangles, edges }) => ({
     name,

@@ -30,15 +30,15 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   readonly controls: OrbitControls;
   onDraw: () => void = () => {};
+  /** Whether a pixel has the colour of one thing, not a mean of several. */
+  isPlain = false;
   private wanted = true;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
     private readonly extent: Box3,
-    antialias: boolean,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias, alpha: true, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer = new WebGLRenderer({ canvas, antialias: false, alpha: true, powerPreference: "high-performance" });
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.redraw());
@@ -57,6 +57,17 @@ export class Stage {
 
   redraw(): void {
     this.wanted = true;
+  }
+
+  get isStale(): boolean {
+    return this.wanted;
+  }
+
+  /** Pixels of the picture for one of the screen, along x and y; no more than anybody sees. */
+  setRatio(ratio: number): void {
+    const most = Math.max(2, devicePixelRatio);
+    this.renderer.setPixelRatio(this.isPlain ? 1 : Math.min(ratio * devicePixelRatio, most));
+    this.redraw();
   }
 
   /** Draws if anything has changed. */
