@@ -12,7 +12,7 @@ try:
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 except ImportError:
-    print("skipped: python3-vtk9 is not installed (tests/run --viewers installs it)")
+    print("skipped: python3-vtk9 is not installed (tests/run --browser installs it)")
     sys.exit(77)
 
 

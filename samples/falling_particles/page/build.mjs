@@ -1,4 +1,5 @@
-// Builds view.html: index.html with its style and its script, libraries included, in it. The same sources give the same bytes.
+// Builds view.html (or the file that is named): index.html with its style and its script, libraries included, in it. The same
+// sources give the same bytes.
 import { build } from "esbuild";
 import { readFile, writeFile } from "node:fs/promises";
 
@@ -27,5 +28,6 @@ function put(html, place, text) {
 let html = await readFile(new URL("index.html", source), "utf8");
 html = put(html, "<!-- the style -->", `<style>\n${await bundle("style.css")}</style>`);
 html = put(html, "<!-- the script -->", `<script>\n${await bundle("main.ts")}</script>`);
-await writeFile(new URL("view.html", import.meta.url), html);
-console.log(`view.html: ${html.length} bytes`);
+const target = process.argv[2] ?? new URL("view.html", import.meta.url).pathname;
+await writeFile(target, html);
+console.log(`${target}: ${html.length} bytes`);
