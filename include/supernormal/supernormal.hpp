@@ -24,3 +24,4 @@
 #include "supernormal/shapes/submerged_volume.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "supernormal/shapes/tessellation.hpp"

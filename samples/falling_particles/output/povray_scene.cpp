@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <supernormal/shapes/tessellation.hpp>
 
 #include "output/grain_shape.hpp"
 #include "output/palette.hpp"
-#include "output/tessellation.hpp"
 #include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
@@ -34,7 +34,7 @@ std::string superellipsoid(const Grain& grain) {
 }
 
 std::string mesh(const Grain& grain) {
-  const Tessellation body = tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
+  const supernormal::Tessellation body = supernormal::tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
   const auto list = [](const char* name, const auto& items, const auto& text_of) {
     std::string text = std::string("  ") + name + " { " + std::to_string(items.size());
     for (const auto& item : items) text += ",\n    " + text_of(item);

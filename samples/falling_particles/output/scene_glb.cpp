@@ -8,10 +8,10 @@
 #include <fstream>
 #include <span>
 #include <string>
+#include <supernormal/shapes/tessellation.hpp>
 
 #include "output/grain_shape.hpp"
 #include "output/palette.hpp"
-#include "output/tessellation.hpp"
 #include "output/write_file.hpp"
 
 namespace falling_particles {
@@ -131,7 +131,7 @@ class Builder {
   }
 
   void add_kind(const Grain& grain, std::size_t kind) {
-    const Tessellation body = tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
+    const supernormal::Tessellation body = supernormal::tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = static_cast<int>(kind);
@@ -147,7 +147,7 @@ class Builder {
     add_material(grain, kind);
   }
 
-  static void bound(tinygltf::Accessor& positions, const Tessellation& body) {
+  static void bound(tinygltf::Accessor& positions, const supernormal::Tessellation& body) {
     for (const int i : {0, 1, 2}) {
       const auto along = [i](const auto& a, const auto& b) { return a[i] < b[i]; };
       const auto [least, most] = std::minmax_element(body.points.begin(), body.points.end(), along);
@@ -165,7 +165,7 @@ class Builder {
 
   /// Triangles through which one sees, and edges as lines; viewers give triangles without normals their flat ones.
   void add_part(const ContainerPart& part) {
-    Tessellation points;
+    supernormal::Tessellation points;
     for (const auto& [x, y, z] : part.mesh.vertices) points.points.emplace_back(x, y, z);
     const int positions = add_vectors(points.points);
     bound(model_.accessors[static_cast<std::size_t>(positions)], points);

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <supernormal/shapes/tessellation.hpp>
 
 #include "output/base64.hpp"
 #include "output/grain_shape.hpp"
 #include "output/palette.hpp"
-#include "output/tessellation.hpp"
 #include "output/write_file.hpp"
 
 // The page as `npm run build` leaves it in page/ (view_page_html.S).
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> indices(const std::vector<std::array<Item, N>>& tuple
 json meshes_of(const Grain& grain) {
   json meshes;
   for (const double chord_error : kChordErrors) {
-    const Tessellation body = tessellate(*shape_of(grain), chord_error * grain.smallest_half_axis());
+    const supernormal::Tessellation body = supernormal::tessellate(*shape_of(grain), chord_error * grain.smallest_half_axis());
     meshes.push_back({{"points", packed(coordinates(body.points))},
                       {"normals", packed(coordinates(body.normals))},
                       {"triangles", packed(indices(body.triangles))}});

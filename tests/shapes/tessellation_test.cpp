@@ -1,20 +1,26 @@
 // Tests of meshes of bodies: corners on the boundary, closed, oriented, within the chord error.
-#include "output/tessellation.hpp"
+#include "supernormal/shapes/tessellation.hpp"
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
+#include <stdexcept>
+#include <supernormal/shapes/box.hpp>
+#include <supernormal/shapes/capsule.hpp>
+#include <supernormal/shapes/cylinder.hpp>
 #include <supernormal/shapes/ellipsoid.hpp>
 #include <supernormal/shapes/rounded.hpp>
 #include <supernormal/shapes/superellipsoid.hpp>
+#include <supernormal/shapes/superovoid.hpp>
 #include <utility>
+#include <vector>
 
-using namespace falling_particles;
 using namespace supernormal;
 
 namespace {
@@ -95,5 +101,23 @@ TEST_CASE("a mesh of a body is closed, has its corners on the boundary and its c
         }
       }
     }
+  }
+}
+
+TEST_CASE("bodies with faces, edges and corners: closed, and within the chord error") {
+  const std::vector<std::shared_ptr<Shape>> bodies = {std::make_shared<Box>(Vector3(1, 0.7, 0.2)),
+                                                      std::make_shared<Capsule>(0.3, 1), std::make_shared<Cylinder>(0.5, 0.4),
+                                                      std::make_shared<Superovoid>(Vector3(0.5, 0.5, 1), 2, 2, 0.4, 0.4)};
+  for (const auto& body : bodies) {
+    const Tessellation mesh = tessellate(*body, 0.01);
+    check_closed(mesh);
+    CHECK(farthest_beyond(*body, mesh) <= 0.01);
+  }
+}
+
+TEST_CASE("a chord error out of range is refused") {
+  const Ellipsoid body(Vector3(2, 1, 1));
+  for (const double wrong : {0.0, -1.0, 1e-6, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    CHECK_THROWS_WITH_AS(tessellate(body, wrong), doctest::Contains("chord_error ="), std::invalid_argument);
   }
 }

@@ -1,16 +1,18 @@
-#include "output/tessellation.hpp"
+#include "supernormal/shapes/tessellation.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
-namespace falling_particles {
+#include "shapes/validation.hpp"
+
+namespace supernormal {
 namespace {
 
-using supernormal::Shape;
-using supernormal::Vector3;
 using Index = std::uint32_t;
 
 // Normals closer than this (radians) are not halved any more: between them an edge bends as if it were sharp.
@@ -123,6 +125,13 @@ class Tessellator {
 
 }  // namespace
 
-Tessellation tessellate(const Shape& shape, double chord_error) { return Tessellator(shape, chord_error).run(); }
+Tessellation tessellate(const Shape& shape, double chord_error) {
+  const double least = kLeastChordError * shape.half_extents().maxCoeff();
+  if (!(chord_error >= least && chord_error < INFINITY)) {
+    throw std::invalid_argument("chord_error = " + to_text(chord_error) + " m, but must be in [" + to_text(least) +
+                                ", inf): a millionth of the body's largest half-extent, or more");
+  }
+  return Tessellator(shape, chord_error).run();
+}
 
-}  // namespace falling_particles
+}  // namespace supernormal
