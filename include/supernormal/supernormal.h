@@ -106,6 +106,22 @@ SUPERNORMAL_API dReal snGeomPointDepth(dGeomID geom, dReal x, dReal y, dReal z);
 /* Finds the boundary point whose outward normal is `direction` (world frame, any length but 0); `point` in world coordinates. */
 SUPERNORMAL_API int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 point);
 
+/* A closed mesh of a body, to draw it: corners on its boundary with the outward normals there, in the geom's frame. */
+typedef struct snMesh {
+  int points;             /* number of corners */
+  int triangles;          /* number of triangles */
+  const dReal* position;  /* 3 * points, m */
+  const dReal* normal;    /* 3 * points, unit */
+  const dTriIndex* index; /* 3 * triangles: the corners of each, anticlockwise as seen from outside */
+} snMesh;
+
+/* Makes a mesh whose edges are no farther than chord_error (m) from the boundary, a millionth of the geom's largest half-extent or
+ * more: 2 % of the smallest half-axis shows no corners. Flat faces take few triangles. Give the mesh back with snMeshRelease.
+ * Returns 0 (and snLastError) when chord_error is out of range or the geom is not ours; `mesh` is then empty. */
+SUPERNORMAL_API int snGeomTessellate(dGeomID geom, dReal chord_error, snMesh* mesh);
+/* Frees the arrays and empties the mesh; an empty one, or NULL, is left as it is. */
+SUPERNORMAL_API void snMeshRelease(snMesh* mesh);
+
 /* Mass, centre of mass and inertia of the homogeneous body, in the geom's frame: exact for ellipsoids, superellipsoids
  * and superovoids, quadrature to 1e-9 with rounding or for a smooth user-defined body; one with faces or edges is refused when
  * their share of the volume, which quadrature does not see, is above 1 %. density (kg/m^3) and total_mass (kg) in (0, inf). A body
