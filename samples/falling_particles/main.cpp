@@ -13,6 +13,7 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
+#include "output/rendering.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene.hpp"
 #include "simulation/interrupt.hpp"
@@ -23,9 +24,10 @@ namespace {
 enum ExitCode { Done = 0, Failed = 1, BadInput = 2, Leaked = 3, Interrupted = 130 };
 
 constexpr const char* kFooter =
-    "Writes OUT/<scene>/trajectory.csv, energies.csv, summary.toml, of a hopper discharge.csv, and the pictures that the scene\n"
-    "asks for, view.html and scene.glb if it does not say; until the end they are in OUT/<scene>.unfinished-1. If the run is\n"
-    "killed the tables stay there, up to the last frame, until the next run of the scene.\n"
+    "Writes OUT/<scene>/trajectory.csv, energies.csv, state.csv, summary.toml, of a hopper discharge.csv, of a packing\n"
+    "compression.csv, and the pictures that the scene asks for, view.html, scene.glb and a plot of each table if it does not\n"
+    "say; until the end they are in OUT/<scene>.unfinished-1. If the run is killed the tables stay there, up to the last frame,\n"
+    "until the next run of the scene.\n"
     "Exit code: 0 done; 1 failed (disk full, say, or stdout closed); 2 bad input, nothing written;\n"
     "3 with --check-leaks: a grain left the container, all results written;\n"
     "130 stopped by Ctrl-C, with all results up to then written.";
@@ -53,7 +55,10 @@ ExitCode simulate(const Options& options) {
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
   const falling_particles::RunEnd end = falling_particles::run(scene, options.out, options.quiet, options.threads);
-  if (end.interrupted) return Interrupted;
+  std::fflush(stdout);
+  falling_particles::catch_interrupts();  // again: the results are in place, and a Ctrl-C ends only the drawing
+  falling_particles::render(end.renderings, end.folder, options.quiet);
+  if (end.interrupted || falling_particles::interrupted()) return Interrupted;
   return end.leaked && options.check_leaks ? Leaked : Done;
 }
 

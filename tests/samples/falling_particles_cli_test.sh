@@ -16,12 +16,13 @@ same_seed_same_result() {
   grep -q '^volume_fraction ' "$work/log" || fail "the summary is not printed"
   # With a longer environment all addresses move: nothing may depend on them.
   expect 0 env SHIFT_THE_STACK="$(printf '%2000s' '')" "$program" -q --scene "$samples/scenes/short.toml" --out "$work/second"
-  for file in trajectory.csv energies.csv; do
+  for file in trajectory.csv energies.csv state.csv; do
     cmp "$work/first/short/$file" "$work/second/short/$file" || fail "$file differs in the second run"
   done
   [ "$(end_state "$work/first")" = "$(end_state "$work/second")" ] || fail "summary.toml differs in the second run"
   grep -q '^bodies_outside *= 0 ' "$work/first/short/summary.toml" || fail "grains outside the box"
   grep -q '^settled *= true ' "$work/first/short/summary.toml" || fail "not settled"
+  state_is_as_summed_up "$work/first/short"
 }
 
 other_seed_other_result() {
@@ -79,6 +80,12 @@ other_containers() {
   shortened packing_spheres -e 's/^count = .*/count = 30/' -e 's/^side = [^ ]*/side = 0.04/' -e 's/^duration = [^ ]*/duration = 1/'
   expect 0 "$program" -q --check-leaks --scene "$work/scenes/packing_spheres.toml" --out "$work/containers"
   awk "BEGIN { exit !($(value packing_spheres volume_fraction_at_contact) > 0.5) }" || fail "not compressed"
+  csv=$work/containers/packing_spheres/compression.csv
+  [ "$(wc -l <"$csv")" -eq 101 ] || fail "compression.csv is not a head and 100 frames"
+  awk -F, -v fraction="$(value packing_spheres volume_fraction)" -v side="$(value packing_spheres cell_side)" '
+    function is_near(a, b) { return (a - b) ^ 2 < 1e-10 * b ^ 2 }
+    NR == 2 && !($3 < 0.5) { exit 1 } END { exit !(is_near($2, side) && is_near($3, fraction)) }' "$csv" ||
+    fail "compression.csv does not end as the summary does"
 }
 
 names_with_quotes() {
@@ -89,12 +96,33 @@ names_with_quotes() {
     fail "not a TOML string: $(grep '^scene' "$work/names/$name/summary.toml")"
 }
 
+# state.csv ends as the summary says. $1: the folder
+state_is_as_summed_up() {
+  awk -F, -v summary="$1/summary.toml" '
+    function is_near(a, b) { return (a - b) ^ 2 <= 1e-10 * b ^ 2 }
+    function value(key, line, words) {
+      while ((getline line < summary) > 0) if (split(line, words, / *[= ] */) && words[1] == key) break
+      close(summary)
+      return words[2]
+    }
+    NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
+    END {
+      if (!is_near($column["deepest_contact_of_all_steps_m"], value("deepest_contact"))) exit 1
+      if (!is_near($column["kinetic_height_m"], value("kinetic_height"))) exit 1
+      if (!is_near($column["largest_kinetic_energy_J"], value("largest_kinetic_energy"))) exit 1
+      if (!is_near($column["energy_lost_J"], value("energy_lost"))) exit 1
+      if (!is_near($column["energy_gained_J"], value("energy_gained"))) exit 1
+      if ($column["bodies_leaked"] != value("bodies_leaked")) exit 1
+    }' "$1/state.csv" || fail "$1/state.csv does not end as the summary does"
+}
+
 leaks_are_told() {
   # A step so long that what falls passes the floor within one.
   sed -e 's/^step = .*/step = 0.15/' -e 's/^frame = .*/frame = 0.15/' "$samples/scenes/short.toml" >"$work/scenes/leaky.toml"
   expect 3 "$program" -q --check-leaks --scene "$work/scenes/leaky.toml" --out "$work/leaky"
   grep -q '^Leak: [0-9]* of 60 grains; the first: grain [0-9]* (.*) left the container at t = ' "$work/log" || fail "leaks are not told"
   ! grep -q '^bodies_leaked *= 0 ' "$work/leaky/leaky/summary.toml" || fail "the summary does not count the leaks"
+  state_is_as_summed_up "$work/leaky/leaky"
   expect 0 "$program" -q --scene "$work/scenes/leaky.toml" --out "$work/leaky"
 }
 
@@ -162,7 +190,7 @@ a_killed_run_leaves_whole_frames_until_the_next() {
   start_long_run killed
   kill -KILL "$pid"
   wait "$pid" 2>/dev/null || true
-  [ "$(ls "$left" | tr '\n' ' ')" = "UNFINISHED energies.csv trajectory.csv " ] || fail "left behind: $(ls "$left")"
+  [ "$(ls "$left" | tr '\n' ' ')" = "UNFINISHED energies.csv state.csv trajectory.csv " ] || fail "left behind: $(ls "$left")"
   [ "$(tail -c 1 "$left/energies.csv" | wc -l)" -eq 1 ] || fail "energies.csv ends within a line"
   [ "$(wc -l <"$left/energies.csv")" -ge 3 ] || fail "energies.csv holds no frames"
   awk -F, 'NF != 10 { exit 1 } END { exit (NR - 1) % 60 != 0 || NR < 120 }' "$left/trajectory.csv" ||

@@ -148,8 +148,8 @@ TEST_CASE("a scene names what it leaves to look at") {
   const auto pictures_of = [&](const std::string& output) {
     return load_scene(folder.write("scene.toml", kSceneText + output)).pictures;
   };
-  CHECK(pictures_of("") == std::vector<std::string>{"page", "glb"});
-  CHECK(pictures_of("[output]\n") == std::vector<std::string>{"page", "glb"});
+  CHECK(pictures_of("") == std::vector<std::string>{"page", "glb", "plots"});
+  CHECK(pictures_of("[output]\n") == std::vector<std::string>{"page", "glb", "plots"});
   CHECK(pictures_of("[output]\npictures = []\n").empty());
   CHECK(pictures_of("[output]\n"
                     R"(pictures = ["povray", "vtk"])"

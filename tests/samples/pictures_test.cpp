@@ -225,11 +225,14 @@ TEST_CASE("a file that cannot be written is named") {
   TemporaryFolder folder;
   OutputFolder out(folder.path(), "pictures");
   for (const PictureFormat& format : picture_formats()) {
-    if (format.files.size() > 1) continue;
+    if (format.files.size() != 1) continue;
     const std::filesystem::path path = out.file(std::string(format.files.front()));
     std::filesystem::create_directory(path);  // in its place
-    const std::unique_ptr<Picture> picture = format.make(out, format, Contents{&scene, {0, 1, 0, 1, 0}});
-    picture->add(frame_at(0));
-    CHECK_THROWS_WITH_AS(picture->finish(""), doctest::Contains(path.c_str()), std::runtime_error);
+    const auto write = [&] {
+      const std::unique_ptr<Picture> picture = format.make(out, format, Contents{&scene, {0, 1, 0, 1, 0}});
+      picture->add(frame_at(0));
+      picture->finish("");
+    };
+    CHECK_THROWS_WITH_AS(write(), doctest::Contains(path.c_str()), std::runtime_error);
   }
 }

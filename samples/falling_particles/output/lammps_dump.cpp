@@ -3,7 +3,6 @@
 #include <initializer_list>
 #include <string>
 
-#include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
 namespace falling_particles {
@@ -22,8 +21,7 @@ void append(std::string& line, std::initializer_list<double> numbers) {
 
 }  // namespace
 
-LammpsDump::LammpsDump(const std::filesystem::path& path, const Contents& contents)
-    : path_(path), contents_(contents), stream_(path) {}
+LammpsDump::LammpsDump(const std::filesystem::path& path, const Contents& contents) : contents_(contents), file_(path) {}
 
 void LammpsDump::add(const Frame& frame) {
   std::string text = "ITEM: TIMESTEP\n" + std::to_string(frames_++) + "\nITEM: TIME\n" + shortest(frame.time) +
@@ -42,9 +40,9 @@ void LammpsDump::add(const Frame& frame) {
     append(text, {x, y, z, w, 2 * a, 2 * b, 2 * c, 2 / grain.delta, 2 / grain.epsilon});
     text += '\n';
   }
-  stream_ << text << std::flush;
+  file_.write(text);
 }
 
-void LammpsDump::finish(const std::string& /*summary*/) { close_or_throw(stream_, path_); }
+void LammpsDump::finish(const std::string& /*summary*/) { file_.close(); }
 
 }  // namespace falling_particles

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 
 #include "output/picture.hpp"
+#include "output/write_file.hpp"
 
 namespace falling_particles {
 
@@ -19,9 +19,8 @@ class LammpsDump final : public Picture {
   void finish(const std::string& summary) override;
 
  private:
-  std::filesystem::path path_;
   Contents contents_;
-  std::ofstream stream_;
+  OutputFile file_;
   int frames_ = 0;
 };
 

@@ -1,13 +1,23 @@
 #include "output_files.hpp"
 
+#include <initializer_list>
 #include <string>
 
-#include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
 namespace falling_particles {
-Trajectory::Trajectory(const std::filesystem::path& path) : path_(path), stream_(path) {
-  stream_ << "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n";
+namespace {
+
+std::string line_of(std::initializer_list<std::string> fields) {
+  std::string line;
+  for (const std::string& field : fields) line += (line.empty() ? "" : ",") + field;
+  return line + '\n';
+}
+
+}  // namespace
+
+Trajectory::Trajectory(const std::filesystem::path& path) : file_(path) {
+  file_.write("time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n");
 }
 
 void Trajectory::write(double time, const World& world) {
@@ -22,30 +32,46 @@ void Trajectory::write(double time, const World& world) {
     for (int i = 0; i < 4; ++i) frame += ',' + shortest(quaternion[i]);
     frame += '\n';
   }
-  stream_ << frame << std::flush;
+  file_.write(frame);
 }
 
-void Trajectory::close() { close_or_throw(stream_, path_); }
-
-Energies::Energies(const std::filesystem::path& path) : path_(path), stream_(path) {
-  stream_ << "time_s,kinetic_J,potential_J,total_J,contacts\n";
+Energies::Energies(const std::filesystem::path& path) : file_(path) {
+  file_.write("time_s,kinetic_J,potential_J,total_J,contacts\n");
 }
 
 void Energies::write(double time, const Energy& energy, std::size_t contacts) {
-  stream_ << shortest(time) << ',' << shortest(energy.kinetic) << ',' << shortest(energy.potential) << ','
-          << shortest(energy.total()) << ',' << contacts << std::endl;
+  file_.write(line_of(
+      {shortest(time), shortest(energy.kinetic), shortest(energy.potential), shortest(energy.total()), std::to_string(contacts)}));
 }
 
-void Energies::close() { close_or_throw(stream_, path_); }
+StateFile::StateFile(const std::filesystem::path& path) : file_(path) {
+  file_.write(
+      "time_s,deepest_contact_m,deepest_contact_of_all_steps_m,kinetic_height_m,largest_kinetic_energy_J,energy_lost_J,"
+      "energy_gained_J,bodies_leaked\n");
+}
 
-DischargeFile::DischargeFile(const std::filesystem::path& path) : path_(path), stream_(path) {
-  stream_ << "time_s,discharged_kg,discharged_grains\n";
+void StateFile::write(double time, const State& state) {
+  file_.write(line_of({shortest(time), shortest(state.deepest_contact), shortest(state.deepest_contact_of_all_steps),
+                       state.kinetic_height ? shortest(*state.kinetic_height) : "", shortest(state.largest_kinetic_energy),
+                       shortest(state.energy_lost), shortest(state.energy_gained), std::to_string(state.leaked)}));
+}
+
+DischargeFile::DischargeFile(const std::filesystem::path& path) : file_(path) {
+  file_.write("time_s,discharged_kg,discharged_grains\n");
 }
 
 void DischargeFile::write(double time, double mass, std::size_t count) {
-  stream_ << shortest(time) << ',' << shortest(mass) << ',' << count << std::endl;
+  file_.write(line_of({shortest(time), shortest(mass), std::to_string(count)}));
 }
 
-void DischargeFile::close() { close_or_throw(stream_, path_); }
+CompressionFile::CompressionFile(const std::filesystem::path& path) : file_(path) {
+  file_.write("time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain\n");
+}
+
+void CompressionFile::write(double time, const Packing& packing) {
+  file_.write(
+      line_of({shortest(time), shortest(packing.side), shortest(packing.volume_fraction), shortest(packing.at_contact),
+               shortest(packing.overlap.relative), shortest(packing.target_overlap), shortest(packing.contacts_per_grain)}));
+}
 
 }  // namespace falling_particles

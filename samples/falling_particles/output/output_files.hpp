@@ -3,31 +3,35 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "measure/energy.hpp"
+#include "output/write_file.hpp"
+#include "simulation/compression.hpp"
 #include "simulation/world.hpp"
 
 namespace falling_particles {
 
 inline constexpr std::string_view kTrajectoryFile = "trajectory.csv";
 inline constexpr std::string_view kEnergiesFile = "energies.csv";
+inline constexpr std::string_view kStateFile = "state.csv";
 inline constexpr std::string_view kSummaryFile = "summary.toml";
 inline constexpr std::string_view kDischargeFile = "discharge.csv";
-inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile, kSummaryFile, kDischargeFile};
+inline constexpr std::string_view kCompressionFile = "compression.csv";
+inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,  kStateFile,
+                                            kSummaryFile,    kDischargeFile, kCompressionFile};
 
 /// trajectory.csv has a line per frame and body. Numbers are the shortest text that reads back exactly. All files are handed over
-/// to the system frame by frame: a run that is killed leaves whole frames.
+/// to the system frame by frame: a run that is killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
 class Trajectory {
  public:
   explicit Trajectory(const std::filesystem::path& path);
   void write(double time, const World& world);
-  void close();  ///< throws when anything could not be written
+  void close() { file_.close(); }
 
  private:
-  std::filesystem::path path_;
-  std::ofstream stream_;
+  OutputFile file_;
 };
 
 /// energies.csv has a line per frame.
@@ -35,11 +39,32 @@ class Energies {
  public:
   explicit Energies(const std::filesystem::path& path);
   void write(double time, const Energy& energy, std::size_t contacts);
-  void close();  ///< throws when anything could not be written
+  void close() { file_.close(); }
 
  private:
-  std::filesystem::path path_;
-  std::ofstream stream_;
+  OutputFile file_;
+};
+
+/// What the end of the summary says of a run, at any time of it.
+struct State {
+  double deepest_contact;                ///< m, of the last step
+  double deepest_contact_of_all_steps;   ///< m, of those so far
+  std::optional<double> kinetic_height;  ///< m, to which the kinetic energy would lift all grains; with gravity
+  double largest_kinetic_energy;         ///< J, of the grain that has most
+  double energy_lost;                    ///< J, from the start to the least of the steps so far
+  double energy_gained;                  ///< J, largest rise over any step before
+  std::size_t leaked;                    ///< grains that have been outside
+};
+
+/// state.csv has a line per frame.
+class StateFile {
+ public:
+  explicit StateFile(const std::filesystem::path& path);
+  void write(double time, const State& state);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
 };
 
 /// discharge.csv, of a hopper, has a line per frame.
@@ -47,11 +72,21 @@ class DischargeFile {
  public:
   explicit DischargeFile(const std::filesystem::path& path);
   void write(double time, double mass, std::size_t count);  ///< s; kg and number of the grains that have passed the outlet so far
-  void close();                                             ///< throws when anything could not be written
+  void close() { file_.close(); }
 
  private:
-  std::filesystem::path path_;
-  std::ofstream stream_;
+  OutputFile file_;
+};
+
+/// compression.csv, of a compression, has a line per frame after the start, where no contact has been measured yet.
+class CompressionFile {
+ public:
+  explicit CompressionFile(const std::filesystem::path& path);
+  void write(double time, const Packing& packing);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
 };
 
 }  // namespace falling_particles

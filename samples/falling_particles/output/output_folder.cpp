@@ -30,8 +30,9 @@ constexpr std::string_view kMarkText =
 
 bool is_output_file(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename().string();
-  const auto writes = [&](const PictureFormat& format) { return std::ranges::find(format.files, name) != format.files.end(); };
-  return std::ranges::find(kOutputFiles, name) != kOutputFiles.end() || std::ranges::any_of(picture_formats(), writes);
+  const auto holds = [&](const auto& names) { return std::ranges::find(names, name) != names.end(); };
+  const auto writes = [&](const PictureFormat& format) { return holds(format.files) || holds(format.rendered); };
+  return holds(kOutputFiles) || std::ranges::any_of(picture_formats(), writes);
 }
 
 /// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "output/lammps_dump.hpp"
+#include "output/plots.hpp"
 #include "output/povray_scene.hpp"
 #include "output/scene_glb.hpp"
 #include "output/view_page.hpp"
@@ -20,18 +21,24 @@ std::unique_ptr<Picture> make_vtk(const OutputFolder& folder, const PictureForma
   return std::make_unique<VtkSeries>(folder, contents);
 }
 
+std::unique_ptr<Picture> make_plots(const OutputFolder&, const PictureFormat&, const Contents& contents) {
+  return std::make_unique<Plots>(contents);
+}
+
 }  // namespace
 
 const std::vector<PictureFormat>& picture_formats() {
-  static const std::vector<PictureFormat> formats = {{"page", {"view.html"}, make_file<ViewPage>},
-                                                     {"glb", {"scene.glb"}, make_file<SceneGlb>},
-                                                     {"lammps", {"grains.lammpstrj"}, make_file<LammpsDump>},
-                                                     {"vtk", {"grains.pvd", "contacts.pvd", "container.pvd", "vtk"}, make_vtk},
-                                                     {"povray", {"still.pov"}, make_file<PovrayScene>}};
+  static const std::vector<PictureFormat> formats = {
+      {"page", {"view.html"}, make_file<ViewPage>},
+      {"glb", {"scene.glb"}, make_file<SceneGlb>},
+      {"lammps", {"grains.lammpstrj"}, make_file<LammpsDump>},
+      {"vtk", {"grains.pvd", "contacts.pvd", "container.pvd", "vtk"}, make_vtk},
+      {"povray", {"still.pov"}, make_file<PovrayScene>, {"still.png"}},
+      {"plots", {}, make_plots, {"energies.svg", "state.svg", "discharge.svg", "compression.svg"}}};
   return formats;
 }
 
-std::vector<std::string> default_pictures() { return {"page", "glb"}; }
+std::vector<std::string> default_pictures() { return {"page", "glb", "plots"}; }
 
 const PictureFormat* find_picture_format(std::string_view name) {
   const auto found = std::ranges::find(picture_formats(), name, &PictureFormat::name);

@@ -8,6 +8,7 @@
 
 #include "output/frame.hpp"
 #include "output/output_folder.hpp"
+#include "output/rendering.hpp"
 
 namespace falling_particles {
 
@@ -23,6 +24,8 @@ class Picture {
   /// Writes what is left to write; throws std::runtime_error when anything could not be written. `summary`: the text of
   /// summary.toml.
   virtual void finish(const std::string& summary) = 0;
+  /// What other programs are to make of the files when the results of the run are in place.
+  virtual std::vector<Rendering> renderings() const { return {}; }
 };
 
 /// A format that a scene can ask for: [output] pictures = ["name", …].
@@ -30,6 +33,7 @@ struct PictureFormat {
   std::string_view name;
   std::vector<std::string_view> files;  ///< names of the files and folders that it writes into the output folder
   std::unique_ptr<Picture> (*make)(const OutputFolder& folder, const PictureFormat& format, const Contents& contents);
+  std::vector<std::string_view> rendered = {};  ///< names of the files that other programs make
 };
 
 /// All formats, in the order in which they are listed for users.

@@ -132,4 +132,9 @@ void PovrayScene::finish(const std::string& /*summary*/) {
   write_file(path_, text);
 }
 
+std::vector<Rendering> PovrayScene::renderings() const {
+  const std::string scene = path_.filename().string();
+  return {{"still.png", {"povray", "+I" + scene, "+O-", "+FN", "+W900", "+H560", "+A0.2", "-D"}, "", "povray"}};
+}
+
 }  // namespace falling_particles

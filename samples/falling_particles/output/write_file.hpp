@@ -1,16 +1,35 @@
-// Writing files without losing anything in silence.
+// Writing files without losing anything in silence: what cannot be written is a std::runtime_error with the file and the reason.
 #pragma once
 
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace falling_particles {
 
-/// Throws std::runtime_error when anything could not be written.
-void close_or_throw(std::ofstream& stream, const std::filesystem::path& path);
+/// A file that grows piece by piece. Each piece is handed over to the system at once: a run that is killed leaves whole pieces.
+class OutputFile {
+ public:
+  explicit OutputFile(std::filesystem::path path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
 
-/// Writes a whole file; throws std::runtime_error when that is not possible.
-void write_file(const std::filesystem::path& path, const std::string& text);
+  void write(std::string_view text);
+  void close();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path path_;
+  int file_;
+};
+
+/// Writes a whole file.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// Ends a file that a stream has written.
+void close_or_throw(std::ofstream& stream, const std::filesystem::path& path);
 
 }  // namespace falling_particles

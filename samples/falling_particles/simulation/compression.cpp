@@ -36,10 +36,11 @@ void Compressor::after_step(double time, std::span<const dContactGeom> contacts)
   const auto bodies = static_cast<double>(world_.bodies().size());
   const double side = cell_.side();
   const double fraction = grain_volume_ / (side * side * side);
-  packing_ = {side, fraction, fraction * std::pow(1 - overlap.relative, 3), overlap,
-              2 * static_cast<double>(overlap.contacts) / bodies};
-
   const double progress = std::min(1.0, time / (kRestFrom * duration_));
+  const double target = compression_.overlap * std::pow(compression_.final_overlap / compression_.overlap, progress);
+  packing_ = {side,    fraction, fraction * std::pow(1 - overlap.relative, 3),
+              overlap, target,   2 * static_cast<double>(overlap.contacts) / bodies};
+
   const double kept = progress < 1 ? 1 - compression_.damping : 0;
   for (const Body& body : world_.bodies()) {
     const dReal* v = dBodyGetLinearVel(body.body);
@@ -47,7 +48,6 @@ void Compressor::after_step(double time, std::span<const dContactGeom> contacts)
     dBodySetLinearVel(body.body, kept * v[0], kept * v[1], kept * v[2]);
     dBodySetAngularVel(body.body, kept * w[0], kept * w[1], kept * w[2]);
   }
-  const double target = compression_.overlap * std::pow(compression_.final_overlap / compression_.overlap, progress);
   // A few grains that overlap among many that do not are no pressure: the mean is taken as if there were a contact for each grain
   // at least.
   const double share = std::min(1.0, static_cast<double>(overlap.contacts) / bodies);

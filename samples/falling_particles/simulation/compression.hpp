@@ -24,6 +24,7 @@ struct Packing {
   double volume_fraction;  ///< volume of the grains / that of the cell: volume that two grains share counts twice
   double at_contact;       ///< volume_fraction of grains shrunk, all alike, until they no longer overlap in the mean
   MeanOverlap overlap;
+  double target_overlap;      ///< relative, for the mean
   double contacts_per_grain;  ///< contacts that overlap, each counted for both its grains; rattlers included
 };
 

@@ -12,6 +12,7 @@ extern "C" void raise_flag(int) { interrupt_flag = 1; }
 }  // namespace
 
 void catch_interrupts() {
+  interrupt_flag = 0;
   struct sigaction action {};
   action.sa_handler = raise_flag;
   action.sa_flags = static_cast<int>(SA_RESETHAND);

@@ -3,7 +3,7 @@
 
 namespace falling_particles {
 
-/// From now on the first Ctrl-C (SIGINT) or SIGTERM only raises a flag; a second one ends the program as usual.
+/// Lowers the flag. From now on the first Ctrl-C (SIGINT) or SIGTERM only raises it; a second one ends the program as usual.
 void catch_interrupts();
 
 bool interrupted();

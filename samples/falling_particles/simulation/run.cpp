@@ -1,10 +1,12 @@
 #include "run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -46,17 +48,36 @@ struct Watches {
   std::optional<Compressor> compressor;  // for a periodic cell
 };
 
+/// `stepper`: null before the first step.
+State state_of(const World& world, const Scene& scene, const Watches& watches, const Stepper* stepper) {
+  State state{};
+  if (stepper != nullptr) {
+    for (const dContactGeom& contact : stepper->contact_geoms()) {
+      state.deepest_contact = std::max<double>(state.deepest_contact, contact.depth);
+    }
+    state.deepest_contact_of_all_steps = stepper->deepest_contact();
+  }
+  if (scene.gravity() != nullptr) state.kinetic_height = kinetic_height(world, scene);
+  state.largest_kinetic_energy = largest_kinetic_energy(world);
+  state.energy_lost = watches.energy.lost();
+  state.energy_gained = watches.energy.gained();
+  state.leaked = watches.leaks.count();
+  return state;
+}
+
 /// Writes the frames of a run as it goes.
 class Recorder {
  public:
-  Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const std::optional<Discharge>& discharge)
+  Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const Watches& watches)
       : world_(world),
         scene_(scene),
-        discharge_(discharge),
+        watches_(watches),
         contents_(contents_of(world, scene)),
         trajectory_(folder.file(std::string(kTrajectoryFile))),
-        energies_(folder.file(std::string(kEnergiesFile))) {
-    if (discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
+        energies_(folder.file(std::string(kEnergiesFile))),
+        states_(folder.file(std::string(kStateFile))) {
+    if (watches.discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
+    if (watches.compressor) compression_file_.emplace(folder.file(std::string(kCompressionFile)));
     for (const std::string& name : scene.pictures) {
       const PictureFormat& format = *find_picture_format(name);
       pictures_.push_back(format.make(folder, format, contents_));
@@ -68,7 +89,9 @@ class Recorder {
     trajectory_.write(time, world_);
     const Energy energy = measure_energy(world_, scene_);
     energies_.write(time, energy, stepper == nullptr ? 0 : stepper->contacts());
-    if (discharge_file_) discharge_file_->write(time, discharge_->mass(), discharge_->count());
+    states_.write(time, state_of(world_, scene_, watches_, stepper));
+    if (discharge_file_) discharge_file_->write(time, watches_.discharge->mass(), watches_.discharge->count());
+    if (compression_file_ && stepper != nullptr) compression_file_->write(time, watches_.compressor->packing());
     if (pictures_.empty()) return;
     const Frame frame = frame_of(time, energy, contents_, world_, stepper);
     for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
@@ -80,21 +103,33 @@ class Recorder {
   void close_tables() {
     trajectory_.close();
     energies_.close();
+    states_.close();
     if (discharge_file_) discharge_file_->close();
+    if (compression_file_) compression_file_->close();
   }
 
   void finish_pictures(const std::string& summary) {
     for (const std::unique_ptr<Picture>& picture : pictures_) picture->finish(summary);
   }
 
+  std::vector<Rendering> renderings() const {
+    std::vector<Rendering> all;
+    for (const std::unique_ptr<Picture>& picture : pictures_) {
+      for (Rendering& rendering : picture->renderings()) all.push_back(std::move(rendering));
+    }
+    return all;
+  }
+
  private:
   const World& world_;
   const Scene& scene_;
-  const std::optional<Discharge>& discharge_;
+  const Watches& watches_;
   Contents contents_;
   Trajectory trajectory_;
   Energies energies_;
+  StateFile states_;
   std::optional<DischargeFile> discharge_file_;
+  std::optional<CompressionFile> compression_file_;
   std::vector<std::unique_ptr<Picture>> pictures_;
 };
 
@@ -141,7 +176,7 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
   World world(scene, place(scene, random));
   Stepper stepper(world, scene, threads);
   Watches watches(world, scene, random);
-  Recorder recorder(folder, world, scene, watches.discharge);
+  Recorder recorder(folder, world, scene, watches);
   snResetStatistics();
   const auto start = std::chrono::steady_clock::now();
   const int steps = advance(stepper, watches, recorder, scene.time, quiet);
@@ -184,7 +219,7 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                  describe(*watches.leaks.first()).c_str());
   }
   if (!quiet) std::fprintf(stderr, "Results: %s\n", folder.path().c_str());
-  return {early, watches.leaks.count() > 0};
+  return {early, watches.leaks.count() > 0, folder.path(), recorder.renderings()};
 }
 
 }  // namespace falling_particles
