@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -28,7 +29,8 @@ constexpr const char* kFooter =
     "compression.csv, and the pictures that the scene asks for, view.html, scene.glb and a plot of each table if it does not\n"
     "say; until the end they are in OUT/<scene>.unfinished-1. If the run is killed the tables stay there, up to the last frame,\n"
     "until the next run of the scene.\n"
-    "Exit code: 0 done; 1 failed (disk full, say, or stdout closed); 2 bad input, nothing written;\n"
+    "Exit code: 0 done; 1 failed (disk full, say, or stdout closed): results of an earlier run stay unless there are new ones;\n"
+    "2 bad input, nothing written;\n"
     "3 with --check-leaks: a grain left the container, all results written;\n"
     "130 stopped by Ctrl-C, with all results up to then written.";
 
@@ -54,6 +56,7 @@ ExitCode simulate(const Options& options) {
   falling_particles::Scene scene = falling_particles::load_scene(options.scene_path);
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // what does not fit `ulimit -f` is an error of its write
   const falling_particles::RunEnd end = falling_particles::run(scene, options.out, options.quiet, options.threads);
   std::fflush(stdout);
   falling_particles::catch_interrupts();  // again: the results are in place, and a Ctrl-C ends only the drawing

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "output/write_file.hpp"
 #include "simulation/interrupt.hpp"
 
 namespace falling_particles {
@@ -56,8 +57,7 @@ class MemoryFile {
 
   int number() const { return file_.number(); }
   void fill(const std::string& text) {
-    const bool is_written = write(number(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    if (!is_written) throw std::system_error(errno, std::generic_category(), "cannot run another program");
+    if (!write_all(number(), text)) throw std::system_error(errno, std::generic_category(), "cannot run another program");
     lseek(number(), 0, SEEK_SET);
   }
   std::string text() {

@@ -8,11 +8,15 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
+#include "output/write_file.hpp"
 #include "output_files.hpp"
 #include "picture.hpp"
 #include "scene/input_error.hpp"
@@ -35,7 +39,8 @@ bool is_output_file(const fs::directory_entry& entry) {
   return holds(kOutputFiles) || std::ranges::any_of(picture_formats(), writes);
 }
 
-/// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run.
+/// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run, and it is not
+/// write-protected.
 void refuse_foreign(const fs::path& target) {
   if (!fs::exists(fs::symlink_status(target))) return;
   if (!fs::is_directory(fs::symlink_status(target))) {
@@ -46,6 +51,9 @@ void refuse_foreign(const fs::path& target) {
       throw InputError("output folder \"" + target.string() + "\" holds " + entry.path().filename().string() +
                        ", which no run writes; allowed: a new folder or an earlier run's (see --out)");
     }
+  }
+  if (access(target.c_str(), W_OK) != 0) {
+    throw fs::filesystem_error("", target, std::error_code(errno, std::generic_category()));
   }
 }
 
@@ -91,6 +99,16 @@ void remove_leftovers(const fs::path& target) {
   }
 }
 
+/// Exchanges two folders, so that at any time there is one of that name; false where there is no second one, or the file system
+/// cannot.
+bool exchange(const fs::path& one, const fs::path& other) {
+  return renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
+}
+
+bool is_lack_of_space(const std::error_code& code) {
+  return code.value() == ENOSPC || code.value() == EDQUOT || code.value() == EFBIG;
+}
+
 std::size_t count_missing(fs::path folder) {
   std::size_t missing = 0;
   for (; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) ++missing;
@@ -107,7 +125,9 @@ OutputFolder::OutputFolder(const fs::path& parent, const std::string& name)
     create_staging();
   } catch (const fs::filesystem_error& error) {
     discard();
-    throw InputError("cannot create output folder \"" + target_.string() + "\": " + error.code().message());
+    const std::string complaint = "cannot create output folder \"" + target_.string() + "\": " + error.code().message();
+    if (is_lack_of_space(error.code())) throw std::runtime_error(complaint);
+    throw InputError(complaint);
   }
 }
 
@@ -118,7 +138,7 @@ void OutputFolder::create_staging() {
     if (!fs::create_directory(folder)) continue;
     staging_ = folder;
     mark_ = open_mark(staging_, O_CREAT);
-    if (mark_ < 0 || write(mark_, kMarkText.data(), kMarkText.size()) != static_cast<ssize_t>(kMarkText.size())) {
+    if (mark_ < 0 || !write_all(mark_, kMarkText)) {
       throw fs::filesystem_error("", staging_, std::error_code(errno, std::generic_category()));
     }
     if (!is_taken_away(mark_)) return;
@@ -141,11 +161,28 @@ void OutputFolder::discard() {
 }
 
 void OutputFolder::commit() {
-  refuse_foreign(target_);  // somebody may have put something there during the run
-  fs::remove_all(target_);
-  fs::remove(staging_ / kMarkFile);
-  fs::rename(staging_, target_);
-  staging_.clear();
+  const fs::path results = std::exchange(staging_, {});  // the run is whole, and stays there if it cannot go to its place
+  const auto fail = [&results](const std::string& reason) {
+    throw std::runtime_error(reason + "; the results are in \"" + results.string() + '"');
+  };
+  try {
+    fs::remove(results / kMarkFile);
+    refuse_foreign(target_);  // somebody may have put something there during the run
+    if (!exchange(results, target_)) {
+      fs::remove_all(target_);
+      fs::rename(results, target_);
+      return;
+    }
+  } catch (const InputError& error) {
+    fail(error.what());
+  } catch (const fs::filesystem_error& error) {
+    fail("cannot create output folder \"" + target_.string() + "\": " + error.code().message());
+  }
+  std::error_code error;
+  fs::remove_all(results, error);
+  if (!error) return;
+  throw std::runtime_error("cannot remove the earlier run's results, which are in \"" + results.string() +
+                           "\" now: " + error.message() + "; the new ones are in \"" + target_.string() + '"');
 }
 
 }  // namespace falling_particles

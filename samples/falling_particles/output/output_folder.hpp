@@ -13,13 +13,15 @@ namespace falling_particles {
 /// with the same name removes it.
 class OutputFolder {
  public:
-  /// Throws InputError when `parent`/`name` exists and holds anything but an earlier run's files, or cannot be created.
+  /// Throws InputError when `parent`/`name` exists and holds anything but an earlier run's files, or cannot be created or replaced;
+  /// std::runtime_error when the disk is full.
   OutputFolder(const std::filesystem::path& parent, const std::string& name);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   std::filesystem::path file(const std::string& name) const { return staging_ / name; }
+  /// Throws std::runtime_error when the results cannot go to their place; they stay where they are then, and it says so.
   void commit();
   const std::filesystem::path& path() const { return target_; }
 

@@ -102,7 +102,7 @@ VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
       container_file_(folder.file("container.pvd")),
       frames_folder_(folder.file(std::string(kFramesFolder))),
       contents_(contents) {
-  std::filesystem::create_directory(frames_folder_);
+  create_folder(frames_folder_);
 }
 
 void VtkSeries::add(const Frame& frame) {

@@ -8,6 +8,9 @@
 
 namespace falling_particles {
 
+/// Writes to an open file; false, with errno, when it does not take all.
+bool write_all(int file, std::string_view text);
+
 /// A file that grows piece by piece. Each piece is handed over to the system at once: a run that is killed leaves whole pieces.
 class OutputFile {
  public:
@@ -26,8 +29,11 @@ class OutputFile {
   int file_;
 };
 
-/// Writes a whole file.
+/// Writes a whole file, or none.
 void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// Creates a folder, if it is not there.
+void create_folder(const std::filesystem::path& path);
 
 /// Ends a file that a stream has written.
 void close_or_throw(std::ofstream& stream, const std::filesystem::path& path);

@@ -46,7 +46,7 @@ double Progress::seconds_left(int step) const {
   return elapsed * (steps_ - step) / step;
 }
 
-void Progress::finish() {
+Progress::~Progress() {
   if (terminal_) std::fputc('\n', stream_);
 }
 

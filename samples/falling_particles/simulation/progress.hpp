@@ -10,11 +10,13 @@ namespace falling_particles {
 class Progress {
  public:
   Progress(std::FILE* stream, int steps);
+  /// Ends the bar's line, whatever stops the run.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
 
   /// Updates after step `step` of `steps`, with the simulated seconds and the contacts of the step.
   void update(int step, double simulated, std::size_t contacts);
-  /// Ends the bar's line. Called once, also when the run stops early.
-  void finish();
 
  private:
   using Clock = std::chrono::steady_clock;

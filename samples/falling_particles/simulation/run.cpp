@@ -157,7 +157,6 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& 
     if (last) break;
   }
   recorder.close_tables();
-  if (progress) progress->finish();
   return step;
 }
 
