@@ -114,6 +114,7 @@ ProgramEnd run_program(const std::vector<std::string>& command, const std::files
   actions.give(messages.number(), STDERR_FILENO);
   std::vector<std::string> words = command;  // posix_spawn takes what it does not change as variable
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t program = 0;

@@ -1,14 +1,14 @@
 // The scripts of plots/ as texts that end with a zero. The compiler's -I says where they are.
-    .macro script name
-    .global plot_\name
-plot_\name:
-    .incbin "\name\().gp"
+    .macro script symbol, file
+    .global \symbol
+\symbol:
+    .incbin "\file"
     .byte 0
     .endm
 
     .section .rodata
-    script energies
-    script state
-    script discharge
-    script compression
+    script kEnergiesScript, "energies.gp"
+    script kStateScript, "state.gp"
+    script kDischargeScript, "discharge.gp"
+    script kCompressionScript, "compression.gp"
     .section .note.GNU-stack, "", @progbits

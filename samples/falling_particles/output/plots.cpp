@@ -4,7 +4,7 @@
 #include <variant>
 
 // The texts of the scripts (plot_scripts.S).
-extern "C" const char plot_energies[], plot_state[], plot_discharge[], plot_compression[];
+extern "C" const char kEnergiesScript[], kStateScript[], kDischargeScript[], kCompressionScript[];
 
 namespace falling_particles {
 namespace {
@@ -16,9 +16,9 @@ Rendering plot(const std::string& table, const char* script) {
 }  // namespace
 
 std::vector<Rendering> Plots::renderings() const {
-  std::vector<Rendering> plots = {plot("energies", plot_energies), plot("state", plot_state)};
-  if (std::holds_alternative<Hopper>(contents_.scene->container)) plots.push_back(plot("discharge", plot_discharge));
-  if (contents_.scene->compression) plots.push_back(plot("compression", plot_compression));
+  std::vector<Rendering> plots = {plot("energies", kEnergiesScript), plot("state", kStateScript)};
+  if (std::holds_alternative<Hopper>(contents_.scene->container)) plots.push_back(plot("discharge", kDischargeScript));
+  if (contents_.scene->compression) plots.push_back(plot("compression", kCompressionScript));
   return plots;
 }
 
