@@ -1,0 +1,131 @@
+// Measures what each format of pictures costs of a run, and how large its files are. Prints a Markdown table. What other programs
+// draw when the run has ended is not in it.
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "measure/energy.hpp"
+#include "output/output_files.hpp"
+#include "output/picture.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/random.hpp"
+#include "simulation/stepper.hpp"
+#include "simulation/world.hpp"
+
+namespace {
+
+using namespace falling_particles;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string scene;
+  double duration = 1;
+  int frames = 30;
+};
+
+/// s, of this process on all processors: unlike the time on a clock it does not count what other programs do.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+template <typename Work>
+double seconds_of(const Work& work) {
+  const double start = processor_seconds();
+  work();
+  return processor_seconds() - start;
+}
+
+/// A format that writes into a folder of its own.
+struct Candidate {
+  std::string name;
+  std::unique_ptr<OutputFolder> folder;  // vanishes with its files
+  std::unique_ptr<Picture> picture;
+  double adding = 0;     // s, of all frames
+  double finishing = 0;  // s
+
+  double megabytes() const {
+    double bytes = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder->file(""))) {
+      if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+    }
+    return 1e-6 * bytes;
+  }
+};
+
+std::vector<Candidate> candidates(const Contents& contents) {
+  std::vector<Candidate> all;
+  for (const PictureFormat& format : picture_formats()) {
+    Candidate candidate;
+    candidate.name = format.name;
+    candidate.folder = std::make_unique<OutputFolder>(fs::temp_directory_path(), "pictures_cost");
+    candidate.picture = format.make(*candidate.folder, format, contents);
+    all.push_back(std::move(candidate));
+  }
+  return all;
+}
+
+void measure(const Options& options) {
+  const Scene scene = load_scene(options.scene);
+  const int steps = static_cast<int>(std::lround(options.duration / scene.time.step));
+  Random random(scene.seed);
+  World world(scene, place(scene, random));
+  Stepper stepper(world, scene);
+  const Contents contents = contents_of(world, scene);
+  std::vector<Candidate> all = candidates(contents);
+  OutputFolder tables(fs::temp_directory_path(), "pictures_cost");
+  Trajectory trajectory(tables.file(std::string(kTrajectoryFile)));
+  double stepping = 0, writing = 0, framing = 0;
+  int frames = 0;
+  for (int step = 0; step <= steps; ++step) {
+    if (step > 0) stepping += seconds_of([&] { stepper.step(); });
+    if (static_cast<long long>(step) * options.frames < static_cast<long long>(frames) * steps) continue;
+    ++frames;
+    const double time = step * scene.time.step;
+    writing += seconds_of([&] { trajectory.write(time, world); });
+    Frame frame;
+    framing +=
+        seconds_of([&] { frame = frame_of(time, measure_energy(world, scene), contents, world, step == 0 ? nullptr : &stepper); });
+    for (Candidate& candidate : all) candidate.adding += seconds_of([&] { candidate.picture->add(frame); });
+  }
+  for (Candidate& candidate : all) candidate.finishing = seconds_of([&] { candidate.picture->finish(""); });
+
+  std::printf("%d bodies, %d steps, %d frames\n\n", scene.bodies(), steps, frames);
+  std::printf("| | processor time, s | at the end, s | of the run | MB |\n|---|---:|---:|---:|---:|\n");
+  const double run = stepping + writing;
+  std::printf("| steps | %.2f | | | |\n| trajectory.csv | %.3f | | %.1f %% | %.2f |\n", stepping, writing, 100 * writing / run,
+              1e-6 * static_cast<double>(fs::file_size(tables.file(std::string(kTrajectoryFile)))));
+  for (const Candidate& candidate : all) {
+    const double seconds = framing + candidate.adding + candidate.finishing;
+    std::printf("| %s | %.3f | %.3f | %.1f %% | %.2f |\n", candidate.name.c_str(), seconds, candidate.finishing,
+                100 * seconds / run, candidate.megabytes());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    CLI::App app("Measures what the pictures of a run cost.", "pictures_cost");
+    Options options;
+    app.add_option("scene", options.scene, "scene file (TOML)")->required();
+    app.add_option("--duration", options.duration, "simulated seconds")->check(CLI::PositiveNumber)->capture_default_str();
+    app.add_option("--frames", options.frames, "frames after the start, evenly")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    measure(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pictures_cost: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
