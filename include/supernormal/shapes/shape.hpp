@@ -85,6 +85,9 @@ class SUPERNORMAL_API Shape {
   /// Whether advance_normal() differs from n + dn.
   virtual bool has_flat_faces() const { return false; }
 
+  /// Whether every flat face is across an axis of the body's frame. False where it is not known.
+  virtual bool has_axis_aligned_faces() const { return false; }
+
   /// Whether the body has flat faces or straight edges in the strict sense, so that its support function has kinks: all points of
   /// a face share one normal. evaluate() then delivers one of them, and H without the jump.
   virtual bool has_kinks() const { return false; }

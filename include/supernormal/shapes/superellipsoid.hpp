@@ -44,6 +44,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   /// power of n but n is a gentle power of r.
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
+  bool has_axis_aligned_faces() const override { return true; }
 
   bool is_round() const override { return std::min(delta_, epsilon_) >= 2 && std::max(delta_, epsilon_) <= kMostRound; }
   bool is_symmetric() const override { return true; }

@@ -36,7 +36,7 @@ bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
 }
 
 /// Whether there may be flat faces that are not across the axes of the body's frame.
-bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && shape.as_superellipsoid() == nullptr; }
+bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && !shape.has_axis_aligned_faces(); }
 
 }  // namespace
 

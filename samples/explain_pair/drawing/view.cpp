@@ -1,0 +1,164 @@
+#include "drawing/view.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <supernormal/shapes/silhouette.hpp>
+
+#include "method/contours.hpp"
+
+namespace explain_pair {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A curve is halved until its points are this near to one another or their parameters are as good as equal: at a flat face the
+// boundary point jumps.
+constexpr double kPixelStep = 3;
+constexpr double kSmallestStep = 1e-10;
+constexpr int kFirstPoints = 32;
+
+// Of a drawn line from the exact one.
+constexpr double kPixelError = 0.08;
+
+// Of the best by area: among views that show as much, that with the offset of the centres in the picture plane is chosen.
+constexpr double kPreference = 0.02;
+
+constexpr int kViews = 180;
+
+using Curve = std::function<Vector3(double)>;  // a unit normal, world frame
+
+Polyline trace(const PlacedBody& body, const View& view, const Curve& normal, double start, double end) {
+  Polyline line;
+  const auto point_at = [&](double t) { return view.to_px(body.point(normal(t).normalized())); };
+  const std::function<void(double, const Vector2&, double, const Vector2&)> halve = [&](double from, const Vector2& first,
+                                                                                        double to, const Vector2& last) {
+    if (std::abs(to - from) > kSmallestStep && (last - first).norm() > kPixelStep) {
+      const double middle = 0.5 * (from + to);
+      const Vector2 between = point_at(middle);
+      halve(from, first, middle, between);
+      halve(middle, between, to, last);
+    } else {
+      line.push_back(last);
+    }
+  };
+  line.push_back(point_at(start));
+  for (int k = 0; k < kFirstPoints; ++k) {
+    const double from = std::lerp(start, end, static_cast<double>(k) / kFirstPoints);
+    const double to = std::lerp(start, end, static_cast<double>(k + 1) / kFirstPoints);
+    halve(from, Vector2(line.back()), to, point_at(to));
+  }
+  return simplified(line, kPixelError);
+}
+
+/// The circle of normals at the angle acos(cosine) from an axis; it starts where it is nearest to the viewer.
+struct Circle {
+  Vector3 axis, nearest, aside;
+  double cosine, sine;
+
+  Circle(const Vector3& centre, const Vector3& toward, double c)
+      : axis(centre), cosine(c), sine(std::sqrt(std::max(1 - c * c, 0.0))) {
+    const Vector3 tangent = toward - toward.dot(axis) * axis;
+    nearest = tangent.norm() > 1e-9 ? tangent.normalized() : axis.unitOrthogonal();
+    aside = axis.cross(nearest);
+  }
+  Vector3 operator()(double angle) const { return cosine * axis + sine * (std::cos(angle) * nearest + std::sin(angle) * aside); }
+  /// Normals up to this angle to both sides of the start are visible; pi if all are, negative if none is.
+  double visible(const Vector3& toward) const {
+    const double depth = cosine * axis.dot(toward), reach = sine * nearest.dot(toward);
+    if (depth >= reach) return kPi;
+    if (depth <= -reach) return -1;
+    return std::acos(std::clamp(-depth / reach, -1.0, 1.0));
+  }
+};
+
+}  // namespace
+
+Frame frame_of_picture(const Pair& pair, const Vector3& normal) {
+  const Vector3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
+  const Vector3 offset = pair.body2.pose.position - pair.body1.pose.position;
+  const Vector3 aside = offset - offset.dot(normal) * normal;
+  const auto area = [](const PlacedBody& body, const Vector3& view) {
+    return supernormal::projected_area(*body.shape, body.pose.rotation.transpose() * view);
+  };
+  const double whole = supernormal::surface_area(*pair.body1.shape) + supernormal::surface_area(*pair.body2.shape);
+  double best = -std::numeric_limits<double>::infinity();
+  Frame frame{normal, e1, e2};
+  for (int k = 0; k < kViews; ++k) {
+    const double angle = kPi * k / kViews;
+    const Vector3 toward = std::cos(angle) * e1 + std::sin(angle) * e2;
+    const double hidden = aside.norm() > 0 ? std::abs(aside.dot(toward)) / aside.norm() : 0;
+    const double merit = (area(pair.body1, toward) + area(pair.body2, toward)) / whole - kPreference * hidden;
+    if (merit > best) {
+      best = merit;
+      frame = {normal, toward.cross(normal), toward};
+    }
+  }
+  // Up is up in the world, as far as it can be.
+  if (frame.up.z() < 0) frame = {normal, -frame.up, -frame.toward};
+  return frame;
+}
+
+View::View(const Frame& frame, const std::vector<const PlacedBody*>& bodies, const Box& box)
+    : View(frame, Vector3::Zero(), 1, box) {
+  const auto extent = [&](const Vector3& direction) {
+    double reach = -std::numeric_limits<double>::infinity();
+    for (const PlacedBody* body : bodies) reach = std::max(reach, body->reach(direction));
+    return reach;
+  };
+  const double right = extent(frame.right), left = -extent(-frame.right), top = extent(frame.up), bottom = -extent(-frame.up);
+  middle_ = 0.5 * (left + right) * frame.right + 0.5 * (bottom + top) * frame.up;
+  scale_ = std::min(box.width / (right - left), box.height / (top - bottom));
+}
+
+View::View(const Frame& frame, const Vector3& middle, double scale, const Box& box)
+    : frame_(frame), middle_(middle), scale_(scale), centre_(box.centre()) {}
+
+Vector2 View::to_px(const Vector3& point) const {
+  const Vector3 from_middle = point - middle_;
+  return centre_ + scale_ * Vector2(frame_.right.dot(from_middle), -frame_.up.dot(from_middle));
+}
+
+Polyline outline(const PlacedBody& body, const View& view) {
+  const Frame& frame = view.frame();
+  return trace(
+      body, view, [&](double t) { return Vector3(std::cos(t) * frame.right + std::sin(t) * frame.up); }, -kPi, kPi);
+}
+
+Polyline lit_part(const PlacedBody& body, const View& view, const Vector3& light, double cosine) {
+  const Vector3& toward = view.frame().toward;
+  const Circle circle(light, toward, cosine);
+  const double end = circle.visible(toward);
+  if (end < 0) return {};
+  Polyline part = trace(body, view, circle, -end, end);
+  if (end == kPi) return part;
+  // Back along the outline, on the side of the light.
+  const Vector3 middle = (light - light.dot(toward) * toward).normalized(), aside = toward.cross(middle);
+  const auto angle_of = [&](const Vector3& normal) { return std::atan2(normal.dot(aside), normal.dot(middle)); };
+  const double from = angle_of(circle(end)), to = angle_of(circle(-end));
+  const Polyline back = trace(
+      body, view, [&](double t) { return Vector3(std::cos(t) * middle + std::sin(t) * aside); }, from, to);
+  part.insert(part.end(), back.begin(), back.end());
+  return part;
+}
+
+std::vector<Polyline> graticule(const PlacedBody& body, const View& view, double spacing) {
+  const Vector3& toward = view.frame().toward;
+  const Matrix3& R = body.pose.rotation;
+  std::vector<Polyline> lines;
+  const auto add = [&](const Vector3& axis, double cosine) {
+    const Circle circle(axis, toward, cosine);
+    const double end = circle.visible(toward);
+    if (end > 0) lines.push_back(trace(body, view, circle, -end, end));
+  };
+  for (int k = 1; k * spacing < 180; ++k) add(R.col(2), std::cos(k * spacing * kPi / 180));
+  for (int k = 0; k * spacing < 180; ++k) {
+    const double angle = k * spacing * kPi / 180;
+    add(R * Vector3(std::cos(angle), std::sin(angle), 0), 0);
+  }
+  return lines;
+}
+
+}  // namespace explain_pair

@@ -1,0 +1,35 @@
+#include "method/explanation.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace explain_pair {
+
+using supernormal::Solver;
+using supernormal::Status;
+
+Explanation explain(const Pair& pair, const supernormal::Settings& settings) {
+  Explanation out{pair, {}, {}};
+  for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
+    supernormal::Settings own = settings;
+    own.solver = solver;
+    if (is_solver_for(solver, pair)) out.paths.push_back(solver_path(pair, own));
+  }
+  if (out.answer().status == Status::InvalidInput || out.hybrid().evaluations.empty())
+    throw std::runtime_error("\"" + pair.title + "\" has no answer: a pose or a shape has numbers that are not finite");
+  out.manifold =
+      supernormal::find_contact_manifold(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose, out.answer());
+  return out;
+}
+
+double room_left(const SolverPath& path, std::size_t evaluations, double rolling_radius, const Vector3& n) {
+  double best = -std::numeric_limits<double>::infinity(), least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < evaluations; ++k) {
+    best = std::max(best, path.evaluations[k].s);
+    least = std::min(least, n.dot(path.evaluations[k].cut));
+  }
+  return least - rolling_radius - best;
+}
+
+}  // namespace explain_pair

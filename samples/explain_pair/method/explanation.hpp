@@ -1,0 +1,29 @@
+// Everything that a picture shows of a pair.
+#pragma once
+
+#include <supernormal/contact/contact_manifold.hpp>
+#include <vector>
+
+#include "method/solver_path.hpp"
+#include "pair/pair.hpp"
+
+namespace explain_pair {
+
+struct Explanation {
+  Pair pair;
+  std::vector<SolverPath> paths;  ///< the hybrid's first
+  supernormal::ContactManifold manifold;
+
+  const SolverPath& hybrid() const { return paths.front(); }
+  const supernormal::Proximity& answer() const { return hybrid().answer; }
+};
+
+/// Solves the pair with every solver that the library has for it, with these settings but for the solver. Throws
+/// std::runtime_error if there is no answer: a pose or a shape with numbers that are not finite.
+Explanation explain(const Pair& pair, const supernormal::Settings& settings);
+
+/// What the cuts leave of the sphere after some evaluations: n may still be the best normal where this is not negative. It is the
+/// least of the cuts less the best value so far, m.
+double room_left(const SolverPath& path, std::size_t evaluations, double rolling_radius, const Vector3& n);
+
+}  // namespace explain_pair

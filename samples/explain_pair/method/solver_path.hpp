@@ -1,0 +1,57 @@
+// What a solver did with a pair.
+#pragma once
+
+#include <supernormal/proximity/gap_function.hpp>
+#include <supernormal/proximity/proximity.hpp>
+#include <vector>
+
+#include "pair/pair.hpp"
+
+namespace explain_pair {
+
+/// The gap function at one normal, in the world frame.
+struct Evaluation {
+  Vector3 n;    ///< unit, from body 1 to body 2
+  double s;     ///< m
+  Vector3 cut;  ///< m; d' = d + rho n: s(m) + rho <= m.d' for every unit m (lib/proximity/README.md, lemma 1)
+};
+
+/// What was proved after the first evaluations: the largest value of s is in [lower, upper], m.
+struct ProvedInterval {
+  int evaluations;
+  double lower, upper;
+};
+
+struct SolverPath {
+  supernormal::Solver solver;
+  supernormal::Proximity answer;          ///< in the world frame
+  std::vector<Evaluation> evaluations;    ///< in order
+  std::vector<ProvedInterval> intervals;  ///< after each evaluation, or after some when there are many
+};
+
+/// s at a unit normal in the world frame.
+class WorldGap {
+ public:
+  explicit WorldGap(const Pair& pair)
+      : gap_(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose), rotation_(pair.body1.pose.rotation) {}
+
+  double s(const Vector3& n);
+  Evaluation evaluate(const Vector3& n) { return evaluate_in_body1(rotation_.transpose() * n); }
+  /// The normal is in the frame of body 1, in which solvers work.
+  Evaluation evaluate_in_body1(const Vector3& n);
+  const supernormal::GapFunction& function() const { return gap_; }
+
+ private:
+  supernormal::GapFunction gap_;
+  Matrix3 rotation_;
+  supernormal::GapJet jet_;
+};
+
+/// Whether the library has this solver for the pair: others than the hybrid need smooth bodies, and Newton's method a Hessian.
+bool is_solver_for(supernormal::Solver solver, const Pair& pair);
+
+/// Runs the solver of the settings and records its path. An interval after k evaluations is that of the library's answer to a
+/// query that may take no more.
+SolverPath solver_path(const Pair& pair, const supernormal::Settings& settings);
+
+}  // namespace explain_pair

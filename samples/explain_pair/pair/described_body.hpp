@@ -1,0 +1,22 @@
+// A body from the words of the command line.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "pair/pair.hpp"
+
+namespace explain_pair {
+
+/// The kinds of bodies with their parameters, a line each, for the help text.
+std::string body_kinds();
+
+/// Makes a body from text such as "superellipsoid 1 0.8 0.5 2.5 8". Throws falling_particles::InputError; the message starts with
+/// `option`.
+PlacedBody described_body(const std::string& option, const std::string& text, double rounding);
+
+/// The rotation of a quaternion w, x, y, z of unit length, to 1e-3. Throws falling_particles::InputError.
+Matrix3 rotation_of(const std::string& option, std::span<const double, 4> quaternion);
+
+}  // namespace explain_pair

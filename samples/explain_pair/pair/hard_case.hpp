@@ -1,0 +1,16 @@
+// The pairs of tests/hard_cases, by name.
+#pragma once
+
+#include <string>
+
+#include "pair/pair.hpp"
+
+namespace explain_pair {
+
+/// The case of that name. Throws falling_particles::InputError.
+Pair hard_case(const std::string& name);
+
+/// The names of all cases and why each is hard, two lines a case.
+std::string list_of_hard_cases();
+
+}  // namespace explain_pair
