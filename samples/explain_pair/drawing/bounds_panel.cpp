@@ -15,8 +15,7 @@ namespace {
 using supernormal::Solver;
 
 constexpr double kLeft = 62, kBottom = 36;  // px, for the labels of the axes
-constexpr double kLeastEvaluations = 8;
-constexpr int kDecadeLabels = 3;  // at most, above and below
+constexpr int kDecadeLabels = 3;            // at most, above and below
 
 /// Lengths from the answer on logarithmic axes: powers of ten from `least` up and down, with 0 in the middle.
 struct Axes {
@@ -33,21 +32,13 @@ struct Axes {
   }
 };
 
-/// The number of evaluations to show: all of the hybrid's, and of others no more than twice as many.
-double shown_evaluations(const Explanation& explanation) {
-  const double own = std::max(kLeastEvaluations, static_cast<double>(explanation.hybrid().evaluations.size()));
-  double others = 0;
-  for (const SolverPath& path : explanation.paths) others = std::max(others, static_cast<double>(path.evaluations.size()));
-  return std::max(own, std::min(others, 2 * own));
-}
-
 Axes axes_of(const Box& box, const Explanation& explanation) {
   const SolverPath& hybrid = explanation.hybrid();
-  const double answer = hybrid.answer.gap, evaluations = shown_evaluations(explanation);
+  const double answer = hybrid.answer.gap, evaluations = static_cast<double>(explanation.shown_evaluations());
   double widest = 0;
   for (const ProvedInterval& interval : hybrid.intervals) widest = std::max(widest, interval.upper - answer);
   for (const SolverPath& path : explanation.paths) {
-    const auto count = std::min(path.evaluations.size(), static_cast<std::size_t>(evaluations));
+    const std::size_t count = explanation.shown_evaluations(path);
     for (std::size_t k = 0; k < count; ++k) widest = std::max(widest, std::abs(path.evaluations[k].s - answer));
   }
   const double last = std::max(hybrid.intervals.back().upper - answer, std::numeric_limits<double>::min());
@@ -97,12 +88,12 @@ void draw_interval(Svg& svg, const Axes& axes, const SolverPath& path) {
   svg.polyline(lower, R"(stroke="#000" stroke-width="1.8")");
 }
 
-void draw_values(Svg& svg, const Axes& axes, const SolverPath& path, double answer) {
+void draw_values(Svg& svg, const Axes& axes, const SolverPath& path, const Explanation& explanation) {
   const PathStyle& style = style_of(path.solver);
+  const double answer = explanation.answer().gap;
   Polyline line;
-  for (std::size_t k = 0; k < path.evaluations.size(); ++k) {
-    const auto evaluation = static_cast<double>(k + 1);
-    if (evaluation <= axes.evaluations) line.emplace_back(axes.x(evaluation), axes.y(path.evaluations[k].s - answer));
+  for (std::size_t k = 0; k < explanation.shown_evaluations(path); ++k) {
+    line.emplace_back(axes.x(static_cast<double>(k + 1)), axes.y(path.evaluations[k].s - answer));
   }
   svg.polyline(line, std::string("stroke=\"") + style.colour + R"(" stroke-width="1.6" stroke-dasharray=")" + style.dashes + '"');
   for (const Vector2& point : line) draw_marker(svg, point, style, line.size() > 40 ? 1.6 : 3);
@@ -116,8 +107,7 @@ void draw_bounds(Svg& svg, const Box& box, const Explanation& explanation) {
   draw_axes(svg, axes);
   svg.line({axes.box.x, axes.box.centre().y()}, {axes.box.right(), axes.box.centre().y()}, R"(stroke="#555" stroke-width="1")");
   draw_interval(svg, axes, explanation.hybrid());
-  for (auto path = explanation.paths.rbegin(); path != explanation.paths.rend(); ++path)
-    draw_values(svg, axes, *path, explanation.answer().gap);
+  for (auto path = explanation.paths.rbegin(); path != explanation.paths.rend(); ++path) draw_values(svg, axes, *path, explanation);
   svg.rect(axes.box, R"(fill="none" stroke="#222" stroke-width="1.4")");
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -25,10 +26,12 @@ constexpr std::size_t kSphereColumns = 181, kSphereRows = 91;  // 2 degrees
 constexpr std::size_t kCloseUpNodes = 97;
 constexpr int kBands = 18, kCloseUpBands = 10;
 constexpr double kPixelError = 0.12;
-constexpr double kStep = 2 * kDegree;    // of an arc on the map
-constexpr double kMarkersApart = 7;      // px; markers that are nearer to the one before are left out
-constexpr double kNumbersApart = 18;     // px; the same for their numbers
-constexpr double kSmallestRegion = 24;   // px; what the cuts leave is not drawn if it is smaller
+constexpr double kStep = 2 * kDegree;        // of an arc on the map
+constexpr double kMarkersApart = 7;          // px; markers that are nearer to the one before are left out
+constexpr double kNumbersApart = 20;         // px; the same for their numbers
+constexpr double kSmallestRegion = 24;       // px; what the cuts leave is not drawn if it is smaller
+constexpr std::size_t kFewEvaluations = 20;  // a longer path is drawn finely, without a rim
+constexpr std::size_t kNumbered = 9;
 constexpr std::size_t kMostRegions = 4;  // of what the cuts leave
 
 /// A map into the picture: where normals are, and the normal at each node of a grid.
@@ -37,7 +40,8 @@ struct MapInPicture {
   std::function<Vector2(const Vector2& node)> node_to_px;
   std::function<Vector3(double column, double row)> normal;
   std::function<Vector2(const Vector3& normal)> to_px;
-  double longest_piece;  // px; two points of an arc that are farther apart are on two sides of the map
+  Eigen::AlignedBox2d inside;  // px; where numbers have room
+  double longest_piece;        // px; two points of an arc that are farther apart are on two sides of the map
 };
 
 std::vector<Polyline> in_picture(std::vector<Polyline> lines, const MapInPicture& map) {
@@ -95,28 +99,59 @@ std::vector<std::size_t> regions_of(const SolverPath& path) {
   return counts;
 }
 
-void draw_regions(Svg& svg, const Explanation& explanation, const MapInPicture& map) {
+/// Where the number of a region's border stands: at its highest point that is on the map and away from other numbers.
+const Vector2* place_of_number(const std::vector<Polyline>& lines, const Polyline& others, const MapInPicture& map) {
+  const Vector2* best = nullptr;
+  for (const Polyline& line : lines) {
+    for (const Vector2& point : line) {
+      const auto is_near = [&](const Vector2& other) { return (other - point).norm() < kNumbersApart; };
+      const bool is_free = map.inside.contains(point) && std::ranges::none_of(others, is_near);
+      if (is_free && (best == nullptr || point.y() < best->y())) best = &point;
+    }
+  }
+  return best;
+}
+
+double size_of(const std::vector<Polyline>& lines) {
+  Eigen::AlignedBox2d extent;
+  for (const Polyline& line : lines) {
+    for (const Vector2& point : line) extent.extend(point);
+  }
+  return extent.isEmpty() ? 0 : extent.sizes().maxCoeff();
+}
+
+/// `occupied`: places that keep free of numbers.
+void draw_regions(Svg& svg, const Explanation& explanation, const MapInPicture& map, Polyline occupied) {
   const SolverPath& path = explanation.hybrid();
   const double rolling_radius = explanation.pair.body1.shape->rolling_radius() + explanation.pair.body2.shape->rolling_radius();
+  const auto excluded = [&](std::size_t evaluations) {
+    return grid_of(map, [&](const Vector3& n) { return -room_left(path, evaluations, rolling_radius, n); });
+  };
+  struct Region {
+    std::size_t evaluations;
+    std::vector<Polyline> outside, border;
+  };
+  std::vector<Region> regions;
   for (const std::size_t evaluations : regions_of(path)) {
-    const Grid room = grid_of(map, [&](const Vector3& n) { return room_left(path, evaluations, rolling_radius, n); });
-    if (room.most() < 0) return;
-    const auto lines = in_picture(without_border(superlevel_polygons(room, 0), room), map);
-    const Vector2* top = nullptr;
-    Eigen::AlignedBox2d extent;
-    for (const Polyline& line : lines) {
-      for (const Vector2& point : line) extent.extend(point);
-    }
-    if (extent.isEmpty() || extent.sizes().maxCoeff() < kSmallestRegion) return;
-    for (const Polyline& line : lines) {
-      svg.polyline(line, R"(stroke="#fff" stroke-opacity="0.7" stroke-width="3")");
+    const Grid grid = excluded(evaluations);
+    const std::vector<Polyline> outside = superlevel_polygons(grid, 0);
+    const std::vector<Polyline> border = in_picture(without_border(outside, grid), map);
+    if (size_of(border) < kSmallestRegion) break;
+    regions.push_back({evaluations, in_picture(outside, map), border});
+  }
+  if (regions.empty()) return;
+  svg.polygons(regions.back().outside, R"(fill="#000" fill-opacity="0.13")");
+  for (const Region& region : regions) {
+    for (const Polyline& line : region.border) {
+      svg.polyline(line, R"(stroke="#fff" stroke-opacity="0.6" stroke-width="2.6")");
       svg.polyline(line, kRegionStyle);
-      for (const Vector2& point : line) {
-        if (top == nullptr || point.y() < top->y()) top = &point;
-      }
     }
-    if (top == nullptr) continue;
-    draw_number(svg, *top, std::to_string(evaluations));
+  }
+  for (const Region& region : regions) {
+    const Vector2* const place = place_of_number(region.border, occupied, map);
+    if (place == nullptr) continue;
+    draw_number(svg, *place, std::to_string(region.evaluations));
+    occupied.push_back(*place);
   }
 }
 
@@ -137,10 +172,10 @@ std::vector<Polyline> arc(const Vector3& from, const Vector3& to, const MapInPic
 }
 
 /// The arcs between successive evaluations. A solver that goes in circles is drawn once.
-std::vector<Polyline> lines_of(const SolverPath& path, const MapInPicture& map) {
+std::vector<Polyline> lines_of(const SolverPath& path, std::size_t count, const MapInPicture& map) {
   std::vector<Polyline> lines(1, {map.to_px(path.evaluations.front().n)});
   std::set<std::array<long, 4>> drawn;
-  for (std::size_t k = 0; k + 1 < path.evaluations.size(); ++k) {
+  for (std::size_t k = 0; k + 1 < count; ++k) {
     const Vector3 &from = path.evaluations[k].n, &to = path.evaluations[k + 1].n;
     const Vector2 start = map.to_px(from), end = map.to_px(to);
     if (!drawn.insert({std::lround(start.x()), std::lround(start.y()), std::lround(end.x()), std::lround(end.y())}).second) {
@@ -155,33 +190,43 @@ std::vector<Polyline> lines_of(const SolverPath& path, const MapInPicture& map) 
   return lines;
 }
 
-void draw_path(Svg& svg, const SolverPath& path, const MapInPicture& map, double size, bool has_numbers) {
-  const PathStyle& style = style_of(path.solver);
-  const std::vector<Polyline> lines = lines_of(path, map);
-  for (const Polyline& line : lines) svg.polyline(line, R"(stroke="#fff" stroke-opacity="0.8" stroke-width="3.6")");
-  for (const Polyline& line : lines) {
-    svg.polyline(line, std::string("stroke=\"") + style.colour + R"(" stroke-width="1.8" stroke-dasharray=")" + style.dashes + '"');
-  }
+/// Marks evaluations, and numbers the first of them, where there is room.
+void draw_evaluations(Svg& svg, const SolverPath& path, std::size_t count, const MapInPicture& map, double size, bool has_numbers) {
   Polyline marked, numbered;
   const auto is_clear = [](const Polyline& others, const Vector2& at, double distance) {
     return std::ranges::all_of(others, [&](const Vector2& other) { return (other - at).norm() >= distance; });
   };
-  for (std::size_t k = 0; k < path.evaluations.size(); ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const Vector2 at = map.to_px(path.evaluations[k].n);
     if (!is_clear(marked, at, kMarkersApart)) continue;
     marked.push_back(at);
-    draw_marker(svg, at, style, size);
-    if (!has_numbers || !is_clear(numbered, at, kNumbersApart)) continue;
+    draw_marker(svg, at, style_of(path.solver), size);
+    if (!has_numbers || k >= kNumbered || !is_clear(numbered, at, kNumbersApart)) continue;
     numbered.push_back(at);
     svg.text(at + Vector2(-6, -6), std::to_string(k + 1),
              R"(text-anchor="end" font-size="12" stroke="#fff" stroke-width="3" stroke-opacity="0.8" paint-order="stroke")");
   }
 }
 
+void draw_path(Svg& svg, const SolverPath& path, std::size_t count, const MapInPicture& map, double size, bool has_numbers) {
+  const PathStyle& style = style_of(path.solver);
+  const bool is_short = count <= kFewEvaluations;
+  const std::vector<Polyline> lines = lines_of(path, count, map);
+  const auto draw = [&](const std::string& look) {
+    svg.begin_group(look);
+    for (const Polyline& line : lines) svg.polyline(line, "");
+    svg.end_group();
+  };
+  if (is_short) draw(R"(stroke="#fff" stroke-opacity="0.6" stroke-width="3.6")");
+  draw(std::string("stroke=\"") + style.colour + R"(" stroke-width=")" + (is_short ? "1.8" : "0.7") + R"(" stroke-dasharray=")" +
+       style.dashes + '"');
+  draw_evaluations(svg, path, count, map, is_short ? size : 0.7 * size, has_numbers);
+}
+
 void draw_paths(Svg& svg, const Explanation& explanation, const MapInPicture& map, double size, bool has_numbers) {
   // The hybrid on top.
   for (auto path = explanation.paths.rbegin(); path != explanation.paths.rend(); ++path) {
-    draw_path(svg, *path, map, size, has_numbers && path->solver == Solver::Hybrid);
+    draw_path(svg, *path, explanation.shown_evaluations(*path), map, size, has_numbers && path->solver == Solver::Hybrid);
   }
   draw_ring(svg, map.to_px(explanation.answer().normal));
 }
@@ -198,17 +243,25 @@ void draw_graticule(Svg& svg, const Frame& frame, const MapInPicture& map) {
   }
 }
 
-void draw_world_axes(Svg& svg, const MapInPicture& map) {
+/// The letters are beside their crosses towards the middle. Where they are.
+Polyline draw_world_axes(Svg& svg, const MapInPicture& map) {
+  const Vector2 middle = map.inside.center();
+  Polyline places;
   constexpr std::array kNames = {"x", "y", "z"};
   for (const int axis : {0, 1, 2}) {
     for (const double sign : {1.0, -1.0}) {
       const Vector2 at = map.to_px(sign * Vector3::Unit(axis));
       svg.line(at - Vector2(3.5, 0), at + Vector2(3.5, 0), R"(stroke="#222" stroke-width="1.2")");
       svg.line(at - Vector2(0, 3.5), at + Vector2(0, 3.5), R"(stroke="#222" stroke-width="1.2")");
-      svg.text(at + Vector2(6, 13), std::string(sign > 0 ? "+" : "−") + kNames[static_cast<std::size_t>(axis)],
-               R"(font-size="12" stroke="#fff" stroke-width="2.5" stroke-opacity="0.7" paint-order="stroke")");
+      places.push_back(at);
+      const bool is_right = at.x() > middle.x(), is_low = at.y() > middle.y();
+      svg.text(at + Vector2(is_right ? -6 : 6, is_low ? -5 : 13),
+               std::string(sign > 0 ? "+" : "−") + kNames[static_cast<std::size_t>(axis)],
+               std::string(is_right ? R"(text-anchor="end" )" : "") +
+                   R"(font-size="12" stroke="#fff" stroke-width="2.5" stroke-opacity="0.7" paint-order="stroke")");
     }
   }
+  return places;
 }
 
 /// The colours of the bands with every other level below.
@@ -218,15 +271,20 @@ void draw_colour_bar(Svg& svg, const Box& box, const Levels& levels) {
     svg.rect({box.x + k * width, box.y, width, box.height}, "fill=\"" + levels.colour(k) + R"(" stroke="#234" stroke-width="0.5")");
   }
   const int labels = 6;
-  const int every = std::max(1, (levels.count + labels - 1) / labels);
+  const int every = std::max(1, static_cast<int>(round_step(levels.count, labels)));
   for (int k = 0; k < levels.count; ++k) {
     const bool is_labelled = std::lround(levels[k] / levels.step) % every == 0;
     const double x = box.x + (k + 1) * width;
     if (!is_labelled) continue;
     svg.line({x, box.bottom()}, {x, box.bottom() + 4}, R"(stroke="#234" stroke-width="1")");
-    const double value = std::abs(levels[k]) < 1e-9 * levels.step ? 0 : levels[k];
-    svg.text({x, box.bottom() + 17}, length_text(value), R"(text-anchor="middle" font-size="12")");
+    const bool is_zero = std::abs(levels[k]) < 0.5 * levels.step;
+    svg.text({x, box.bottom() + 17}, is_zero ? "0" : length_text(levels[k]), R"(text-anchor="middle" font-size="12")");
   }
+}
+
+Eigen::AlignedBox2d room_in(const Box& box) {
+  const Vector2 margin(12, 12);
+  return {Vector2(box.x, box.y) + margin, Vector2(box.right(), box.bottom()) - margin};
 }
 
 MapInPicture hammer_in(const Box& box, const Frame& frame) {
@@ -244,6 +302,7 @@ MapInPicture hammer_in(const Box& box, const Frame& frame) {
           [=](const Vector2& node) { return to_px(place(node.x(), node.y())); },
           [=](double column, double row) { return normal_at(frame, place(column, row)); },
           [=](const Vector3& normal) { return to_px(place_of(frame, normal)); },
+          room_in(box),
           0.3 * box.width};
 }
 
@@ -260,7 +319,8 @@ MapInPicture lambert_in(const Box& box, const Frame& frame, double half_angle) {
           [=](const Vector2& node) { return to_px(point(node.x(), node.y())); },
           [=](double column, double row) { return LambertMap::to_sphere(frame, point(column, row)); },
           [=](const Vector3& normal) { return to_px(LambertMap::to_plane(frame, normal)); },
-          1e9};
+          room_in(box),
+          std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
@@ -310,7 +370,7 @@ void draw_sphere(Svg& svg, const Box& box, const Explanation& explanation, const
   draw_bands(svg, s, levels, map);
   draw_zero(svg, s, map);
   draw_graticule(svg, frame, map);
-  draw_regions(svg, explanation, map);
+  draw_regions(svg, explanation, map, draw_world_axes(svg, map));
   const double reach = 2 * std::sin(close_up / 2);
   Polyline window;
   for (int side = 0; side < 4; ++side) {
@@ -322,7 +382,6 @@ void draw_sphere(Svg& svg, const Box& box, const Explanation& explanation, const
     }
   }
   svg.polygon(window, R"(fill="none" stroke="#222" stroke-width="1")");
-  draw_world_axes(svg, map);
   draw_paths(svg, explanation, map, 3.4, false);
   svg.ellipse(centre, half_width, half_width / 2, R"(fill="none" stroke="#222" stroke-width="1.4")");
   draw_colour_bar(svg, {centre.x() - half_width, box.bottom() - kBar + 12, 2 * half_width, 10}, levels);
@@ -339,21 +398,21 @@ void draw_close_up(Svg& svg, const Box& box, const Explanation& explanation, con
     draw_bands(svg, s, levels, map);
     draw_zero(svg, s, map);
   }
-  draw_regions(svg, explanation, map);
+  draw_regions(svg, explanation, map, {});
   draw_paths(svg, explanation, map, 4, true);
   svg.end_group();
   svg.rect(box, R"(fill="none" stroke="#222" stroke-width="1.4")");
 }
 
 double close_up_angle(const Explanation& explanation) {
-  constexpr double kLeast = 0.2 * kDegree, kMost = 40 * kDegree, kMargin = 1.4;
+  constexpr double kNone = 1e-6, kLeast = 0.2 * kDegree, kMost = 40 * kDegree, kMargin = 1.4;
   const Vector3& answer = explanation.answer().normal;
   double angle = 0;
   for (const SolverPath& path : explanation.paths) {
     if (path.evaluations.size() < 2) continue;
     angle = std::max(angle, 2 * std::asin(std::min(0.5 * (path.evaluations[1].n - answer).norm(), 1.0)));
   }
-  return angle == 0 ? kMost : std::clamp(kMargin * angle, kLeast, kMost);
+  return angle < kNone ? kMost : std::clamp(kMargin * angle, kLeast, kMost);
 }
 
 }  // namespace explain_pair

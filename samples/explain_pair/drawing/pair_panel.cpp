@@ -15,7 +15,6 @@
 namespace explain_pair {
 namespace {
 
-using supernormal::ContactManifold;
 using supernormal::Proximity;
 
 // px
@@ -119,7 +118,10 @@ void draw_planes(Svg& svg, const Box& box, double x1, double x2, double gap) {
   for (const double x : {x1, x2}) svg.line({x, box.y + 6}, {x, box.bottom()}, R"(stroke="#222" stroke-width="1.3")");
   const double y = box.y + 16;
   svg.arrow({x1, y}, {x1 + 46, y}, kInk, 1.8);
-  label(svg, {x1 + 52, y + 5}, "n", R"(font-style="italic" font-size="16")");
+  // Its name is at the tail where the other plane is close behind the tip.
+  const bool is_tight = x2 > x1 && x2 - x1 < 80;
+  label(svg, {x1 + (is_tight ? -8 : 52), y + 5}, "n",
+        std::string(R"(font-style="italic" font-size="16")") + (is_tight ? R"( text-anchor="end")" : ""));
   draw_gap(svg, box, x1, x2, gap);
 }
 
@@ -155,10 +157,7 @@ void draw_pair(Svg& svg, const Box& box, const Explanation& explanation, const F
 
   const Vector2 point1 = view.to_px(answer.point1), point2 = view.to_px(answer.point2);
   draw_planes(svg, box, point1.x(), point2.x(), answer.gap);
-  const ContactManifold& manifold = explanation.manifold;
-  for (int k = 0; k < manifold.corner_count; ++k) {
-    draw_contact(svg, view.to_px(manifold.corners[static_cast<std::size_t>(k)].point));
-  }
+  for (const supernormal::ManifoldCorner& corner : explanation.corners()) draw_contact(svg, view.to_px(corner.point));
   if (answer.gap <= 0) draw_contact(svg, view.to_px(answer.contact));
   draw_point(svg, point1, kPaint1.line);
   draw_point(svg, point2, kPaint2.line);
@@ -175,26 +174,25 @@ void draw_pair(Svg& svg, const Box& box, const Explanation& explanation, const F
 }
 
 void draw_manifold(Svg& svg, const Box& box, const Explanation& explanation, const Frame& frame) {
-  const ContactManifold& manifold = explanation.manifold;
+  const std::span<const supernormal::ManifoldCorner> corners = explanation.corners();
   const Pair& pair = explanation.pair;
-  const Frame along{-frame.toward, frame.up, frame.right};  // against the normal, body 2 on top
-  double reach = 0;
   const Vector3& contact = explanation.answer().contact;
-  Polyline corners;
-  for (int k = 0; k < manifold.corner_count; ++k) {
-    reach = std::max(reach, (manifold.corners[static_cast<std::size_t>(k)].point - contact).norm());
-  }
-  const View view(along, contact, 0.36 * std::min(box.width, box.height) / reach, box);
-  for (int k = 0; k < manifold.corner_count; ++k)
-    corners.push_back(view.to_px(manifold.corners[static_cast<std::size_t>(k)].point));
+  const Frame against{-frame.toward, frame.up, frame.right};  // the normal: body 2 is on top
+  Eigen::AlignedBox3d extent(against.from_world(contact));
+  for (const supernormal::ManifoldCorner& corner : corners) extent.extend(against.from_world(corner.point));
+  constexpr double kShare = 0.7;  // of the box
+  const double scale = kShare * std::min(box.width / extent.sizes().x(), box.height / extent.sizes().y());
+  const View view(against, against.to_world(extent.center()), scale, box);
+  Polyline polygon;
+  for (const supernormal::ManifoldCorner& corner : corners) polygon.push_back(view.to_px(corner.point));
   svg.begin_clipped(box);
   svg.polygon(outline(pair.body1, view), std::string(R"(fill="#DCE9F5" stroke-width="1.6" stroke=")") + kPaint1.line + '"');
   svg.polygon(outline(pair.body2, view),
               std::string(R"(fill="#F7E3CC" fill-opacity="0.7" stroke-width="1.6" stroke=")") + kPaint2.line + '"');
   svg.end_group();
-  svg.polygon(corners,
+  svg.polygon(polygon,
               std::string(R"(fill-opacity="0.35" stroke-width="1.2" fill=")") + kVermilion + "\" stroke=\"" + kVermilion + '"');
-  for (const Vector2& corner : corners) draw_contact(svg, corner);
+  for (const Vector2& corner : polygon) draw_contact(svg, corner);
   draw_contact(svg, view.to_px(contact));
   svg.rect(box, R"(fill="none" stroke="#999")");
 }

@@ -1,5 +1,6 @@
 #include "drawing/picture.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -41,7 +42,11 @@ std::string degrees(double radians) {
 
 void draw_titles(Svg& svg, const Explanation& explanation, double close_up) {
   const Pair& pair = explanation.pair;
-  svg.text({16, 28}, pair.title, kTitle);
+  // A long title is set smaller.
+  constexpr double kLargest = 17, kWidthOfLetter = 0.56;  // px; of the size
+  const double letters = static_cast<double>(pair.title.size());
+  const double size = std::min(kLargest, kPairBox.width / (kWidthOfLetter * std::max(letters, 1.0)));
+  svg.text({16, 28}, pair.title, "font-weight=\"bold\" font-size=\"" + coordinate(size) + '"');
   svg.rect({16, 40, 12, 12}, R"(fill="#8FB4D6" stroke="#1F5F8F")");
   svg.text({34, 51}, pair.body1.description, kSubtitle);
   svg.rect({16, 60, 12, 12}, R"(fill="#E3B583" stroke="#A3600F")");
@@ -90,18 +95,22 @@ void draw_legend(Svg& svg, const Box& box, const Explanation& explanation) {
   row("answer of the hybrid");
   svg.line(middle() - Vector2(17, 0), middle() + Vector2(17, 0), kRegionStyle);
   draw_number(svg, middle(), "k");
-  row("the cuts of k evaluations leave the inside");
+  row("what the cuts of k evaluations leave: the lighter side");
   if (explanation.answer().gap > 0) {
     svg.line(middle() - Vector2(17, 0), middle() + Vector2(17, 0), kZeroStyle);
     row("s = 0: normals inside prove that the bodies are apart");
   }
   if (explanation.answer().gap <= 0) {
     draw_contact(svg, middle());
-    const int corners = explanation.manifold.corner_count;
-    row(corners > 0 ? "contact points; seen along n in the box" : "contact point");
+    row(!explanation.corners().empty() ? "contact points; seen along n in the box" : "contact point");
   }
   svg.line(middle() + Vector2(0, -8), middle() + Vector2(0, 8), R"(stroke="#222" stroke-width="1.3")");
   row("tangent planes across n, seen edge on");
+  for (const SolverPath& path : explanation.paths) {
+    if (explanation.shown_evaluations(path) == path.evaluations.size()) continue;
+    row("paths end after " + std::to_string(explanation.shown_evaluations()) + " evaluations");
+    break;
+  }
 }
 
 }  // namespace
@@ -132,7 +141,7 @@ std::string picture_of(const Explanation& explanation) {
   draw_pair(svg, kPairBox, explanation, frame);
   draw_table(svg, kTableBox, explanation);
   draw_legend(svg, kLegendBox, explanation);
-  if (explanation.manifold.corner_count > 0) draw_manifold(svg, kManifoldBox, explanation, frame);
+  if (!explanation.corners().empty()) draw_manifold(svg, kManifoldBox, explanation, frame);
   draw_sphere(svg, kSphereBox, explanation, frame, close_up);
   draw_close_up(svg, kCloseUpBox, explanation, frame, close_up);
   draw_bounds(svg, kBoundsBox, explanation);

@@ -1,8 +1,7 @@
 #include "drawing/svg.hpp"
 
 #include <array>
-#include <cmath>
-#include <cstdio>
+#include <charconv>
 
 namespace explain_pair {
 namespace {
@@ -49,9 +48,9 @@ std::string escaped(std::string_view text) {
 }
 
 std::string coordinate(double value) {
-  std::array<char, 32> buffer;
-  const int length = std::snprintf(buffer.data(), buffer.size(), "%.1f", value);
-  std::string text(buffer.data(), static_cast<std::size_t>(length));
+  std::array<char, 330> buffer;  // for the largest number
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, 1);
+  std::string text(buffer.data(), end);
   if (text.ends_with(".0")) text.resize(text.size() - 2);
   return text == "-0" ? "0" : text;
 }

@@ -19,6 +19,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPixelStep = 3;
 constexpr double kSmallestStep = 1e-10;
 constexpr int kFirstPoints = 32;
+constexpr double kRounding = 1e-15;
 
 // Of a drawn line from the exact one.
 constexpr double kPixelError = 0.08;
@@ -28,11 +29,14 @@ constexpr double kPreference = 0.02;
 
 constexpr int kViews = 180;
 
-using Curve = std::function<Vector3(double)>;  // a unit normal, world frame
+using Curve = std::function<Vector3(double)>;  // a normal in the body's frame
 
+/// The image of the boundary points with the normals n(t).
 Polyline trace(const PlacedBody& body, const View& view, const Curve& normal, double start, double end) {
   Polyline line;
-  const auto point_at = [&](double t) { return view.to_px(body.point(normal(t).normalized())); };
+  const auto point_at = [&](double t) {
+    return view.to_px(body.pose.position + body.pose.rotation * body.shape->point(normal(t).normalized()));
+  };
   const std::function<void(double, const Vector2&, double, const Vector2&)> halve = [&](double from, const Vector2& first,
                                                                                         double to, const Vector2& last) {
     if (std::abs(to - from) > kSmallestStep && (last - first).norm() > kPixelStep) {
@@ -48,9 +52,15 @@ Polyline trace(const PlacedBody& body, const View& view, const Curve& normal, do
   for (int k = 0; k < kFirstPoints; ++k) {
     const double from = std::lerp(start, end, static_cast<double>(k) / kFirstPoints);
     const double to = std::lerp(start, end, static_cast<double>(k + 1) / kFirstPoints);
-    halve(from, Vector2(line.back()), to, point_at(to));
+    const Vector2 first = line.back();
+    halve(from, first, to, point_at(to));
   }
   return simplified(line, kPixelError);
+}
+
+/// Components that are 0 but for rounding are 0: the boundary point of a body with flat faces is a steep power of them.
+Vector3 without_rounding(const Vector3& normal) {
+  return normal.unaryExpr([](double component) { return std::abs(component) < kRounding ? 0 : component; });
 }
 
 /// The circle of normals at the angle acos(cosine) from an axis; it starts where it is nearest to the viewer.
@@ -122,41 +132,41 @@ Vector2 View::to_px(const Vector3& point) const {
 }
 
 Polyline outline(const PlacedBody& body, const View& view) {
-  const Frame& frame = view.frame();
-  return trace(
-      body, view, [&](double t) { return Vector3(std::cos(t) * frame.right + std::sin(t) * frame.up); }, -kPi, kPi);
+  const Matrix3 to_body = body.pose.rotation.transpose();
+  const Vector3 right = to_body * view.frame().right, up = to_body * view.frame().up;
+  const Curve normal = [&](double t) { return without_rounding(std::cos(t) * right + std::sin(t) * up); };
+  return trace(body, view, normal, -kPi, kPi);
 }
 
 Polyline lit_part(const PlacedBody& body, const View& view, const Vector3& light, double cosine) {
-  const Vector3& toward = view.frame().toward;
-  const Circle circle(light, toward, cosine);
+  const Matrix3 to_body = body.pose.rotation.transpose();
+  const Vector3 toward = to_body * view.frame().toward, source = to_body * light;
+  const Circle circle(source, toward, cosine);
   const double end = circle.visible(toward);
   if (end < 0) return {};
   Polyline part = trace(body, view, circle, -end, end);
   if (end == kPi) return part;
   // Back along the outline, on the side of the light.
-  const Vector3 middle = (light - light.dot(toward) * toward).normalized(), aside = toward.cross(middle);
+  const Vector3 middle = (source - source.dot(toward) * toward).normalized(), aside = toward.cross(middle);
   const auto angle_of = [&](const Vector3& normal) { return std::atan2(normal.dot(aside), normal.dot(middle)); };
-  const double from = angle_of(circle(end)), to = angle_of(circle(-end));
-  const Polyline back = trace(
-      body, view, [&](double t) { return Vector3(std::cos(t) * middle + std::sin(t) * aside); }, from, to);
+  const Curve rim = [&](double t) { return without_rounding(std::cos(t) * middle + std::sin(t) * aside); };
+  const Polyline back = trace(body, view, rim, angle_of(circle(end)), angle_of(circle(-end)));
   part.insert(part.end(), back.begin(), back.end());
   return part;
 }
 
 std::vector<Polyline> graticule(const PlacedBody& body, const View& view, double spacing) {
-  const Vector3& toward = view.frame().toward;
-  const Matrix3& R = body.pose.rotation;
+  const Vector3 toward = body.pose.rotation.transpose() * view.frame().toward;
   std::vector<Polyline> lines;
   const auto add = [&](const Vector3& axis, double cosine) {
     const Circle circle(axis, toward, cosine);
     const double end = circle.visible(toward);
     if (end > 0) lines.push_back(trace(body, view, circle, -end, end));
   };
-  for (int k = 1; k * spacing < 180; ++k) add(R.col(2), std::cos(k * spacing * kPi / 180));
+  for (int k = 1; k * spacing < 180; ++k) add(Vector3::UnitZ(), std::cos(k * spacing * kPi / 180));
   for (int k = 0; k * spacing < 180; ++k) {
     const double angle = k * spacing * kPi / 180;
-    add(R * Vector3(std::cos(angle), std::sin(angle), 0), 0);
+    add(without_rounding({std::cos(angle), std::sin(angle), 0}), 0);
   }
   return lines;
 }

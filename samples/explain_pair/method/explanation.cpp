@@ -23,6 +23,23 @@ Explanation explain(const Pair& pair, const supernormal::Settings& settings) {
   return out;
 }
 
+std::span<const supernormal::ManifoldCorner> Explanation::corners() const {
+  constexpr double kOnePoint = 0.01;
+  double reach = 0;
+  const std::span all(manifold.corners.data(), static_cast<std::size_t>(manifold.corner_count));
+  for (const supernormal::ManifoldCorner& corner : all) reach = std::max(reach, (corner.point - answer().contact).norm());
+  const double size = std::min(pair.body1.shape->half_extents().maxCoeff(), pair.body2.shape->half_extents().maxCoeff());
+  return reach > kOnePoint * size ? all : all.first(0);
+}
+
+std::size_t Explanation::shown_evaluations() const {
+  constexpr std::size_t kLeast = 8;
+  const std::size_t own = std::max(kLeast, hybrid().evaluations.size());
+  std::size_t most = 0;
+  for (const SolverPath& path : paths) most = std::max(most, path.evaluations.size());
+  return std::max(own, std::min(most, 2 * own));
+}
+
 double room_left(const SolverPath& path, std::size_t evaluations, double rolling_radius, const Vector3& n) {
   double best = -std::numeric_limits<double>::infinity(), least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < evaluations; ++k) {

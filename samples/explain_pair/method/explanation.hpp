@@ -1,6 +1,9 @@
 // Everything that a picture shows of a pair.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <supernormal/contact/contact_manifold.hpp>
 #include <vector>
 
@@ -16,6 +19,14 @@ struct Explanation {
 
   const SolverPath& hybrid() const { return paths.front(); }
   const supernormal::Proximity& answer() const { return hybrid().answer; }
+
+  /// The contact points beside the deepest, if the bodies touch in more than a point: none if they are all as good as one, within
+  /// a hundredth of the largest half-extent of the smaller body.
+  std::span<const supernormal::ManifoldCorner> corners() const;
+
+  /// How many evaluations a picture shows: all of the hybrid's, of the others at most twice as many.
+  std::size_t shown_evaluations() const;
+  std::size_t shown_evaluations(const SolverPath& path) const { return std::min(path.evaluations.size(), shown_evaluations()); }
 };
 
 /// Solves the pair with every solver that the library has for it, with these settings but for the solver. Throws

@@ -5,13 +5,6 @@
 #include <numbers>
 
 namespace explain_pair {
-namespace {
-
-// The antipode of the centre is a circle of Lambert's map; this keeps it finite.
-constexpr double kAntipode = 1e-300;
-
-}  // namespace
-
 const double HammerMap::kHalfWidth = 2 * std::numbers::sqrt2;
 const double HammerMap::kHalfHeight = std::numbers::sqrt2;
 
@@ -38,7 +31,11 @@ Place HammerMap::to_sphere(const Vector2& point) {
 
 Vector2 LambertMap::to_plane(const Frame& frame, const Vector3& normal) {
   const Vector3 v = frame.from_world(normal);
-  return Vector2(-v.z(), v.y()) * std::sqrt(2 / std::max(1 + v.x(), kAntipode));
+  const Vector2 across(-v.z(), v.y());
+  if (v.x() > 0) return across * std::sqrt(2 / (1 + v.x()));
+  // The antipode of the centre is a whole circle of the map; any point of it will do.
+  const double length = across.norm();
+  return std::sqrt(2 * (1 - v.x())) * (length > 0 ? Vector2(across / length) : Vector2(1, 0));
 }
 
 Vector3 LambertMap::to_sphere(const Frame& frame, const Vector2& point) {
