@@ -51,8 +51,8 @@ void add_body(CLI::App& app, const std::string& number, DescribedBody& body) {
 }
 
 PlacedBody placed(const std::string& number, const DescribedBody& described) {
-  PlacedBody body = described_body("--body" + number, described.text, described.rounding);
-  body.pose.position = {described.position[0], described.position[1], described.position[2]};
+  PlacedBody body = described_body(number, described.text, described.rounding);
+  body.pose.position = position_of("--position" + number, described.position);
   body.pose.rotation = rotation_of("--quaternion" + number, described.quaternion);
   return body;
 }
@@ -126,7 +126,9 @@ ExitCode run_program(int argc, char** argv) {
   const Explanation explanation = explain(chosen_pair(options), options.settings);
   falling_particles::write_file(options.out, picture_of(explanation));
   print(explanation);
-  return Done;
+  if (std::fflush(stdout) == 0) return Done;
+  std::fputs("explain_pair: cannot write to stdout (is it closed, or the disk full?)\n", stderr);
+  return Failed;
 }
 
 }  // namespace

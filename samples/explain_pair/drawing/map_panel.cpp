@@ -243,25 +243,26 @@ void draw_graticule(Svg& svg, const Frame& frame, const MapInPicture& map) {
   }
 }
 
-/// The letters are beside their crosses towards the middle. Where they are.
-Polyline draw_world_axes(Svg& svg, const MapInPicture& map) {
-  const Vector2 middle = map.inside.center();
+Polyline world_axes(const MapInPicture& map) {
   Polyline places;
-  constexpr std::array kNames = {"x", "y", "z"};
   for (const int axis : {0, 1, 2}) {
-    for (const double sign : {1.0, -1.0}) {
-      const Vector2 at = map.to_px(sign * Vector3::Unit(axis));
-      svg.line(at - Vector2(3.5, 0), at + Vector2(3.5, 0), R"(stroke="#222" stroke-width="1.2")");
-      svg.line(at - Vector2(0, 3.5), at + Vector2(0, 3.5), R"(stroke="#222" stroke-width="1.2")");
-      places.push_back(at);
-      const bool is_right = at.x() > middle.x(), is_low = at.y() > middle.y();
-      svg.text(at + Vector2(is_right ? -6 : 6, is_low ? -5 : 13),
-               std::string(sign > 0 ? "+" : "−") + kNames[static_cast<std::size_t>(axis)],
-               std::string(is_right ? R"(text-anchor="end" )" : "") +
-                   R"(font-size="12" stroke="#fff" stroke-width="2.5" stroke-opacity="0.7" paint-order="stroke")");
-    }
+    for (const double sign : {1.0, -1.0}) places.push_back(map.to_px(sign * Vector3::Unit(axis)));
   }
   return places;
+}
+
+/// Crosses, with letters beside them towards the middle.
+void draw_world_axes(Svg& svg, const Polyline& places, const Vector2& middle) {
+  constexpr std::array kNames = {"+x", "−x", "+y", "−y", "+z", "−z"};
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    const Vector2& at = places[k];
+    svg.line(at - Vector2(3.5, 0), at + Vector2(3.5, 0), R"(stroke="#222" stroke-width="1.2")");
+    svg.line(at - Vector2(0, 3.5), at + Vector2(0, 3.5), R"(stroke="#222" stroke-width="1.2")");
+    const bool is_right = at.x() > middle.x(), is_low = at.y() > middle.y();
+    svg.text(at + Vector2(is_right ? -6 : 6, is_low ? -5 : 13), kNames[k],
+             std::string(is_right ? R"(text-anchor="end" )" : "") +
+                 R"(font-size="12" stroke="#fff" stroke-width="2.5" stroke-opacity="0.7" paint-order="stroke")");
+  }
 }
 
 /// The colours of the bands with every other level below.
@@ -370,7 +371,8 @@ void draw_sphere(Svg& svg, const Box& box, const Explanation& explanation, const
   draw_bands(svg, s, levels, map);
   draw_zero(svg, s, map);
   draw_graticule(svg, frame, map);
-  draw_regions(svg, explanation, map, draw_world_axes(svg, map));
+  const Polyline axes = world_axes(map);
+  draw_regions(svg, explanation, map, axes);
   const double reach = 2 * std::sin(close_up / 2);
   Polyline window;
   for (int side = 0; side < 4; ++side) {
@@ -382,6 +384,7 @@ void draw_sphere(Svg& svg, const Box& box, const Explanation& explanation, const
     }
   }
   svg.polygon(window, R"(fill="none" stroke="#222" stroke-width="1")");
+  draw_world_axes(svg, axes, centre);
   draw_paths(svg, explanation, map, 3.4, false);
   svg.ellipse(centre, half_width, half_width / 2, R"(fill="none" stroke="#222" stroke-width="1.4")");
   draw_colour_bar(svg, {centre.x() - half_width, box.bottom() - kBar + 12, 2 * half_width, 10}, levels);

@@ -18,7 +18,7 @@ namespace {
 using supernormal::Proximity;
 
 // px
-constexpr double kAbove = 40, kBelow = 46, kAside = 14;  // room for normals, the gap and the bodies' margins
+constexpr double kAbove = 40, kBelow = 40, kAside = 14;  // room for normals, the gap and the bodies' margins
 constexpr double kTightGap = 44;                         // the arrows of a smaller gap stand outside
 constexpr double kOutsideArrow = 26;
 
@@ -56,26 +56,6 @@ void label(Svg& svg, const Vector2& at, std::string_view words, std::string_view
   svg.text(at, words,
            std::string(R"(stroke="#fff" stroke-width="4" stroke-linejoin="round" stroke-opacity="0.85" )") + std::string(style));
   svg.text(at, words, style);
-}
-
-void draw_axes(Svg& svg, const Vector2& at, const Frame& frame) {
-  constexpr double kLength = 26;
-  constexpr std::array kNames = {"x", "y", "z"};
-  constexpr double kLetter = 11;  // px
-  Polyline letters;
-  for (const int axis : {0, 1, 2}) {
-    const Vector3 v = frame.from_world(Vector3::Unit(axis));
-    const Vector2 along(v.x(), -v.y());
-    const Vector2 tip = at + kLength * along;
-    svg.line(at, tip, R"(stroke="#444" stroke-width="1.4")");
-    // An axis towards the viewer is a dot, with its letter aside. Letters of neighbouring axes make room for one another.
-    const Vector2 outward = along.norm() > 0.25 ? Vector2(along.normalized()) : Vector2(-1, 0);
-    Vector2 letter = tip + 8 * outward;
-    while (std::ranges::any_of(letters, [&](const Vector2& other) { return (other - letter).norm() < kLetter; }))
-      letter += 3 * outward;
-    letters.push_back(letter);
-    svg.text(letter + Vector2(0, 4), kNames[static_cast<std::size_t>(axis)], R"(text-anchor="middle" font-size="12" fill="#444")");
-  }
 }
 
 void draw_scale(Svg& svg, const Vector2& right_end, double px_per_metre) {
@@ -169,8 +149,27 @@ void draw_pair(Svg& svg, const Box& box, const Explanation& explanation, const F
   };
   name(point1, -side, "P₁", kPaint1.line);
   name(point2, side, "P₂", kPaint2.line);
-  draw_axes(svg, {box.x + 40, box.bottom() - 40}, frame);
-  draw_scale(svg, {box.right() - 6, box.bottom() - 10}, view.scale());
+  draw_scale(svg, {box.right() - 6, box.y - 14}, view.scale());
+}
+
+void draw_axes(Svg& svg, const Vector2& at, const Frame& frame) {
+  constexpr double kLength = 26;
+  constexpr std::array kNames = {"x", "y", "z"};
+  constexpr double kLetter = 11;  // px
+  Polyline letters;
+  for (const int axis : {0, 1, 2}) {
+    const Vector3 v = frame.from_world(Vector3::Unit(axis));
+    const Vector2 along(v.x(), -v.y());
+    const Vector2 tip = at + kLength * along;
+    svg.line(at, tip, R"(stroke="#444" stroke-width="1.4")");
+    // An axis towards the viewer is a dot, with its letter aside. Letters of neighbouring axes make room for one another.
+    const Vector2 outward = along.norm() > 0.25 ? Vector2(along.normalized()) : Vector2(-1, 0);
+    Vector2 letter = tip + 8 * outward;
+    while (std::ranges::any_of(letters, [&](const Vector2& other) { return (other - letter).norm() < kLetter; }))
+      letter += 3 * outward;
+    letters.push_back(letter);
+    svg.text(letter + Vector2(0, 4), kNames[static_cast<std::size_t>(axis)], R"(text-anchor="middle" font-size="12" fill="#444")");
+  }
 }
 
 void draw_manifold(Svg& svg, const Box& box, const Explanation& explanation, const Frame& frame) {

@@ -13,6 +13,9 @@ void draw_pair(Svg& svg, const Box& box, const Explanation& explanation, const F
 /// Draws a mark of a contact point.
 void draw_contact(Svg& svg, const Vector2& at);
 
+/// Draws the directions of the world's axes.
+void draw_axes(Svg& svg, const Vector2& at, const Frame& frame);
+
 /// Draws the contact points of a flat contact, seen along the normal.
 void draw_manifold(Svg& svg, const Box& box, const Explanation& explanation, const Frame& frame);
 

@@ -29,7 +29,8 @@ constexpr Box kLegendBox{16, 648, 380, 136};
 constexpr Box kSphereBox{596, 64, 588, 350};
 constexpr Box kCloseUpBox{596, 480, 290, 290};
 constexpr Box kBoundsBox{900, 480, 284, 290};
-constexpr Box kManifoldBox{424, 644, 140, 140};
+constexpr Box kManifoldBox{444, 648, 120, 120};
+const Vector2 kAxes(400, 710);
 
 constexpr const char* kTitle = R"(font-size="17" font-weight="bold")";
 constexpr const char* kSubtitle = R"(font-size="13" fill="#444")";
@@ -141,6 +142,7 @@ std::string picture_of(const Explanation& explanation) {
   draw_pair(svg, kPairBox, explanation, frame);
   draw_table(svg, kTableBox, explanation);
   draw_legend(svg, kLegendBox, explanation);
+  draw_axes(svg, kAxes, frame);
   if (!explanation.corners().empty()) draw_manifold(svg, kManifoldBox, explanation, frame);
   draw_sphere(svg, kSphereBox, explanation, frame, close_up);
   draw_close_up(svg, kCloseUpBox, explanation, frame, close_up);

@@ -22,6 +22,7 @@ using supernormal::samples::Body;
 
 constexpr double kUnitLength = 1e-3;  // by how much the length of a quaternion may differ from 1
 constexpr double kLargest = 1e30;     // m
+constexpr double kFarthest = 1e100;   // m
 
 struct Kind {
   const char* name;
@@ -82,7 +83,8 @@ std::string body_kinds() {
   return text;
 }
 
-PlacedBody described_body(const std::string& option, const std::string& text, double rounding) {
+PlacedBody described_body(const std::string& number, const std::string& text, double rounding) {
+  const std::string option = "--body" + number;
   std::istringstream stream(text);
   const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
   const std::string word = words.empty() ? "" : words[0];
@@ -99,7 +101,7 @@ PlacedBody described_body(const std::string& option, const std::string& text, do
   }
   const falling_particles::Interval radii = falling_particles::Interval::closed(0, kLargest, "m");
   if (!radii.contains(rounding))
-    throw InputError(option + ": the rounding is " + falling_particles::shortest(rounding) + "; allowed: " + radii.describe());
+    throw InputError("--rounding" + number + " is " + falling_particles::shortest(rounding) + "; allowed: " + radii.describe());
   try {
     Body body = kind->make(parameters);
     if (rounding > 0) body = body.rounded(rounding);
@@ -107,6 +109,15 @@ PlacedBody described_body(const std::string& option, const std::string& text, do
   } catch (const std::invalid_argument& error) {
     throw InputError(option + ": " + error.what());
   }
+}
+
+Vector3 position_of(const std::string& option, std::span<const double, 3> position) {
+  const falling_particles::Interval places = falling_particles::Interval::closed(-kFarthest, kFarthest, "m");
+  for (const double x : position) {
+    if (!places.contains(x))
+      throw InputError(option + " has a " + falling_particles::shortest(x) + "; allowed: " + places.describe());
+  }
+  return {position[0], position[1], position[2]};
 }
 
 Matrix3 rotation_of(const std::string& option, std::span<const double, 4> quaternion) {

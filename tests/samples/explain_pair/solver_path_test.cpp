@@ -1,0 +1,121 @@
+// Tests of recorded paths: they are what the library did, and the bounds hold.
+#include "method/solver_path.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <random>
+#include <supernormal/proximity/solve.hpp>
+
+#include "method/explanation.hpp"
+#include "method/recording_shape.hpp"
+#include "pair/hard_case.hpp"
+#include "pairs.hpp"
+
+using namespace explain_pair;
+using namespace supernormal;
+
+namespace {
+
+constexpr double kRounding = 1e-14;  // of numbers near 1
+
+std::vector<Vector3> recorded(const Pair& pair, const Settings& settings) {
+  std::vector<Vector3> normals;
+  const RecordingShape shape1(*pair.body1.shape, normals);
+  find_proximity(shape1, pair.body1.pose, *pair.body2.shape, pair.body2.pose, settings);
+  return normals;
+}
+
+/// s(n) from the bodies' extents in the world.
+double direct_gap(const Pair& pair, const Vector3& n) { return -pair.body1.reach(n) - pair.body2.reach(-n); }
+
+void check_path(const Pair& pair, Solver solver) {
+  Settings settings;
+  settings.solver = solver;
+  const SolverPath path = solver_path(pair, settings);
+  const Proximity plain = find_proximity(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose, settings);
+  // To be watched changes no digit.
+  CHECK(path.answer.gap == plain.gap);
+  CHECK(path.answer.normal == plain.normal);
+  CHECK(path.answer.point1 == plain.point1);
+  CHECK(path.answer.status == plain.status);
+  CHECK(path.answer.evaluations == plain.evaluations);
+  REQUIRE(path.evaluations.size() == static_cast<std::size_t>(plain.evaluations));
+
+  // The answer is one of the evaluations; of the solvers without a safeguard it is the last.
+  const auto is_answer = [&](const Evaluation& one) { return one.s == plain.gap && (one.n - plain.normal).norm() < kRounding; };
+  if (solver == Solver::Hybrid) {
+    CHECK(std::ranges::any_of(path.evaluations, is_answer));
+  } else {
+    CHECK(is_answer(path.evaluations.back()));
+  }
+  for (const Evaluation& one : path.evaluations) CHECK(std::abs(one.s - direct_gap(pair, one.n)) < 1e-12);
+}
+
+}  // namespace
+
+TEST_CASE("solver path: it is the library's, and ends at its answer") {
+  for (const Pair& pair : sample_pairs()) {
+    for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) check_path(pair, solver);
+  }
+}
+
+TEST_CASE("solver path: cuts and intervals hold") {
+  std::mt19937_64 engine(4);
+  std::normal_distribution<double> gauss;
+  for (const Pair& pair : sample_pairs()) {
+    const SolverPath path = solver_path(pair, {});
+    WorldGap gap(pair);
+    const double rolling_radius = gap.function().rolling_radius();
+    double highest = path.answer.gap;
+    for (int k = 0; k < 300; ++k) {
+      const Vector3 n = Vector3(gauss(engine), gauss(engine), gauss(engine)).normalized();
+      const double s = gap.s(n);
+      highest = std::max(highest, s);
+      for (const Evaluation& one : path.evaluations) CHECK(s + rolling_radius <= n.dot(one.cut) + kRounding);
+    }
+    for (std::size_t k = 0; k < path.intervals.size(); ++k) {
+      CHECK(path.intervals[k].upper >= highest - kRounding);
+      CHECK(path.intervals[k].lower <= path.answer.gap);
+      if (k == 0) continue;
+      CHECK(path.intervals[k].upper <= path.intervals[k - 1].upper);
+      CHECK(path.intervals[k].evaluations > path.intervals[k - 1].evaluations);
+    }
+    CHECK(path.intervals.back().evaluations == path.answer.evaluations);
+    CHECK(path.intervals.back().lower == path.answer.gap);
+    CHECK(path.intervals.back().upper <= path.answer.gap + path.answer.global_error);
+    // What the cuts leave holds the answer.
+    CHECK(room_left(path, path.evaluations.size(), rolling_radius, path.answer.normal) >= -kRounding);
+  }
+}
+
+TEST_CASE("solver path: fewer evaluations are the first of the whole path") {
+  for (const Pair& pair : sample_pairs()) {
+    const std::vector<Vector3> whole = recorded(pair, {});
+    for (std::size_t k = 1; k < std::min<std::size_t>(whole.size(), 30); ++k) {
+      Settings settings;
+      settings.max_evaluations = static_cast<int>(k);
+      const std::vector<Vector3> part = recorded(pair, settings);
+      REQUIRE(part.size() == k);
+      CHECK(std::equal(part.begin(), part.end(), whole.begin()));
+    }
+  }
+}
+
+TEST_CASE("solver path: of bodies with kinks, whichever is first") {
+  for (const char* name :
+       {"colliders: an ellipsoid above a box, gap -0.0625", "colliders: an ellipsoid at a box's edge, gap 0.0625"}) {
+    const Pair pair = hard_case(name);
+    Pair other = pair;
+    std::swap(other.body1, other.body2);
+    CHECK_FALSE(is_solver_for(Solver::Newton, pair));
+    for (const Pair& one : {pair, other}) {
+      const Explanation explanation = explain(one, {});
+      CHECK(explanation.paths.size() == 1);
+      const SolverPath& path = explanation.hybrid();
+      CHECK(path.evaluations.size() == static_cast<std::size_t>(path.answer.evaluations));
+      for (const Evaluation& evaluation : path.evaluations) CHECK(evaluation.s <= path.answer.gap + kRounding);
+      CHECK(path.evaluations.back().n.dot(path.answer.normal) > 0.99);
+    }
+  }
+}
