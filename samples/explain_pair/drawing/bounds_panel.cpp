@@ -7,7 +7,7 @@
 #include <supernormal/proximity/gap_function.hpp>
 
 #include "drawing/colours.hpp"
-#include "drawing/map_panel.hpp"
+#include "drawing/path_layer.hpp"
 
 namespace explain_pair {
 namespace {

@@ -11,6 +11,8 @@
 #include "drawing/lengths.hpp"
 #include "drawing/map_panel.hpp"
 #include "drawing/pair_panel.hpp"
+#include "drawing/path_layer.hpp"
+#include "drawing/region_layer.hpp"
 #include "drawing/svg.hpp"
 #include "drawing/view.hpp"
 
