@@ -1,5 +1,5 @@
-# Says where `cmake --install` puts headers, library, CMake package and pkg-config files. All of it can be moved as a whole. There
-# are two components: one for programs to run, one for programs to be built.
+# Says where `cmake --install` puts headers, libraries, CMake package and pkg-config files. All of it can be moved as a whole. Each of
+# the two libraries has two components: one for programs to run, one for programs to be built.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -7,57 +7,95 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/supernormal)
 set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pkgconfig ${CMAKE_INSTALL_PREFIX}/${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX}/.)
 
+# install_library(library component exports): the library, and the targets of the CMake package.
+function(install_library library component exports)
+  install(
+    TARGETS ${library}
+    EXPORT ${exports}
+    RUNTIME COMPONENT ${component}_runtime
+    LIBRARY COMPONENT ${component}_runtime
+            NAMELINK_COMPONENT ${component}_development
+    ARCHIVE COMPONENT ${component}_development
+    INCLUDES
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(
+    EXPORT ${exports}
+    NAMESPACE supernormal::
+    DESTINATION ${package_dir}
+    COMPONENT ${component}_development)
+endfunction()
+
+# install_pkgconfig(component names...)
+function(install_pkgconfig component)
+  foreach(name ${ARGN})
+    configure_file(${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+    install(
+      FILES ${PROJECT_BINARY_DIR}/${name}.pc
+      DESTINATION ${pkgconfig_dir}
+      COMPONENT ${component})
+  endforeach()
+endfunction()
+
+# The core, and the CMake package, whose part for the ODE layer may be missing.
+set_property(TARGET supernormal_core PROPERTY EXPORT_NAME core)
+install_library(supernormal_core supernormal_core supernormalCoreTargets)
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/include/supernormal
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  COMPONENT supernormal_core_development
+  FILES_MATCHING
+  PATTERN "*.h"
+  PATTERN "*.hpp"
+  PATTERN supernormal.h EXCLUDE
+  PATTERN effects.hpp EXCLUDE)
 configure_package_config_file(
   supernormalConfig.cmake.in ${PROJECT_BINARY_DIR}/supernormalConfig.cmake
   INSTALL_DESTINATION ${package_dir}
   NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/supernormalConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(
+  FILES ${PROJECT_BINARY_DIR}/supernormalConfig.cmake ${PROJECT_BINARY_DIR}/supernormalConfigVersion.cmake
+  DESTINATION ${package_dir}
+  COMPONENT supernormal_core_development)
+install_pkgconfig(supernormal_core_development supernormal-core)
+
+# The licence goes with the core's code, without which the ODE layer is nowhere.
+if(BUILD_SHARED_LIBS)
+  set(licence_component supernormal_core_runtime)
+else()
+  set(licence_component supernormal_core_development)
+endif()
+install(
+  FILES ${PROJECT_SOURCE_DIR}/LICENSE
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT ${licence_component})
+
+if(NOT SUPERNORMAL_BUILD_ODE_LAYER)
+  return()
+endif()
+
+install_library(supernormal supernormal supernormalTargets)
+install(
+  FILES ${PROJECT_SOURCE_DIR}/include/supernormal/supernormal.h ${PROJECT_SOURCE_DIR}/include/supernormal/effects.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supernormal
+  COMPONENT supernormal_development)
+configure_file(supernormalOde.cmake.in ${PROJECT_BINARY_DIR}/supernormalOde.cmake @ONLY)
+install(
+  FILES ${PROJECT_BINARY_DIR}/supernormalOde.cmake
+  DESTINATION ${package_dir}
+  COMPONENT supernormal_development)
 
 # A C program that links the static library has to link what the C++ compiler would add.
 set(static_libraries ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
 list(FILTER static_libraries INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
 list(REMOVE_DUPLICATES static_libraries)
 list(TRANSFORM static_libraries PREPEND -l)
+list(PREPEND static_libraries -lsupernormal-core)
 list(JOIN static_libraries " " static_libraries)
-configure_file(supernormal.pc.in ${PROJECT_BINARY_DIR}/supernormal.pc @ONLY)
-configure_file(supernormal-cpp.pc.in ${PROJECT_BINARY_DIR}/supernormal-cpp.pc @ONLY)
 
-install(
-  TARGETS supernormal
-  EXPORT supernormalTargets
-  RUNTIME COMPONENT supernormal_runtime
-  LIBRARY COMPONENT supernormal_runtime
-          NAMELINK_COMPONENT supernormal_development
-  ARCHIVE COMPONENT supernormal_development
-  INCLUDES
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(
-  DIRECTORY ${PROJECT_SOURCE_DIR}/include/supernormal
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  COMPONENT supernormal_development
-  FILES_MATCHING
-  PATTERN "*.h"
-  PATTERN "*.hpp")
-install(
-  EXPORT supernormalTargets
-  NAMESPACE supernormal::
-  DESTINATION ${package_dir}
-  COMPONENT supernormal_development)
-install(
-  FILES ${PROJECT_BINARY_DIR}/supernormalConfig.cmake ${PROJECT_BINARY_DIR}/supernormalConfigVersion.cmake
-  DESTINATION ${package_dir}
-  COMPONENT supernormal_development)
-install(
-  FILES ${PROJECT_BINARY_DIR}/supernormal.pc ${PROJECT_BINARY_DIR}/supernormal-cpp.pc
-  DESTINATION ${pkgconfig_dir}
-  COMPONENT supernormal_development)
-# The licence goes with the library's code, wherever that is.
-if(BUILD_SHARED_LIBS)
-  set(licence_component supernormal_runtime)
-else()
-  set(licence_component supernormal_development)
+# A C program names the ODE layer only. Its linker looks for the core, which that needs, in the system's folders and in this one.
+set(core_for_linker "")
+if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+  set(core_for_linker "-Wl,-rpath-link,\${libdir} ")
 endif()
-install(
-  FILES ${PROJECT_SOURCE_DIR}/LICENSE
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  COMPONENT ${licence_component})
+install_pkgconfig(supernormal_development supernormal supernormal-cpp)

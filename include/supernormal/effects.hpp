@@ -263,7 +263,7 @@ class SUPERNORMAL_API Effects {
   std::vector<Cost> costs() const;
 
  private:
-  struct State;
+  struct SUPERNORMAL_LOCAL State;
   std::unique_ptr<State> state_;
 };
 

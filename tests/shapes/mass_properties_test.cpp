@@ -301,3 +301,15 @@ TEST_CASE("mass: a shape that delivers no numbers is an error, not a mass") {
   broken = true;
   CHECK_THROWS_AS(shape.mass_properties(), std::domain_error);
 }
+
+TEST_CASE("mass: the inertia is about the centroid, wherever the origin of the body's frame is") {
+  const Vector3 half_axes(1, 0.8, 0.6);
+  const auto ellipsoid = std::make_shared<Ellipsoid>(half_axes);
+  const double volume = 4.0 / 3 * kPi * half_axes.prod();
+  const Vector3 squares = half_axes.cwiseAbs2() / 5;
+  const Vector3 expected = volume * Vector3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
+  for (const Vector3& position : {Vector3(0, 0, 0), Vector3(2, -1, 0.5)}) {
+    const Matrix3 inertia = placed(ellipsoid, Matrix3::Identity(), position, true).mass_properties().inertia();
+    CHECK((inertia - Matrix3(expected.asDiagonal())).cwiseAbs().maxCoeff() < 1e-9 * volume);
+  }
+}

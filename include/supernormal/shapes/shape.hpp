@@ -32,6 +32,13 @@ struct MassProperties {
   Vector3 centroid = Vector3::Zero();       ///< m
   Matrix3 second_moment = Matrix3::Zero();  ///< m^5; integral of x x^T about the origin of the body's frame
   double relative_error = 0;                ///< estimate, for volume and moments relative to their size; 0 for closed forms
+
+  /// m^5; inertia tensor about the centroid, along the axes of the body's frame: tr(C) 1 - C with C = second_moment - volume c c^T.
+  /// Times the density (kg/m^3) it is in kg m^2.
+  Matrix3 inertia() const {
+    const Matrix3 central = second_moment - volume * centroid * centroid.transpose();
+    return central.trace() * Matrix3::Identity() - central;
+  }
 };
 
 /// Some points of a body that has faces or straight edges, in its own frame: see Shape::add_active_vertices.

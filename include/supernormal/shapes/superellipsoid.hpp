@@ -62,15 +62,16 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   static constexpr double kMostRound = 3;
 
   template <std::size_t kCount>
-  static void evaluate_requests(const std::array<EvalRequest, kCount>& requests, Order order);
-  Vector3 along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const;
-  bool is_one_norm_at(const Vector3& n) const;
+  SUPERNORMAL_LOCAL static void evaluate_requests(const std::array<EvalRequest, kCount>& requests, Order order);
+  SUPERNORMAL_LOCAL Vector3 along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const;
+  SUPERNORMAL_LOCAL bool is_one_norm_at(const Vector3& n) const;
   template <std::size_t kCount>
-  static void evaluate_by_one_norm(const std::array<EvalRequest, kCount>& requests, Order order);
+  SUPERNORMAL_LOCAL static void evaluate_by_one_norm(const std::array<EvalRequest, kCount>& requests, Order order);
   template <std::size_t kCount>
-  static void evaluate_by_two_norms(const std::array<EvalRequest, kCount>& requests, Order order);
-  void assemble(const PowerNorm3Request& norm, const Vector3& n, Order order, Jet& jet) const;
-  void assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const;
+  SUPERNORMAL_LOCAL static void evaluate_by_two_norms(const std::array<EvalRequest, kCount>& requests, Order order);
+  SUPERNORMAL_LOCAL void assemble(const PowerNorm3Request& norm, const Vector3& n, Order order, Jet& jet) const;
+  SUPERNORMAL_LOCAL void assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer,
+                                  Jet& jet) const;
 
   Vector3 half_axes_;
   double delta_, epsilon_;

@@ -1,4 +1,4 @@
-#include "contact/mesh/body_box.hpp"
+#include "supernormal/contact/body_box.hpp"
 
 #include <Eigen/Geometry>
 

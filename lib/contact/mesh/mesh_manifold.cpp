@@ -1,8 +1,8 @@
-#include "contact/mesh/mesh_manifold.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal {
 namespace {

@@ -1,10 +1,10 @@
-#include "contact/mesh/nearest_triangle.hpp"
-
 #include <algorithm>
 #include <array>
 #include <limits>
 
+#include "contact/mesh/mesh_triangle.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal {
 namespace {

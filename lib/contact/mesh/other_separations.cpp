@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "contact/mesh/arc_search.hpp"
-#include "contact/mesh/mesh_contacts.hpp"
+#include "contact/mesh/mesh_contact_search.hpp"
 #include "proximity/bounds/other_maxima.hpp"
 
 namespace supernormal {
@@ -18,7 +18,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 // Searches every part that the body touches for a shorter separating translation than the known one: on the edges wherever one is
 // possible, at the vertices of a convex part by solving for its hull. Of 20 000 random pairs of bodies with exponents 1.02...200
 // and convex meshes, apart or overlapping by up to 10 %, 23 have a minimum translation that is found here only.
-void MeshContacts::find_other_separations(SupportProbe& probe) {
+void MeshContactSearch::find_other_separations(SupportProbe& probe) {
   double depth = found_.contacts().empty() ? std::numeric_limits<double>::infinity() : 0;
   for (const SurfaceContact& contact : found_.contacts()) depth = std::max(depth, -contact.gap);
   if (!may_have_other_maxima(probe.shape().min_curvature_radius_estimate(), depth)) return;
@@ -34,7 +34,7 @@ void MeshContacts::find_other_separations(SupportProbe& probe) {
 
 // Empty if there is nothing to look for: about a single plane everything is known. A part with no contact is apart from the body
 // if one of its planes is; if none is, its contact may have been missed.
-std::optional<double> MeshContacts::depth_cutoff(int part) const {
+std::optional<double> MeshContactSearch::depth_cutoff(int part) const {
   int patch_count = 0;
   double largest = -std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < supports_.size(); ++p) {
@@ -48,7 +48,7 @@ std::optional<double> MeshContacts::depth_cutoff(int part) const {
   return known;
 }
 
-void MeshContacts::find_shorter_over_edges(SupportProbe& probe, int face, double known) {
+void MeshContactSearch::find_shorter_over_edges(SupportProbe& probe, int face, double known) {
   for (int side = 0; side < 3; ++side) {
     Arc arc;
     ArcSample low;
@@ -58,7 +58,7 @@ void MeshContacts::find_shorter_over_edges(SupportProbe& probe, int face, double
   }
 }
 
-void MeshContacts::find_shorter_over_vertices(SupportProbe& probe, int part, double known) {
+void MeshContactSearch::find_shorter_over_vertices(SupportProbe& probe, int part, double known) {
   hull_.clear();
   for (const Face& face : surface_.faces()) {
     if (surface_.part_of(face) != part) continue;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/mesh/mesh_contacts.hpp"
+#include "contact/mesh/mesh_contact_search.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
 
@@ -25,7 +25,7 @@ double angle_at(const Face& face, int k) {
 
 // Solves for the hull of the triangles at the vertex, not for the point alone, whose gap may be larger still along normals that
 // the surface does not have.
-void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vector3& start) {
+void MeshContactSearch::find_on_vertex(SupportProbe& probe, int f, int k, const Vector3& start) {
   const int corner = surface_.faces()[at(f)].corner[at(k)];
   if (settled_[at(corner)] != 0) return;
   hull_.clear();
@@ -43,7 +43,7 @@ void MeshContacts::find_on_vertex(SupportProbe& probe, int f, int k, const Vecto
   settled_[at(corner)] = is_apart || (!is_other_edge && add_at_vertex(probe, f, k, found)) ? 1 : 0;
 }
 
-bool MeshContacts::is_normal_of_edge_at(int corner, const Vector3& normal) const {
+bool MeshContactSearch::is_normal_of_edge_at(int corner, const Vector3& normal) const {
   return std::any_of(surface_.faces().begin(), surface_.faces().end(), [&](const Face& face) {
     const auto* const found = std::find(face.corner.begin(), face.corner.end(), corner);
     if (found == face.corner.end()) return false;
@@ -55,7 +55,7 @@ bool MeshContacts::is_normal_of_edge_at(int corner, const Vector3& normal) const
   });
 }
 
-Proximity MeshContacts::solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start) {
+Proximity MeshContactSearch::solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start) {
   for (Vector3& point : hull_) point -= origin;
   Vector3 first_normal;
   if (start != nullptr) first_normal = -(probe.rotation().transpose() * *start);
@@ -66,7 +66,7 @@ Proximity MeshContacts::solve_for_hull(SupportProbe& probe, const Vector3& origi
 }
 
 // Returns false when the normal is not one of the surface there, or when that cannot be decided.
-bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
+bool MeshContactSearch::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
   const Face& face = surface_.faces()[at(f)];
   const Vector3& vertex = face.vertices[at(k)];
   if (!has_complete_neighbourhood(probe, vertex)) return false;
@@ -84,7 +84,7 @@ bool MeshContacts::add_at_vertex(SupportProbe& probe, int f, int k, const Proxim
 
 // The angle-weighted mean of the normals at a vertex tells outside from inside (Baerentzen, Aanaes: Signed distance computation
 // using the angle weighted pseudonormal, IEEE TVCG 11, 2005).
-bool MeshContacts::is_outside_at(int corner, const Vector3& normal) const {
+bool MeshContactSearch::is_outside_at(int corner, const Vector3& normal) const {
   Vector3 mean = Vector3::Zero();
   for (const Face& face : surface_.faces()) {
     for (int k = 0; k < 3; ++k) {

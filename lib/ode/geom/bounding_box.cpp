@@ -8,6 +8,7 @@
 #include "ode/geom/geom_class.hpp"
 #include "ode/support/last_error.hpp"
 #include "supernormal/proximity/plane.hpp"
+#include "supernormal/shapes/bounding_box.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -17,28 +18,16 @@ constexpr double kRoundingUnits = 8;
 
 double rounding_of(double magnitude) { return kRoundingUnits * double{std::numeric_limits<dReal>::epsilon()} * magnitude; }
 
-struct Interval {
-  double low, high;
-};
-
-// The interval between the body's two supporting planes perpendicular to a world axis. Row i of R is axis i in the body's frame.
-Interval extent_along(int axis, const Shape& shape, const Pose& pose) {
-  const Vector3 direction = pose.rotation.row(axis).transpose();
-  const double position = pose.position[axis];
-  const double up = shape.support(direction);
-  const double down = shape.is_symmetric() ? up : shape.support(-direction);
-  const double margin = rounding_of(std::abs(position) + std::abs(up) + std::abs(down));
-  return {position - down - margin, position + up + margin};
-}
-
 int write_finite_aabb(dGeomID geom, dReal* aabb) {
-  const Shape& shape = require_body(geom).shape();
   const Pose pose = pose_of(geom);
+  const BoundingBox box = find_bounding_box(require_body(geom).shape(), pose);
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval extent = extent_along(axis, shape, pose);
-    if (!std::isfinite(extent.low) || !std::isfinite(extent.high)) return 0;
-    aabb[2 * axis] = to_real(extent.low);
-    aabb[2 * axis + 1] = to_real(extent.high);
+    const double margin = rounding_of(std::abs(pose.position[axis]) + std::abs(box.low[axis]) + std::abs(box.high[axis]));
+    const double low = box.low[axis] - margin;
+    const double high = box.high[axis] + margin;
+    if (!std::isfinite(low) || !std::isfinite(high)) return 0;
+    aabb[2 * axis] = to_real(low);
+    aabb[2 * axis + 1] = to_real(high);
   }
   return 1;
 }

@@ -1,5 +1,5 @@
 // Tests of the box around a body.
-#include "contact/mesh/body_box.hpp"
+#include "supernormal/contact/body_box.hpp"
 
 #include <doctest/doctest.h>
 

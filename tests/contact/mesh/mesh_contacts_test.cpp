@@ -1,5 +1,5 @@
 // Contacts of a body with triangles: those with a plane where the surface is flat, those with a solid hull where it is one.
-#include "contact/mesh/mesh_contacts.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,7 @@
 #include "contact/mesh/mesh_samples.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
 #include "relative.hpp"
+#include "supernormal/contact/body_box.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"

@@ -1,6 +1,4 @@
 // Tests that the corners of a contact manifold stay on the floor.
-#include "contact/mesh/mesh_manifold.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "relative.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 

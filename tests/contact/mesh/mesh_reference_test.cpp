@@ -4,10 +4,9 @@
 
 #include <algorithm>
 
-#include "contact/mesh/mesh_contacts.hpp"
 #include "contact/mesh/mesh_samples.hpp"
-#include "contact/mesh/nearest_triangle.hpp"
 #include "proximity/collider_reference.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/mesh/mesh_contacts.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"

@@ -1,6 +1,4 @@
 // The distance from a body to a surface, against one query per triangle.
-#include "contact/mesh/nearest_triangle.hpp"
-
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -8,6 +6,7 @@
 #include "contact/mesh/mesh_samples.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
 #include "relative.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -2,10 +2,6 @@
 #include <span>
 #include <vector>
 
-#include "contact/mesh/body_box.hpp"
-#include "contact/mesh/mesh_contacts.hpp"
-#include "contact/mesh/mesh_manifold.hpp"
-#include "contact/mesh/nearest_triangle.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/heightfield/heightfield_patch.hpp"
@@ -13,6 +9,8 @@
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
+#include "supernormal/contact/body_box.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/plane.hpp"
 
 namespace supernormal::ode {

@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "contact/mesh/mesh_triangle.hpp"
 #include "ode/colliders/heightfield/heightfield_grid.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal::ode {
 

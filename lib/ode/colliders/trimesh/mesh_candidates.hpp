@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/mesh/body_box.hpp"
-#include "contact/mesh/mesh_triangle.hpp"
+#include "supernormal/contact/body_box.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/pose.hpp"
 
 namespace supernormal::ode {

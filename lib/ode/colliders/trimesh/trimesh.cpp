@@ -4,10 +4,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "contact/mesh/body_box.hpp"
-#include "contact/mesh/mesh_contacts.hpp"
-#include "contact/mesh/mesh_manifold.hpp"
-#include "contact/mesh/nearest_triangle.hpp"
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/trimesh/mesh_candidates.hpp"
@@ -15,6 +11,8 @@
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
+#include "supernormal/contact/body_box.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 
 namespace supernormal::ode {
 namespace {

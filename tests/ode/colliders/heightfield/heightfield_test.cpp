@@ -7,11 +7,10 @@
 #include <memory>
 #include <string>
 
-#include "contact/mesh/mesh_contacts.hpp"
-#include "contact/mesh/nearest_triangle.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/terrain.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
 

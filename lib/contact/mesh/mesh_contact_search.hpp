@@ -1,4 +1,4 @@
-// A body against the triangles of a surface: a mesh or a heightfield.
+// The search for the contacts of a body with a triangle surface, behind MeshContacts.
 #pragma once
 
 #include <optional>
@@ -6,45 +6,23 @@
 #include <vector>
 
 #include "contact/mesh/arc.hpp"
-#include "contact/mesh/body_box.hpp"
 #include "contact/mesh/distinct_contacts.hpp"
-#include "contact/mesh/mesh_triangle.hpp"
 #include "contact/mesh/support_probe.hpp"
 #include "contact/mesh/surface.hpp"
+#include "supernormal/contact/body_box.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/proximity/proximity.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
 
-/// Finds contacts. It owns the scratch memory: keep one per thread, and after the first queries nothing is allocated any more.
-/// Nothing else is carried over from one query to the next.
-///
-/// The surface is single-sided: behind a triangle is solid. The triangles have to be all those that touch the body's box
-/// (body_box.hpp); others do not count, and the order does not matter. Neighbours are recognised by equal coordinates of the
-/// vertices that they share. Triangles without area, repeated ones and those with a coordinate that is not finite or beyond 1e30
-/// are skipped.
-class MeshContacts {
+/// Does what MeshContacts says (supernormal/contact/mesh_contacts.hpp).
+class MeshContactSearch {
  public:
-  /// The distinct contacts of the body with the surface, deepest first, in the world frame. A contact is a local maximum of the
-  /// gap function over the normals of one feature of the surface (lib/proximity/README.md), with a gap that is not positive:
-  ///
-  ///  * a face, when the body's deepest point lies under it, or under the wall that the face runs into: explicit, with the digits
-  ///    of find_plane_proximity();
-  ///  * a convex edge, over the arc between the normals of its two faces (at a border up to 90 degrees from that of its one face);
-  ///   * a vertex, over the normals with whose tangent plane no triangle there violates the normal cone;
-  ///  * a face that the body crosses, if there is nothing else: see find_way_up().
-  ///
-  /// Over one edge, at one vertex and for one convex part of the solid there is one contact: the one with the minimum translation
-  /// distance (MTD).
-  ///
-  /// Inner edges of flat and concave parts have no such normals, so there are no ghost contacts. Proximity::contact is the body's
-  /// point, as with a plane. Of the settings only the tolerance and the limit of evaluations are used: the hybrid solves the
-  /// vertices. The result is valid until the next query; empty when the pose is not finite.
   std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                     const Settings& settings);
 
-  /// Evaluations of the support function and the gap function in the last query.
   int evaluations() const { return evaluations_; }
 
  private:

@@ -9,7 +9,7 @@
 namespace supernormal {
 
 /// All in m, in the body's frame. Shape::half_extents() has no centre: a body need not reach equally far to both sides.
-struct BodyBox {
+struct SUPERNORMAL_API BodyBox {
   Vector3 centre;
   Vector3 half_lengths;
 

@@ -1,0 +1,265 @@
+#include "contact/mesh/mesh_contact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+#include "contact/mesh/arc.hpp"
+#include "contact/mesh/triangle_proximity.hpp"
+
+namespace supernormal {
+namespace {
+
+// The normal at an edge must be more precise than the gap, and another step of a superlinear iteration is cheap.
+constexpr double kArcTolerance = 1e-2;  // of the tolerance of the gap
+
+// The searched box is larger than the body's, so that rounding loses no triangle that touches it.
+constexpr double kBoxMargin = 1e-9;  // of the length unit
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+int next(int k) { return k == 2 ? 0 : k + 1; }
+
+}  // namespace
+
+std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
+                                                     const Settings& settings) {
+  contacts_.clear();
+  evaluations_ = 0;
+  if (triangles.empty() || !pose.position.allFinite() || !pose.rotation.allFinite()) return contacts_;
+  settings_ = settings;
+  settings_.solver = Solver::Hybrid;
+  settings_.stop_when_apart = true;
+  prepare(shape, pose, triangles);
+  SupportProbe probe(shape, pose.rotation);
+  look_at_patches(probe);
+  for (std::size_t p = 0; p < supports_.size(); ++p) find_on_patch(probe, p);
+  for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
+    for (int side = 0; side < 3; ++side) find_on_edge(probe, static_cast<int>(f), side);
+  }
+  for (std::size_t p = 0; p < supports_.size(); ++p) find_beyond_rim(probe, p);
+  add_beyond_rim();
+  find_other_separations(probe);
+  if (found_.contacts().empty()) find_way_up(probe);
+  found_.keep_shortest_separations();
+  evaluations_ = probe.evaluations();
+  return to_world(pose.position);
+}
+
+void MeshContactSearch::prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles) {
+  box_ = BodyBox::of(shape);
+  length_unit_ = box_.half_lengths.minCoeff();
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const BodyBox searched = box_.widened(kBoxMargin * length_unit_ + 8 * kEpsilon * pose.position.lpNorm<Eigen::Infinity>());
+  near_.clear();
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near_),
+               [&](const MeshTriangle& triangle) { return searched.touches(pose, triangle.vertices); });
+  surface_.build(near_, pose.position, length_unit_);
+  supports_.clear();
+  settled_.assign(at(surface_.corner_count()), 0);
+  found_.clear(length_unit_);
+  beyond_rim_.clear(length_unit_);
+}
+
+void MeshContactSearch::look_at_patches(SupportProbe& probe) {
+  for (const CoplanarPatch& patch : surface_.patches()) {
+    const DeepestPoint deepest = probe.deepest(patch.normal);
+    const double plane = patch.normal.dot(surface_.faces()[at(patch.first_face)].vertices[0]);
+    supports_.push_back({deepest.point, deepest.height - plane, false});
+  }
+}
+
+SurfaceContact MeshContactSearch::contact_at(int face, const Vector3& normal, double gap, const Vector3& body_point) const {
+  SurfaceContact contact;
+  contact.normal = normal;
+  contact.gap = gap;
+  contact.body_point = body_point;
+  contact.surface_point = body_point - gap * normal;
+  contact.feature_point = contact.surface_point;
+  contact.face = face;
+  contact.part = surface_.part_of(surface_.faces()[at(face)]);
+  return contact;
+}
+
+void MeshContactSearch::find_on_patch(SupportProbe& probe, std::size_t patch) {
+  PatchSupport& support = supports_[patch];
+  if (!(support.gap <= 0)) return;
+  const Vector3& normal = surface_.patches()[patch].normal;
+  for (int f = surface_.patches()[patch].first_face; f >= 0; f = surface_.faces()[at(f)].next_in_patch) {
+    const Face& face = surface_.faces()[at(f)];
+    if (!surface_.is_over(face, support.deepest)) continue;
+    support.is_over = true;
+    const SurfaceContact contact = contact_at(f, normal, support.gap, support.deepest);
+    if (touches_surface(probe, contact)) found_.add(contact);
+    return;
+  }
+}
+
+// Each convex edge is handled once, by the face with the lower number.
+bool MeshContactSearch::is_edge_owned_by_neighbour(int face, int side) const {
+  const int neighbour = surface_.faces()[at(face)].neighbour[at(side)];
+  if (neighbour < 0 || neighbour > face) return false;
+  const std::array<int, 3>& back = surface_.faces()[at(neighbour)].neighbour;
+  return std::find(back.begin(), back.end(), face) != back.end();
+}
+
+bool MeshContactSearch::open_arc(SupportProbe& probe, int f, int side, Arc& arc, ArcSample& low, ArcSample& high) const {
+  const Face& face = surface_.faces()[at(f)];
+  const EdgeConvexity convexity = face.convexity[at(side)];
+  const PatchSupport& support = supports_[at(face.patch)];
+  if (convexity == EdgeConvexity::Flat || convexity == EdgeConvexity::Concave || !(support.gap <= 0) ||
+      is_edge_owned_by_neighbour(f, side))
+    return false;
+  const Vector3& across = face.outward[at(side)];
+  arc = {surface_.patches()[at(face.patch)].normal, across, 0.5 * std::numbers::pi, face.vertices[at(side)]};
+  low = arc.sample(0, support.deepest);
+  if (convexity == EdgeConvexity::Border) {
+    if (!(low.slope > surface_.rounding())) return false;
+    high = arc.sample(arc.end, probe);
+    return true;
+  }
+  const std::size_t other = at(surface_.faces()[at(face.neighbour[at(side)])].patch);
+  const Vector3& other_normal = surface_.patches()[other].normal;
+  const double angle = std::atan2(other_normal.dot(across), other_normal.dot(arc.from));
+  arc.end = angle > 0 ? angle : std::numbers::pi;  // the faces are back to back
+  high = arc.sample(arc.end, supports_[other].deepest);
+  return supports_[other].gap <= 0;
+}
+
+void MeshContactSearch::find_on_edge(SupportProbe& probe, int f, int side) {
+  Arc arc;
+  ArcSample low;
+  ArcSample high;
+  if (!open_arc(probe, f, side, arc, low, high)) return;
+  if (have_maximum_between(low, high, surface_.rounding())) find_on_arc(probe, f, side, arc, low, high);
+}
+
+double MeshContactSearch::arc_tolerance() const {
+  return std::max(kArcTolerance * settings_.tolerance * length_unit_, 1e-3 * surface_.rounding());
+}
+
+void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const Arc& arc, const ArcSample& low,
+                                    const ArcSample& high) {
+  const Face& face = surface_.faces()[at(f)];
+  const int first_evaluation = probe.evaluations();
+  const ArcMaximum top = maximize_between(probe, arc, low, high, arc_tolerance(), settings_.max_evaluations);
+  if (top.is_apart || !(top.gap <= 0)) return;
+  const Vector3 edge = face.vertices[at(next(side))] - arc.edge_point;
+  const double share = edge.dot(top.point - arc.edge_point) / edge.squaredNorm();
+  SurfaceContact contact = contact_at(f, top.normal, top.gap, top.point);
+  contact.crease = surface_.corner_count() + 3 * f + side;
+  contact.surface_point = arc.edge_point + share * edge;
+  contact.feature_point = arc.edge_point + std::clamp(share, 0.0, 1.0) * edge;
+  const bool is_beyond_end = (contact.feature_point - contact.surface_point).norm() > surface_.rounding();
+  if (is_beyond_end && surface_.find_wall(top.normal, contact.feature_point, contact.surface_point) < 0) {
+    find_on_vertex(probe, f, share < 0 ? side : next(side), top.normal);
+    return;
+  }
+  contact.error = top.error;
+  contact.evaluations = probe.evaluations() - first_evaluation;
+  contact.status = top.converged ? Status::Converged : Status::EvaluationLimit;
+  if (face.convexity[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point)) return;
+  if (surface_.violates_normal_cone(contact.normal, contact.feature_point, contact.surface_point)) return;
+  if (touches_surface(probe, contact)) found_.add(contact);
+}
+
+// The deepest point may lie under no face although the solid goes on there. There are two such cases.
+//
+// A sharp tip is pressed into the corner of floor and wall: where the floor's plane is above the tip, there is the wall already.
+// The solid goes on below the wall, and so does the contact with the floor.
+//
+// A thin rod stands deep in the floor: above its tip the floor is out of the body's box, and its triangles are not known.
+//
+// The contact goes on only as far as the solid does: beyond a low wall the floor's plane is in the air. Where the body sticks out
+// of that plane it must be in the solid, so that a known face lies between that place and the body's other end.
+void MeshContactSearch::find_beyond_rim(SupportProbe& probe, std::size_t p) {
+  const CoplanarPatch& patch = surface_.patches()[p];
+  const PatchSupport& support = supports_[p];
+  if (!(support.gap <= 0) || support.is_over) return;
+  const Vector3 to_top = probe.deepest(-patch.normal).point - support.deepest;
+  const double rise = patch.normal.dot(to_top);
+  if (!(rise > -support.gap)) return;  // the whole body is behind the plane
+  if (!surface_.exits_solid(support.deepest - support.gap / rise * to_top, support.deepest + to_top)) return;
+  SurfaceContact contact = contact_at(patch.first_face, patch.normal, support.gap, support.deepest);
+  int side = 0;
+  contact.feature_point = surface_.nearest_on_rim(patch, contact.surface_point, contact.face, side);
+  const Face& face = surface_.faces()[at(contact.face)];
+  const bool goes_on_behind_wall = surface_.find_wall(patch.normal, contact.feature_point, contact.surface_point) >= 0;
+  const bool goes_on_unknown =
+      face.convexity[at(side)] == EdgeConvexity::Border && !has_complete_neighbourhood(probe, contact.feature_point);
+  if (goes_on_unknown || goes_on_behind_wall) beyond_rim_.add(contact);
+}
+
+// Among nearly parallel contacts the deepest is added, whatever the order of the triangles.
+void MeshContactSearch::add_beyond_rim() {
+  beyond_rim_.sort();
+  for (const SurfaceContact& contact : beyond_rim_.contacts()) {
+    if (!found_.has_similar(contact.normal, contact.body_point)) found_.add(contact);
+  }
+}
+
+// Whether all triangles at a point are known: the caller found those in the body's box.
+bool MeshContactSearch::has_complete_neighbourhood(const SupportProbe& probe, const Vector3& point) const {
+  return box_.contains(probe.rotation().transpose() * point, surface_.rounding());
+}
+
+// The body's point may lie under a face while the body is beside the solid: a rod that leans against a sheet's border from below.
+// The line from the point to the opposite end of the body lies in the body; where it leaves the solid it meets the surface.
+bool MeshContactSearch::touches_surface(SupportProbe& probe, const SurfaceContact& contact) const {
+  const Vector3 top = probe.deepest(-contact.normal).point;
+  if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // the whole body is behind the plane
+  return surface_.is_crossed(contact.body_point, top, contact.face) || overlaps_face(probe, surface_.faces()[at(contact.face)]);
+}
+
+bool MeshContactSearch::overlaps_face(SupportProbe& probe, const Face& face) const {
+  const Proximity found = meet_face(probe, face);
+  return found.status != Status::Apart && found.gap <= 0;
+}
+
+Proximity MeshContactSearch::meet_face(SupportProbe& probe, const Face& face) const {
+  const Proximity found = find_triangle_proximity(probe.shape(), {Vector3::Zero(), probe.rotation()}, face.vertices, settings_);
+  probe.count(found.evaluations);
+  return found;
+}
+
+// If no normal is that of a maximum, takes the shortest translation out of one of the faces that the body crosses. This happens
+// to a body that has sunk and comes out of the solid at the foot of a wall only, or one that comes down across an inner corner:
+// the surface recedes there under its deepest point. It does not count where the body is behind the face, as it may be at the
+// border of a sheet.
+void MeshContactSearch::find_way_up(SupportProbe& probe) {
+  const Vector3 centre = probe.rotation() * box_.centre;
+  std::optional<SurfaceContact> shortest;
+  for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
+    const Face& face = surface_.faces()[f];
+    const PatchSupport& support = supports_[at(face.patch)];
+    if (!(support.gap <= 0) || (shortest && support.gap <= shortest->gap)) continue;
+    const Proximity found = meet_face(probe, face);
+    if (found.status == Status::Apart || found.gap > 0) continue;
+    const bool is_in_front = face.normal.dot(centre - face.vertices[0]) > surface_.rounding();
+    // If the body has a flat side, point1 may be any point of it.
+    const Vector3 opposite = found.point2 - found.gap * found.normal;
+    if (!is_in_front && !surface_.exits_solid(centre, found.point1) && !surface_.exits_solid(centre, opposite)) continue;
+    shortest = contact_at(static_cast<int>(f), face.normal, support.gap, support.deepest);
+  }
+  if (shortest) found_.add(*shortest);
+}
+
+std::span<const MeshContact> MeshContactSearch::to_world(const Vector3& origin) {
+  for (const SurfaceContact& found : found_.contacts()) {
+    Proximity out;
+    out.gap = found.gap;
+    out.error = found.error;
+    out.normal = -found.normal;
+    out.point1 = origin + found.body_point;
+    out.point2 = out.point1 - found.gap * found.normal;
+    out.contact = out.point1;
+    out.evaluations = found.evaluations;
+    out.status = found.status;
+    contacts_.push_back({out, surface_.faces()[at(found.face)].triangle});
+  }
+  return contacts_;
+}
+
+}  // namespace supernormal
