@@ -22,13 +22,13 @@ function(add_documents package root)
   execute_process(COMMAND gzip -9n ${folder}/changelog COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# write_symbols(package root)
+# write_symbols(package root): to dpkg-gensymbols a symbol is missing only after the version that brought it, so it is told a later one.
 function(write_symbols package root)
   file(GLOB libraries ${root}/${CPACK_SUPERNORMAL_LIB_DIR}/lib*.so.${CPACK_PACKAGE_VERSION})
   set(control ${CPACK_SUPERNORMAL_CONTROL_DIR}/${package})
   file(MAKE_DIRECTORY ${control})
   execute_process(
-    COMMAND dpkg-gensymbols -p${package} -v${CPACK_PACKAGE_VERSION} -I${CPACK_SUPERNORMAL_SYMBOLS_DIR}/${package}.symbols -e${libraries}
+    COMMAND dpkg-gensymbols -p${package} -v${CPACK_PACKAGE_VERSION}+0 -I${CPACK_SUPERNORMAL_SYMBOLS_DIR}/${package}.symbols -e${libraries}
             -O${control}/symbols -c4
     COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
