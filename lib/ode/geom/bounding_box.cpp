@@ -22,12 +22,13 @@ int write_finite_aabb(dGeomID geom, dReal* aabb) {
   const Pose pose = pose_of(geom);
   const BoundingBox box = find_bounding_box(require_body(geom).shape(), pose);
   for (int axis = 0; axis < 3; ++axis) {
-    const double margin = rounding_of(std::abs(pose.position[axis]) + std::abs(box.low[axis]) + std::abs(box.high[axis]));
-    const double low = box.low[axis] - margin;
-    const double high = box.high[axis] + margin;
+    const double position = pose.position[axis];
+    const double low = box.low[axis];
+    const double high = box.high[axis];
     if (!std::isfinite(low) || !std::isfinite(high)) return 0;
-    aabb[2 * axis] = to_real(low);
-    aabb[2 * axis + 1] = to_real(high);
+    const double margin = rounding_of(std::abs(position) + std::abs(high - position) + std::abs(position - low));
+    aabb[2 * axis] = to_real(low - margin);
+    aabb[2 * axis + 1] = to_real(high + margin);
   }
   return 1;
 }

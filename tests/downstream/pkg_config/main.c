@@ -21,7 +21,10 @@ int main(void) {
   dContactGeom contact;
 
   dInitODE2(0);
-  check(snInit() == 1, "snInit");
+  if (snInit() != 1) {
+    printf("snInit: %s\n", snLastError());
+    return 1;
+  }
   space = dSimpleSpaceCreate(0);
   plane = dCreatePlane(space, 0, 0, 1, 0);
   body = snCreateEllipsoid(space, 3, 2, 1);

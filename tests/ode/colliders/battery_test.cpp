@@ -88,9 +88,10 @@ TEST_CASE("the depth of points: at the centre, on the surface, anywhere") {
     (depth < 0 ? outside : inside) += 1;
     place(probe, anywhere);
     if (depth > -1e-3) continue;
-    dGeomSphereSetRadius(probe, dReal(-depth * (1 - 1e-5)));
+    const double margin = std::max(-1e-5 * depth, within_rounding(0, 10));
+    dGeomSphereSetRadius(probe, dReal(-depth - margin));
     CHECK(collide(probe, body).empty());
-    dGeomSphereSetRadius(probe, dReal(-depth * (1 + 1e-5)));
+    dGeomSphereSetRadius(probe, dReal(-depth + margin));
     CHECK(collide(probe, body).size() == 1);
   }
   CHECK(missed <= kMissedShare * kRepetitions);
