@@ -7,7 +7,7 @@
 //                depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
 //   others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
 //   contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to()
-//   one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area()
+//   one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
 //
 // Units and frames: lengths in m, or in any other unit that is used throughout; x_world = rotation x_body + position; normals are
 // unit vectors and point from body 1 to body 2; a gap is positive apart, negative when the bodies overlap.

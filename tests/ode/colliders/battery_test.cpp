@@ -2,6 +2,7 @@
 // themselves: 10 000 repetitions each.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ode/battery_bodies.hpp"
