@@ -1,0 +1,270 @@
+// Queries of N pairs and of N rays, on all cores.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "enums.hpp"
+#include "parallel_for.hpp"
+#include "poses.hpp"
+#include "shape_sequence.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/raycast/ray.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+/// The number of pairs: that of the arguments which are sequences, all of which must agree.
+class PairCount {
+ public:
+  void add(const char* name, std::size_t count) {
+    if (name_ != nullptr && count != count_) {
+      throw std::invalid_argument(std::string(name) + " has " + std::to_string(count) + " entries and " + name_ + " has " +
+                                  std::to_string(count_) + "; they must have as many, or be a single one for all");
+    }
+    name_ = name;
+    count_ = count;
+  }
+
+  std::ptrdiff_t value() const { return static_cast<std::ptrdiff_t>(count_); }
+
+ private:
+  const char* name_ = nullptr;
+  std::size_t count_ = 1;
+};
+
+/// A Shape for all pairs, Shapes, or a sequence of Shape.
+class ShapesArgument {
+ public:
+  ShapesArgument(const char* name, const py::object& argument, PairCount& count) {
+    if (py::isinstance<Shape>(argument)) {
+      single_ = argument.cast<std::shared_ptr<Shape>>();
+      return;
+    }
+    if (py::isinstance<ShapeSequence>(argument)) {
+      shapes_ = argument.cast<std::shared_ptr<ShapeSequence>>();
+    } else if (py::isinstance<py::sequence>(argument)) {
+      shapes_ = make_shape_sequence(name, argument);
+    } else {
+      throw py::type_error(std::string(name) + " is " + std::string(py::repr(argument)) +
+                           ", but must be a Shape, Shapes or a sequence of Shape");
+    }
+    count.add(name, shapes_->size());
+  }
+
+  const Shape& operator[](std::ptrdiff_t i) const { return single_ ? *single_ : (*shapes_)[static_cast<std::size_t>(i)]; }
+
+ private:
+  std::shared_ptr<Shape> single_;
+  std::shared_ptr<ShapeSequence> shapes_;
+};
+
+/// A Pose for all pairs, or Poses.
+class PosesArgument {
+ public:
+  PosesArgument(const char* name, const py::object& argument, PairCount& count) {
+    if (py::isinstance<Pose>(argument)) {
+      single_ = argument.cast<Pose>();
+      return;
+    }
+    if (!py::isinstance<Poses>(argument)) {
+      throw py::type_error(std::string(name) + " is " + std::string(py::repr(argument)) + ", but must be a Pose or Poses");
+    }
+    poses_ = argument.cast<std::shared_ptr<Poses>>();
+    count.add(name, poses_->poses.size());
+  }
+
+  const Pose& operator[](std::ptrdiff_t i) const { return poses_ ? poses_->poses[static_cast<std::size_t>(i)] : single_; }
+
+ private:
+  Pose single_;
+  std::shared_ptr<Poses> poses_;
+};
+
+/// Vectors: one (3,) for all, or (N, 3).
+class VectorsArgument {
+ public:
+  VectorsArgument(const char* name, Doubles values, PairCount& count) : name_(name), values_(std::move(values)) {
+    if (values_.ndim() == 1 && values_.shape(0) == 3) return;
+    count.add(name, static_cast<std::size_t>(require_rows(name, values_, {3})));
+    stride_ = 3;
+  }
+
+  Vector3 operator[](std::ptrdiff_t i) const { return vector_at(values_.data() + stride_ * i); }
+  Name name(std::ptrdiff_t i) const { return {name_, stride_ == 0 ? -1 : i}; }
+
+ private:
+  const char* name_;
+  Doubles values_;
+  std::ptrdiff_t stride_ = 0;
+};
+
+/// A column of a result, filled in place.
+template <typename Number, int kWidth = 1>
+class Column {
+ public:
+  explicit Column(std::ptrdiff_t count) : array_(dimensions(count)), data_(array_.mutable_data()) {}
+
+  void set(std::ptrdiff_t i, Number value) { data_[i] = value; }
+  void set(std::ptrdiff_t i, const Vector3& value) { std::copy(value.data(), value.data() + 3, data_ + 3 * i); }
+  const py::array_t<Number>& array() const { return array_; }
+
+ private:
+  static std::vector<py::ssize_t> dimensions(std::ptrdiff_t count) {
+    if (kWidth == 1) return {count};
+    return {count, kWidth};
+  }
+
+  py::array_t<Number> array_;
+  Number* data_;
+};
+
+struct Proximities {
+  explicit Proximities(std::ptrdiff_t pairs) : count(pairs) {}
+
+  void set(std::ptrdiff_t i, const Proximity& result) {
+    gap.set(i, result.gap);
+    error.set(i, result.error);
+    normal.set(i, result.normal);
+    point1.set(i, result.point1);
+    point2.set(i, result.point2);
+    contact.set(i, result.contact);
+    evaluations.set(i, result.evaluations);
+    status.set(i, static_cast<std::uint8_t>(result.status));
+    is_global.set(i, result.is_global);
+    global_error.set(i, result.global_error);
+  }
+
+  std::ptrdiff_t count;
+  Column<double> gap{count}, error{count};
+  Column<double, 3> normal{count}, point1{count}, point2{count}, contact{count};
+  Column<int> evaluations{count};
+  Column<std::uint8_t> status{count};
+  Column<bool> is_global{count};
+  Column<double> global_error{count};
+};
+
+std::unique_ptr<Proximities> proximities(const py::object& shapes1, const py::object& poses1, const py::object& shapes2,
+                                         const py::object& poses2, const Settings& settings,
+                                         const std::optional<Doubles>& first_normals, int threads) {
+  PairCount count;
+  const ShapesArgument bodies1("shapes1", shapes1, count);
+  const PosesArgument places1("poses1", poses1, count);
+  const ShapesArgument bodies2("shapes2", shapes2, count);
+  const PosesArgument places2("poses2", poses2, count);
+  std::optional<VectorsArgument> first;
+  if (first_normals) first.emplace("first_normals", *first_normals, count);
+  auto out = std::make_unique<Proximities>(count.value());
+  parallel_for(count.value(), threads, [&](std::ptrdiff_t i) {
+    const Vector3 normal = first ? require_direction(first->name(i), (*first)[i]) : Vector3::UnitX();
+    const Proximity result = find_proximity(bodies1[i], places1[i], bodies2[i], places2[i], settings, first ? &normal : nullptr);
+    if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
+    out->set(i, result);
+  });
+  return out;
+}
+
+struct RayHits {
+  explicit RayHits(std::ptrdiff_t rays) : count(rays) {}
+
+  void set(std::ptrdiff_t i, const RayHit& result) {
+    hit.set(i, result.hit);
+    from_inside.set(i, result.from_inside);
+    distance.set(i, result.hit ? result.distance : std::numeric_limits<double>::quiet_NaN());
+    point.set(i, result.hit ? result.point : Vector3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    normal.set(i, result.hit ? result.normal : Vector3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    status.set(i, static_cast<std::uint8_t>(result.status));
+  }
+
+  std::ptrdiff_t count;
+  Column<bool> hit{count}, from_inside{count};
+  Column<double> distance{count};
+  Column<double, 3> point{count}, normal{count};
+  Column<std::uint8_t> status{count};
+};
+
+std::unique_ptr<RayHits> ray_hits(const py::object& shapes, const py::object& poses, const Doubles& origins,
+                                  const Doubles& directions, double length, const Settings& settings, int threads) {
+  PairCount count;
+  const ShapesArgument bodies("shapes", shapes, count);
+  const PosesArgument places("poses", poses, count);
+  const VectorsArgument from("origins", origins, count), along("directions", directions, count);
+  auto out = std::make_unique<RayHits>(count.value());
+  parallel_for(count.value(), threads, [&](std::ptrdiff_t i) {
+    const Vector3 origin = require_place(from.name(i), from[i]), direction = require_direction(along.name(i), along[i]);
+    const RayHit result = find_ray_hit(bodies[i], places[i], origin, direction, length, settings);
+    if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
+    out->set(i, result);
+  });
+  return out;
+}
+
+constexpr const char* kProximitiesDoc =
+    R"(The results of find_proximities(), as arrays with an entry for each of the N pairs, in the world's frame.)";
+
+constexpr const char* kFindProximitiesDoc =
+    R"(find_proximity() of N pairs on all cores, without the interpreter's lock; bit for bit the same results.
+
+shapes1, shapes2: a Shape for all pairs, Shapes, or a sequence of N Shape. poses1, poses2: a Pose for all pairs, or Poses.
+first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0, or None. threads: in [0, 256], 0 for as many as the machine
+has. Raises what find_proximity() does, with the number of the pair; ValueError too when the arguments differ in length.)";
+
+constexpr const char* kRayHitsDoc =
+    R"(The results of find_ray_hits(), as arrays with an entry for each of the N rays, in the world's frame; NaN where none hits.)";
+
+constexpr const char* kFindRayHitsDoc =
+    R"(find_ray_hit() of N rays on all cores, without the interpreter's lock; bit for bit the same results.
+
+shapes: a Shape for all rays, Shapes, or a sequence of N Shape; poses: a Pose for all rays, or Poses. origins: (N, 3) or (3,), m;
+directions: (N, 3) or (3,), any length but 0; length: m, of all rays, in [0, inf]. threads: in [0, 256], 0 for as many as the machine
+has. Raises what find_ray_hit() does, with the number of the ray; ValueError too when the arguments differ in length.)";
+
+/// Makes a column of a result an attribute: the array itself, not a copy.
+template <typename Result, typename ColumnType>
+void bind_column(py::class_<Result>& type, const char* name, ColumnType Result::*column, const char* doc) {
+  type.def_property_readonly(
+      name, [column](const Result& self) { return (self.*column).array(); }, doc);
+}
+
+}  // namespace
+
+void bind_batch(py::module_& m) {
+  py::class_<Proximities> pairs(m, "Proximities", kProximitiesDoc);
+  pairs.def("__len__", [](const Proximities& self) { return self.count; });
+  bind_column(pairs, "gap", &Proximities::gap, "(N,), m; distance when positive, minus the penetration depth when negative");
+  bind_column(pairs, "error", &Proximities::error, "(N,), m; estimate of the error of the gap; a bound where is_global");
+  bind_column(pairs, "normal", &Proximities::normal, "(N, 3), unit, from body 1 to body 2");
+  bind_column(pairs, "point1", &Proximities::point1, "(N, 3), m; on the boundary of body 1");
+  bind_column(pairs, "point2", &Proximities::point2, "(N, 3), m; on the boundary of body 2");
+  bind_column(pairs, "contact", &Proximities::contact, "(N, 3), m; where a contact force acts");
+  bind_column(pairs, "evaluations", &Proximities::evaluations, "(N,) of int32; evaluations of the gap function");
+  bind_column(pairs, "status", &Proximities::status, "(N,) of uint8; compare with members of Status");
+  bind_column(pairs, "is_global", &Proximities::is_global, "(N,) of bool; whether the gap is proved to be the largest");
+  bind_column(pairs, "global_error", &Proximities::global_error, "(N,), m; the proved bound on what a larger gap would add");
+  m.def("find_proximities", &proximities, kFindProximitiesDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
+        py::arg("poses2"), py::arg("settings") = Settings(), py::arg("first_normals") = py::none(), py::arg("threads") = 0);
+
+  py::class_<RayHits> rays(m, "RayHits", kRayHitsDoc);
+  rays.def("__len__", [](const RayHits& self) { return self.count; });
+  bind_column(rays, "hit", &RayHits::hit, "(N,) of bool; whether the ray meets the boundary within its length");
+  bind_column(rays, "from_inside", &RayHits::from_inside, "(N,) of bool; whether the origin is inside");
+  bind_column(rays, "distance", &RayHits::distance, "(N,), m; along the ray");
+  bind_column(rays, "point", &RayHits::point, "(N, 3), m");
+  bind_column(rays, "normal", &RayHits::normal, "(N, 3), unit, outward");
+  bind_column(rays, "status", &RayHits::status, "(N,) of uint8; compare with members of Status");
+  m.def("find_ray_hits", &ray_hits, kFindRayHitsDoc, py::arg("shapes"), py::arg("poses"), py::arg("origins"), py::arg("directions"),
+        py::arg("length") = std::numeric_limits<double>::infinity(), py::arg("settings") = Settings(), py::arg("threads") = 0);
+}
+
+}  // namespace supernormal::python

@@ -1,0 +1,143 @@
+// The shapes that are made of others, of points, or of a program's functions.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "supernormal/shapes/callback_shape.hpp"
+#include "supernormal/shapes/linear_image.hpp"
+#include "supernormal/shapes/minkowski_sum.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/rounded.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+using ShapePointer = std::shared_ptr<Shape>;
+
+/// A Polytope refers to points: these go with it.
+struct PolytopeAndPoints {
+  explicit PolytopeAndPoints(std::vector<Vector3> vertices) : points(std::move(vertices)), polytope(points) {}
+
+  std::vector<Vector3> points;
+  Polytope polytope;
+};
+
+std::shared_ptr<Polytope> make_polytope(const Doubles& points) {
+  const py::ssize_t count = require_rows("points", points, {3});
+  std::vector<Vector3> vertices;
+  vertices.reserve(static_cast<std::size_t>(count));
+  for (py::ssize_t i = 0; i < count; ++i) vertices.push_back(vector_at(points.data() + 3 * i));
+  const auto owner = std::make_shared<PolytopeAndPoints>(std::move(vertices));
+  return {owner, &owner->polytope};
+}
+
+py::array_t<double> points_of(const Polytope& self) {
+  py::array_t<double> out({static_cast<py::ssize_t>(self.points().size()), py::ssize_t{3}});
+  double* to = out.mutable_data();
+  for (const Vector3& p : self.points()) to = std::copy(p.data(), p.data() + 3, to);
+  return out;
+}
+
+/// A function of Python's that C++ may call, copy and destroy on any thread, with or without the interpreter's lock.
+class PythonFunction {
+ public:
+  PythonFunction(const char* name, py::function function)
+      : name_(name), function_(new py::function(std::move(function)), [](py::function* last) {
+          const py::gil_scoped_acquire lock;
+          delete last;
+        }) {}
+
+  /// Calls it with a unit vector (3,), and reads `count` numbers of the result, in the order of the array.
+  template <std::size_t kCount>
+  std::array<double, kCount> call(const Vector3& n) const {
+    const py::gil_scoped_acquire lock;
+    py::array_t<double> direction(py::ssize_t{3});
+    std::copy(n.data(), n.data() + 3, direction.mutable_data());
+    const py::object result = (*function_)(direction);
+    const Doubles values = Doubles::ensure(result);
+    if (!values) PyErr_Clear();
+    if (!values || values.size() != static_cast<py::ssize_t>(kCount)) {
+      throw std::invalid_argument(std::string(name_) + "(" + vector_text(n.data(), 3) + ") returned " +
+                                  std::string(py::repr(result)) + ", but must return " + std::to_string(kCount) +
+                                  (kCount == 1 ? " number" : " numbers"));
+    }
+    std::array<double, kCount> out{};
+    std::copy(values.data(), values.data() + kCount, out.begin());
+    return out;
+  }
+
+ private:
+  const char* name_;
+  std::shared_ptr<py::function> function_;
+};
+
+std::shared_ptr<CallbackShape> make_callback_shape(py::function point, std::optional<py::function> support,
+                                                   std::optional<py::function> hessian) {
+  const PythonFunction point_function("point", std::move(point));
+  const auto point_of = [point_function](const Vector3& n) { return vector_at(point_function.call<3>(n).data()); };
+  CallbackShape::Support support_of = [point_of](const Vector3& n) { return n.dot(point_of(n)); };
+  if (support) {
+    support_of = [function = PythonFunction("support", std::move(*support))](const Vector3& n) { return function.call<1>(n)[0]; };
+  }
+  CallbackShape::Hessian hessian_of;
+  if (hessian) {
+    hessian_of = [function = PythonFunction("hessian", std::move(*hessian))](const Vector3& n) {
+      return matrix_at(function.call<9>(n).data());
+    };
+  }
+  return std::make_shared<CallbackShape>(std::move(support_of), point_of, std::move(hessian_of));
+}
+
+constexpr const char* kCallbackDoc =
+    R"(A convex body that a program describes by functions of the unit normal n, (3,), in the body's frame.
+
+point(n): (3,), m: the boundary point with outward normal n; of a flat face, any of its points.
+support(n): m: the support function h(n) = n . point(n); taken from point where it is None.
+hessian(n): (3, 3), m: the second derivatives of h; symmetric, hessian(n) @ n = 0. None: solvers estimate the radii of curvature.
+
+The functions must be pure. They are called with the interpreter's lock, from whatever thread asks, so that a batch of such shapes
+uses one core. They are tried in 26 directions; ValueError, with the direction, the value and what was expected, unless the results
+are finite and belong to a convex body with a size in [1e-30, 1e30] m. What a function raises later ends the query and is raised.)";
+
+}  // namespace
+
+void bind_composed_shapes(py::module_& m) {
+  py::class_<Polytope, Shape, std::shared_ptr<Polytope>>(
+      m, "Polytope",
+      "The convex hull of points: a point, a segment, a triangle or a solid. The origin should be near its middle.\n\n"
+      "points: (N, 3), m, N >= 1, within 1e30; ValueError otherwise.")
+      .def(py::init(&make_polytope), py::arg("points"))
+      .def_property_readonly("points", &points_of, "(N, 3), m; a copy")
+      .def("__repr__", [](const Polytope& self) { return "Polytope(of " + std::to_string(self.points().size()) + " points)"; });
+  py::class_<Rounded, Shape, std::shared_ptr<Rounded>>(
+      m, "Rounded", "A shape swept by a sphere.\n\nradius: m, in [0, 1e30]; ValueError otherwise.")
+      .def(py::init([](const ShapePointer& core, double radius) { return std::make_shared<Rounded>(core, radius); }),
+           py::arg("core").none(false), py::arg("radius"))
+      .def_property_readonly("radius", &Rounded::radius, "m");
+  py::class_<MinkowskiSum, Shape, std::shared_ptr<MinkowskiSum>>(m, "MinkowskiSum",
+                                                                 "All points p + q with p in the first shape and q in the second.")
+      .def(py::init(
+               [](const ShapePointer& first, const ShapePointer& second) { return std::make_shared<MinkowskiSum>(first, second); }),
+           py::arg("first").none(false), py::arg("second").none(false));
+  py::class_<LinearImage, Shape, std::shared_ptr<LinearImage>>(
+      m, "LinearImage",
+      "The points matrix @ p of all points p of a shape.\n\n"
+      "matrix: (3, 3), with singular values in [1e-30, 1e30] and a ratio of at most 1e12; ValueError otherwise.")
+      .def(py::init([](const ShapePointer& shape, const Matrix3& matrix) { return std::make_shared<LinearImage>(shape, matrix); }),
+           py::arg("shape").none(false), py::arg("matrix"))
+      .def_property_readonly(
+          "matrix", [](const LinearImage& self) { return self.matrix(); }, "(3, 3)");
+  py::class_<CallbackShape, Shape, std::shared_ptr<CallbackShape>>(m, "CallbackShape", kCallbackDoc)
+      .def(py::init(&make_callback_shape), py::arg("point"), py::arg("support") = py::none(), py::arg("hessian") = py::none());
+}
+
+}  // namespace supernormal::python

@@ -1,0 +1,117 @@
+// Contact manifolds and curvatures.
+#include <pybind11/eigen.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "supernormal/contact/contact_curvature.hpp"
+#include "supernormal/contact/contact_manifold.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+py::array_t<double> corner_points(const ContactManifold& self) {
+  py::array_t<double> out({py::ssize_t{self.corner_count}, py::ssize_t{3}});
+  double* to = out.mutable_data();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(self.corner_count); ++k) {
+    to = std::copy(self.corners[k].point.data(), self.corners[k].point.data() + 3, to);
+  }
+  return out;
+}
+
+py::array_t<double> corner_depths(const ContactManifold& self) {
+  py::array_t<double> out(py::ssize_t{self.corner_count});
+  for (std::size_t k = 0; k < static_cast<std::size_t>(self.corner_count); ++k) out.mutable_data()[k] = self.corners[k].depth;
+  return out;
+}
+
+/// The contacts that the ODE layer makes of a manifold (lib/ode/colliders/contact.cpp).
+py::tuple contacts(const ContactManifold& self, int room) {
+  if (room < 1) throw std::invalid_argument("room = " + std::to_string(room) + " is outside [1, inf)");
+  const bool overlaps = self.deepest.gap <= 0;
+  const ContactManifold reduced = reduced_to(self, room);
+  const bool has_deepest = overlaps && (reduced.corner_count == 0 || has_room_for_deepest(room));
+  const double share = has_deepest ? self.flatness : 1;
+  const py::ssize_t corners = overlaps ? reduced.corner_count : 0;
+  const py::ssize_t count = corners + (has_deepest ? 1 : 0);
+  py::array_t<double> points({count, py::ssize_t{3}}), depths(count);
+  double* to_point = points.mutable_data();
+  double* to_depth = depths.mutable_data();
+  const auto append = [&](const Vector3& point, double depth) {
+    to_point = std::copy(point.data(), point.data() + 3, to_point);
+    *to_depth++ = depth;
+  };
+  if (has_deepest) append(self.deepest.contact, 0 - self.deepest.gap);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k)
+    append(reduced.corners[k].point, share * reduced.corners[k].depth);
+  return py::make_tuple(points, depths);
+}
+
+constexpr const char* kManifoldDoc =
+    R"(The deepest point of an overlap and, when that is flat, the corners of the region on which the bodies rest. Points are in the
+world's frame. It is a continuous function of the poses, and symmetric under swapping the bodies.)";
+
+constexpr const char* kContactsDoc =
+    R"(The contacts that a simulator with room for so many gets: points (K, 3), m, and depths (K,), m, as a tuple.
+
+room: in [1, inf); ValueError otherwise. Round bodies have one contact, flat ones the deepest and two to four corners; with room for
+2 to 4 the corners take the place of the deepest. None if the bodies are apart. The normal of all is deepest.normal.)";
+
+constexpr const char* kFindDoc = R"(The contact manifold of two bodies whose proximity is known.
+
+proximity: what find_proximity() returned for the same bodies and poses.)";
+
+constexpr const char* kFindPlaneDoc = R"(The contact manifold of a body and a plane.
+
+proximity: what find_plane_proximity() returned for the same body and pose.)";
+
+constexpr const char* kCurvatureDoc =
+    R"(The curvature tensor of the boundary at the point with this outward normal, 1/m: (3, 3), the inverse of the Hessian.
+
+normal: (3,), world's frame, any length but 0; ValueError otherwise.)";
+
+constexpr const char* kContactCurvatureDoc =
+    R"(The principal relative curvatures of two bodies at a contact, 1/m: (smaller, larger).
+
+The gap grows as (smaller x^2 + larger y^2) / 2 about the contact. normal: (3,), world's frame, from body 1 to body 2, any length but
+0; ValueError otherwise.)";
+
+}  // namespace
+
+void bind_contact(py::module_& m) {
+  py::class_<ContactManifold>(m, "ContactManifold", kManifoldDoc)
+      .def_property_readonly(
+          "deepest", [](const ContactManifold& self) { return self.deepest; }, "Proximity: the deepest point")
+      .def_property_readonly("corner_points", &corner_points, "(K, 3), m, K = 0 or 4; some may be at the same place")
+      .def_property_readonly("corner_depths", &corner_depths, "(K,), m; depth of the overlap at the corners, 0 where there is none")
+      .def_readonly("flatness", &ContactManifold::flatness, "0 to 1: the factor on the corners' depths beside the deepest point")
+      .def_readonly("margin", &ContactManifold::margin, "m; the bodies are apart by no more than this at a corner")
+      .def_readonly("same_place", &ContactManifold::same_place, "m; corners that are nearer to each other are one contact")
+      .def_readonly("evaluations", &ContactManifold::evaluations, "boundary points that finding the corners took")
+      .def("contacts", &contacts, py::arg("room") = 8, kContactsDoc);
+  m.def("find_contact_manifold", &find_contact_manifold, kFindDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"),
+        py::arg("pose2"), py::arg("proximity"));
+  m.def("find_plane_contact_manifold", &find_plane_contact_manifold, kFindPlaneDoc, py::arg("shape"), py::arg("pose"),
+        py::arg("proximity"));
+  m.def(
+      "find_curvature",
+      [](const Shape& shape, const Pose& pose, const Vector3& normal) {
+        return find_curvature(shape, pose, require_direction({"normal"}, normal));
+      },
+      kCurvatureDoc, py::arg("shape"), py::arg("pose"), py::arg("normal"));
+  m.def(
+      "find_contact_curvature",
+      [](const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& normal) {
+        const Vector3 n = require_direction({"normal"}, normal);
+        const ContactCurvature result =
+            find_contact_curvature(find_curvature(shape1, pose1, n) + find_curvature(shape2, pose2, -n), n);
+        return std::pair(result.smaller, result.larger);
+      },
+      kContactCurvatureDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"), py::arg("pose2"), py::arg("normal"));
+}
+
+}  // namespace supernormal::python

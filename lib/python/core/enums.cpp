@@ -1,0 +1,61 @@
+#include "enums.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+/// The IntEnums by name. The interpreter keeps them until it ends: they cannot be asked of the module while that is being made.
+std::map<std::string, py::handle>& int_enums() {
+  static std::map<std::string, py::handle> types;
+  return types;
+}
+
+void add_int_enum(py::module_& m, const char* name, const char* doc, const std::vector<std::pair<const char*, int>>& members) {
+  py::list items;
+  for (const auto& [member, value] : members) items.append(py::make_tuple(member, value));
+  const py::object type = py::module_::import("enum").attr("IntEnum")(name, items, py::arg("module") = "supernormal._core");
+  type.attr("__doc__") = doc;
+  m.attr(name) = type;
+  int_enums()[name] = type.inc_ref();
+}
+
+int number(Solver solver) { return static_cast<int>(solver); }
+int number(Status status) { return static_cast<int>(status); }
+
+}  // namespace
+
+py::object enum_member(const char* name, int value) { return int_enums().at(name)(value); }
+
+void bind_enums(py::module_& m) {
+  add_int_enum(
+      m, "Solver",
+      "The methods that find the common normal of two bodies.\n\n"
+      "HYBRID: globally convergent ascent of the gap function; the default.\n"
+      "NEWTON: Algorithm I of Roemer's paper, no safeguard.\n"
+      "FIXED_POINT: Algorithm II of Roemer's paper, no derivatives, no safeguard.",
+      {{"HYBRID", number(Solver::Hybrid)}, {"NEWTON", number(Solver::Newton)}, {"FIXED_POINT", number(Solver::FixedPoint)}});
+  add_int_enum(m, "Status",
+               "How a query ended.\n\n"
+               "CONVERGED: the error is within the tolerance.\n"
+               "APART: stopped early, as asked: the bodies are separated by `gap` or more.\n"
+               "STALLED: no further ascent in double precision although the error exceeds the tolerance.\n"
+               "EVALUATION_LIMIT: Settings.max_evaluations reached.\n"
+               "DIVERGED: an unguarded solver left the domain.\n"
+               "INVALID_INPUT: a shape gave a number that is not finite. Queries raise ValueError instead of returning it.",
+               {{"CONVERGED", number(Status::Converged)},
+                {"APART", number(Status::Apart)},
+                {"STALLED", number(Status::Stalled)},
+                {"EVALUATION_LIMIT", number(Status::EvaluationLimit)},
+                {"DIVERGED", number(Status::Diverged)},
+                {"INVALID_INPUT", number(Status::InvalidInput)}});
+}
+
+}  // namespace supernormal::python

@@ -1,0 +1,51 @@
+// Solver and Status are IntEnums of Python, so that they compare with the integers of NumPy arrays. Every file that passes one
+// includes this.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "supernormal/proximity/proximity.hpp"
+
+namespace supernormal::python {
+
+/// The member of the IntEnum `name` of supernormal._core with the value; ValueError if there is none.
+pybind11::object enum_member(const char* name, int value);
+
+template <typename Enum>
+struct EnumName;
+template <>
+struct EnumName<Solver> {
+  static constexpr const char* kName = "Solver";
+};
+template <>
+struct EnumName<Status> {
+  static constexpr const char* kName = "Status";
+};
+
+}  // namespace supernormal::python
+
+namespace pybind11::detail {
+
+/// Converts between an enum of C++ and the IntEnum of the same name.
+template <typename Enum>
+struct IntEnumCaster {
+  using Names = supernormal::python::EnumName<Enum>;
+  PYBIND11_TYPE_CASTER(Enum, const_name("int"));
+
+  bool load(handle source, bool) {
+    if (!PyLong_Check(source.ptr())) return false;
+    value = static_cast<Enum>(int_(supernormal::python::enum_member(Names::kName, source.cast<int>())).template cast<int>());
+    return true;
+  }
+
+  static handle cast(Enum value, return_value_policy, handle) {
+    return supernormal::python::enum_member(Names::kName, static_cast<int>(value)).release();
+  }
+};
+
+template <>
+struct type_caster<supernormal::Solver> : IntEnumCaster<supernormal::Solver> {};
+template <>
+struct type_caster<supernormal::Status> : IntEnumCaster<supernormal::Status> {};
+
+}  // namespace pybind11::detail

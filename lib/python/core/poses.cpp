@@ -1,0 +1,148 @@
+// Pose and Poses, from a rotation matrix or a quaternion. What the core requires of a rotation is checked here, once.
+#include "poses.hpp"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "shapes/validation.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+// Rotations computed in double precision are within this error, and are used unchanged, bit for bit. Flat faces are sensitive to
+// more (lib/ode/geom/rotation.hpp, whose limits these are).
+constexpr double kRoundedRotation = 1e-14;
+
+// A rotation that was typed with three decimals is near enough, and one that was scaled or sheared by a per cent is not.
+constexpr double kNearRotation = 1e-2;
+
+constexpr double kUnitQuaternion = 1e-6;
+
+Matrix3 require_rotation(Name name, const Matrix3& R) {
+  const double error = (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (std::islessequal(error, kRoundedRotation) && R.determinant() > 0) return R;
+  if (!std::islessequal(error, kNearRotation) || R.determinant() < 0) {
+    std::array<double, 9> rows{};
+    write_matrix(R, rows.data());
+    throw std::invalid_argument(name.text() + " = " + vector_text(rows.data(), 9) + " (by rows), whose columns are not, to " +
+                                to_text(kNearRotation) + ", unit vectors at right angles and right-handed");
+  }
+  // The orthogonal factor of the polar decomposition is the nearest rotation.
+  const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+Matrix3 require_quaternion(Name name, const double* q) {
+  const double norm = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  if (!std::islessequal(std::abs(norm - 1), kUnitQuaternion)) {
+    throw std::invalid_argument(name.text() + " = " + vector_text(q, 4) + " (w, x, y, z) has the length " + to_text(norm) +
+                                ", but must have 1 to " + to_text(kUnitQuaternion));
+  }
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
+void refuse_two_attitudes(bool rotation, bool quaternion) {
+  if (rotation && quaternion) throw std::invalid_argument("rotation and quaternion are both given; give one of them");
+}
+
+Pose make_pose(const Vector3& position, const std::optional<Matrix3>& rotation, const std::optional<Eigen::Vector4d>& quaternion) {
+  refuse_two_attitudes(rotation.has_value(), quaternion.has_value());
+  Pose pose;
+  pose.position = require_place({"position"}, position);
+  if (rotation) pose.rotation = require_rotation({"rotation"}, *rotation);
+  if (quaternion) pose.rotation = require_quaternion({"quaternion"}, quaternion->data());
+  return pose;
+}
+
+void require_as_many(const char* name, py::ssize_t count, py::ssize_t wanted) {
+  if (count == wanted) return;
+  throw std::invalid_argument(std::string(name) + " has " + std::to_string(count) + " entries and position " +
+                              std::to_string(wanted) + "; they must have as many");
+}
+
+Poses make_poses(const Doubles& position, const std::optional<Doubles>& rotation, const std::optional<Doubles>& quaternion) {
+  refuse_two_attitudes(rotation.has_value(), quaternion.has_value());
+  const py::ssize_t count = require_rows("position", position, {3});
+  if (rotation) require_as_many("rotation", require_rows("rotation", *rotation, {3, 3}), count);
+  if (quaternion) require_as_many("quaternion", require_rows("quaternion", *quaternion, {4}), count);
+  Poses result;
+  result.poses.resize(static_cast<std::size_t>(count));
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    Pose& pose = result.poses[static_cast<std::size_t>(i)];
+    pose.position = require_place({"position", i}, vector_at(position.data() + 3 * i));
+    if (rotation) pose.rotation = require_rotation({"rotation", i}, matrix_at(rotation->data() + 9 * i));
+    if (quaternion) pose.rotation = require_quaternion({"quaternion", i}, quaternion->data() + 4 * i);
+  }
+  return result;
+}
+
+py::array_t<double> positions_of(const Poses& self) {
+  py::array_t<double> out({static_cast<py::ssize_t>(self.poses.size()), py::ssize_t{3}});
+  double* to = out.mutable_data();
+  for (const Pose& pose : self.poses) to = std::copy(pose.position.data(), pose.position.data() + 3, to);
+  return out;
+}
+
+py::array_t<double> rotations_of(const Poses& self) {
+  py::array_t<double> out({static_cast<py::ssize_t>(self.poses.size()), py::ssize_t{3}, py::ssize_t{3}});
+  double* to = out.mutable_data();
+  for (const Pose& pose : self.poses) {
+    write_matrix(pose.rotation, to);
+    to += 9;
+  }
+  return out;
+}
+
+constexpr const char* kPoseDoc = R"(The position and attitude of a body: x_world = rotation @ x_body + position.
+
+position: (3,), m, each coordinate within 1e150.
+rotation: (3, 3), orthonormal and right-handed. It is used unchanged where it is so to 1e-14; where it is so to 1e-2 only, the
+nearest rotation is taken.
+quaternion: (4,), w, x, y, z, of unit length to 1e-6; instead of a rotation.
+
+Raises ValueError when a number is out of range, when the matrix is no rotation, or when both attitudes are given.)";
+
+constexpr const char* kPosesDoc = R"(N poses, for find_proximities() and find_ray_hits().
+
+position: (N, 3), m; rotation: (N, 3, 3) or None; quaternion: (N, 4), w, x, y, z, or None. Requirements and errors are those of
+Pose; a message names the entry.)";
+
+}  // namespace
+
+void bind_poses(py::module_& m) {
+  py::class_<Pose>(m, "Pose", kPoseDoc)
+      .def(py::init(&make_pose), py::arg("position") = Vector3(0, 0, 0), py::arg("rotation") = py::none(),
+           py::arg("quaternion") = py::none())
+      .def_property_readonly(
+          "position", [](const Pose& self) { return self.position; }, "(3,), m")
+      .def_property_readonly(
+          "rotation", [](const Pose& self) { return self.rotation; }, "(3, 3)")
+      .def("__repr__", [](const Pose& self) {
+        std::array<double, 9> rows{};
+        write_matrix(self.rotation, rows.data());
+        return "Pose(position=" + vector_text(self.position.data(), 3) + ", rotation=" + vector_text(rows.data(), 9) + " by rows)";
+      });
+  py::class_<Poses, std::shared_ptr<Poses>>(m, "Poses", kPosesDoc)
+      .def(py::init(&make_poses), py::arg("position"), py::arg("rotation") = py::none(), py::arg("quaternion") = py::none())
+      .def_property_readonly("position", &positions_of, "(N, 3), m; a copy")
+      .def_property_readonly("rotation", &rotations_of, "(N, 3, 3); a copy")
+      .def("__len__", [](const Poses& self) { return self.poses.size(); })
+      .def("__getitem__", [](const Poses& self, std::size_t i) {
+        if (i >= self.poses.size()) throw py::index_error("poses has " + std::to_string(self.poses.size()) + " entries");
+        return self.poses[i];
+      });
+}
+
+}  // namespace supernormal::python

@@ -1,0 +1,116 @@
+// Settings, and the proximity of two bodies or of a body and a plane.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "enums.hpp"
+#include "parallel_for.hpp"
+#include "shapes/validation.hpp"
+#include "supernormal/proximity/plane.hpp"
+#include "supernormal/proximity/solve.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+std::string status_name(Status status) { return py::cast(status).attr("name").cast<std::string>(); }
+
+Proximity require_answer(const Proximity& result) {
+  if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
+  return result;
+}
+
+Proximity proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
+                    const std::optional<Vector3>& first_normal) {
+  const Vector3 first = first_normal ? require_direction({"first_normal"}, *first_normal) : Vector3::UnitX();
+  const py::gil_scoped_release unlocked;
+  return require_answer(find_proximity(shape1, pose1, shape2, pose2, settings, first_normal ? &first : nullptr));
+}
+
+Proximity plane_proximity(const Shape& shape, const Pose& pose, const Vector3& plane_normal, double plane_offset) {
+  const Vector3 normal = require_direction({"plane_normal"}, plane_normal);
+  if (!std::isfinite(plane_offset)) throw std::invalid_argument("plane_offset = " + to_text(plane_offset) + " m is not finite");
+  return require_answer(find_plane_proximity(shape, pose, normal, plane_offset));
+}
+
+constexpr const char* kSettingsDoc = R"(When a solver is to stop. Out of range, the query raises ValueError.
+
+solver: the method. tolerance: the largest error of the gap, relative to the smallest half-extent of the two bodies, in [1e-15, 1].
+max_evaluations: of the gap function, in [1, 1000000]. stop_when_apart: end with Status.APART at the first normal that proves
+separation. certify_depth: search on until the depth of overlapping bodies is proved the smallest: Proximity.is_global.)";
+
+constexpr const char* kProximityDoc = "The common normal of two bodies, in the world's frame.";
+
+constexpr const char* kFindDoc = R"(The gap, common normal and witness points of two bodies, apart or overlapping.
+
+pose1, pose2: of the bodies in the world. first_normal: (3,), in the frame of body 1, any length but 0: where the solver starts, such
+as the normal of an earlier, similar pose. For bodies apart or touching every start leads to the same answer. Overlapping bodies may
+have several local maxima of the gap function; then the one that it leads to is followed, and without it the highest is looked for.
+
+Raises ValueError for settings or a first normal out of range, and when a shape delivers a number that is not finite.)";
+
+constexpr const char* kPlaneDoc =
+    R"(The proximity of a body and the half-space plane_normal . x <= plane_offset: explicit and exact.
+
+plane_normal: (3,), world's frame, any length but 0, out of the half-space, made a unit vector; plane_offset: m. ValueError
+otherwise.)";
+
+}  // namespace
+
+void bind_settings(py::module_& m) {
+  py::class_<Settings>(m, "Settings", kSettingsDoc)
+      .def(py::init([](Solver solver, double tolerance, int max_evaluations, bool stop_when_apart, bool certify_depth) {
+             return Settings{solver, tolerance, max_evaluations, stop_when_apart, certify_depth};
+           }),
+           py::kw_only(), py::arg("solver") = Solver::Hybrid, py::arg("tolerance") = Settings().tolerance,
+           py::arg("max_evaluations") = Settings().max_evaluations, py::arg("stop_when_apart") = false,
+           py::arg("certify_depth") = false)
+      .def_readwrite("solver", &Settings::solver, "Solver")
+      .def_readwrite("tolerance", &Settings::tolerance, "in [1e-15, 1]")
+      .def_readwrite("max_evaluations", &Settings::max_evaluations, "in [1, 1000000]")
+      .def_readwrite("stop_when_apart", &Settings::stop_when_apart, "bool")
+      .def_readwrite("certify_depth", &Settings::certify_depth, "bool")
+      .def("__repr__", [](const Settings& self) {
+        return "Settings(solver=" + py::repr(py::cast(self.solver)).cast<std::string>() + ", tolerance=" + to_text(self.tolerance) +
+               ", max_evaluations=" + std::to_string(self.max_evaluations) +
+               ", stop_when_apart=" + (self.stop_when_apart ? "True" : "False") +
+               ", certify_depth=" + (self.certify_depth ? "True" : "False") + ")";
+      });
+}
+
+void bind_proximity(py::module_& m) {
+  py::class_<Proximity>(m, "Proximity", kProximityDoc)
+      .def_readonly("gap", &Proximity::gap, "m; distance when positive, minus the penetration depth when negative")
+      .def_readonly("error", &Proximity::error,
+                    "m; estimate of what is left to the local maximum of the gap; a bound where is_global")
+      .def_property_readonly(
+          "normal", [](const Proximity& self) { return self.normal; }, "(3,), unit, from body 1 to body 2")
+      .def_property_readonly(
+          "point1", [](const Proximity& self) { return self.point1; }, "(3,), m; on the boundary of body 1")
+      .def_property_readonly(
+          "point2", [](const Proximity& self) { return self.point2; }, "(3,), m; on the boundary of body 2")
+      .def_property_readonly(
+          "contact", [](const Proximity& self) { return self.contact; }, "(3,), m; where a contact force acts")
+      .def_readonly("evaluations", &Proximity::evaluations, "evaluations of the gap function")
+      .def_readonly("status", &Proximity::status, "Status")
+      .def_readonly("is_global", &Proximity::is_global, "Whether it is proved that no other normal has a larger gap.")
+      .def_readonly("global_error", &Proximity::global_error,
+                    "m; proved: the largest value of the gap function lies within [gap, gap + global_error]")
+      .def("__repr__", [](const Proximity& self) {
+        return "Proximity(gap=" + to_text(self.gap) + ", error=" + to_text(self.error) +
+               ", normal=" + vector_text(self.normal.data(), 3) + ", status=" + status_name(self.status) +
+               ", is_global=" + (self.is_global ? "True" : "False") + ")";
+      });
+  m.def("find_proximity", &proximity, kFindDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"), py::arg("pose2"),
+        py::arg("settings") = Settings(), py::arg("first_normal") = py::none());
+  m.def("find_plane_proximity", &plane_proximity, kPlaneDoc, py::arg("shape"), py::arg("pose"), py::arg("plane_normal"),
+        py::arg("plane_offset"));
+}
+
+}  // namespace supernormal::python

@@ -1,0 +1,62 @@
+// The first point of a body on a ray.
+#include <pybind11/eigen.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "enums.hpp"
+#include "parallel_for.hpp"
+#include "shapes/validation.hpp"
+#include "supernormal/raycast/ray.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+RayHit ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction, double length,
+               const Settings& settings) {
+  require_place({"origin"}, origin);
+  const Vector3 along = require_direction({"direction"}, direction);
+  const py::gil_scoped_release unlocked;
+  const RayHit result = find_ray_hit(shape, pose, origin, along, length, settings);
+  if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
+  return result;
+}
+
+constexpr const char* kHitDoc = "The point where a ray meets the boundary of a body, in the world's frame.";
+
+constexpr const char* kFindDoc =
+    R"(The first point of the boundary on a ray: where it enters the body or, from inside, where it leaves it.
+
+origin: (3,), m, within 1e150; direction: (3,), any length but 0, made a unit vector; length: m, in [0, inf]. Of the settings,
+tolerance (of boundary_error, relative to the smallest half-extent) and max_evaluations are used. ValueError when one is out of
+range, or when the shape delivers a number that is not finite.)";
+
+}  // namespace
+
+void bind_raycast(py::module_& m) {
+  py::class_<RayHit>(m, "RayHit", kHitDoc)
+      .def_readonly("hit", &RayHit::hit, "Whether the ray meets the boundary within its length.")
+      .def_readonly("from_inside", &RayHit::from_inside, "Whether the origin is inside, and the hit is where the ray leaves.")
+      .def_readonly("distance", &RayHit::distance, "m; along the ray")
+      .def_readonly("distance_error", &RayHit::distance_error, "m; estimate")
+      .def_readonly("boundary_error", &RayHit::boundary_error, "m; bound on the distance of `point` from the boundary")
+      .def_property_readonly(
+          "point", [](const RayHit& self) { return self.point; }, "(3,), m")
+      .def_property_readonly(
+          "normal", [](const RayHit& self) { return self.normal; }, "(3,), unit, outward, also from inside")
+      .def_readonly("evaluations", &RayHit::evaluations, "evaluations of the support function")
+      .def_readonly("status", &RayHit::status, "Status; with any but CONVERGED, `hit` is what is known so far")
+      .def("__repr__", [](const RayHit& self) {
+        if (!self.hit) return std::string("RayHit(hit=False)");
+        return "RayHit(hit=True, distance=" + to_text(self.distance) + ", point=" + vector_text(self.point.data(), 3) +
+               ", normal=" + vector_text(self.normal.data(), 3) + ")";
+      });
+  m.def("find_ray_hit", &ray_hit, kFindDoc, py::arg("shape"), py::arg("pose"), py::arg("origin"), py::arg("direction"),
+        py::arg("length") = std::numeric_limits<double>::infinity(), py::arg("settings") = Settings());
+}
+
+}  // namespace supernormal::python

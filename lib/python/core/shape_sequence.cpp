@@ -1,0 +1,123 @@
+// Shapes from arrays of parameters or from a list.
+#include "shape_sequence.hpp"
+
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+/// A parameter of N shapes: a number for all of them or an array (N,).
+class Parameter {
+ public:
+  Parameter(const char* name, const Doubles& values, py::ssize_t count) : values_(values), stride_(values.ndim() == 0 ? 0 : 1) {
+    if (values.ndim() == 0) return;
+    const py::ssize_t given = require_rows(name, values, {});
+    if (given != count) {
+      throw std::invalid_argument(std::string(name) + " has " + std::to_string(given) + " entries for " + std::to_string(count) +
+                                  " shapes");
+    }
+  }
+
+  double operator[](py::ssize_t i) const { return *(values_.data() + stride_ * i); }
+
+ private:
+  Doubles values_;
+  py::ssize_t stride_;
+};
+
+/// Makes `count` shapes by `make(i)`; a refusal names the entry.
+template <typename ShapeClass, typename Make>
+std::shared_ptr<ShapeSequence> make_shapes(py::ssize_t count, const Make& make) {
+  const auto owner = std::make_shared<std::vector<ShapeClass>>();
+  owner->reserve(static_cast<std::size_t>(count));
+  for (py::ssize_t i = 0; i < count; ++i) {
+    try {
+      owner->push_back(make(i));
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("shape " + std::to_string(i) + ": " + error.what());
+    }
+  }
+  std::vector<const Shape*> shapes;
+  shapes.reserve(owner->size());
+  for (const ShapeClass& shape : *owner) shapes.push_back(&shape);
+  return std::make_shared<ShapeSequence>(owner, std::move(shapes));
+}
+
+std::shared_ptr<ShapeSequence> make_spheres(const Doubles& radius) {
+  const py::ssize_t count = require_rows("radius", radius, {});
+  return make_shapes<Sphere>(count, [&](py::ssize_t i) { return Sphere(radius.data()[i]); });
+}
+
+std::shared_ptr<ShapeSequence> make_ellipsoids(const Doubles& half_axes) {
+  const py::ssize_t count = require_rows("half_axes", half_axes, {3});
+  return make_shapes<Ellipsoid>(count, [&](py::ssize_t i) { return Ellipsoid(vector_at(half_axes.data() + 3 * i)); });
+}
+
+std::shared_ptr<ShapeSequence> make_superellipsoids(const Doubles& half_axes, const Doubles& delta, const Doubles& epsilon) {
+  const py::ssize_t count = require_rows("half_axes", half_axes, {3});
+  const Parameter deltas("delta", delta, count), epsilons("epsilon", epsilon, count);
+  return make_shapes<Superellipsoid>(
+      count, [&](py::ssize_t i) { return Superellipsoid(vector_at(half_axes.data() + 3 * i), deltas[i], epsilons[i]); });
+}
+
+std::shared_ptr<ShapeSequence> make_superovoids(const Doubles& half_axes, const Doubles& delta, const Doubles& epsilon,
+                                                const Doubles& taper_x, const Doubles& taper_y) {
+  const py::ssize_t count = require_rows("half_axes", half_axes, {3});
+  const Parameter deltas("delta", delta, count), epsilons("epsilon", epsilon, count);
+  const Parameter tapers_x("taper_x", taper_x, count), tapers_y("taper_y", taper_y, count);
+  return make_shapes<Superovoid>(count, [&](py::ssize_t i) {
+    return Superovoid(vector_at(half_axes.data() + 3 * i), deltas[i], epsilons[i], tapers_x[i], tapers_y[i]);
+  });
+}
+
+constexpr const char* kDoc =
+    R"(N shapes, for find_proximities() and find_ray_hits(): from a sequence of Shape, or from arrays of parameters by
+spheres(), ellipsoids(), superellipsoids() and superovoids(). An entry is a Shape. A refusal (ValueError) names the entry.)";
+
+}  // namespace
+
+std::shared_ptr<ShapeSequence> make_shape_sequence(const char* name, const py::sequence& shapes) {
+  const auto owner = std::make_shared<std::vector<std::shared_ptr<Shape>>>();
+  std::vector<const Shape*> pointers;
+  for (const py::handle item : shapes) {
+    if (!py::isinstance<Shape>(item)) {
+      throw py::type_error(Name{name, static_cast<std::ptrdiff_t>(owner->size())}.text() + " is " + std::string(py::repr(item)) +
+                           ", but must be a Shape");
+    }
+    owner->push_back(item.cast<std::shared_ptr<Shape>>());
+    pointers.push_back(owner->back().get());
+  }
+  return std::make_shared<ShapeSequence>(owner, std::move(pointers));
+}
+
+void bind_shape_sequence(py::module_& m) {
+  py::class_<ShapeSequence, std::shared_ptr<ShapeSequence>>(m, "Shapes", kDoc)
+      .def(py::init([](const py::sequence& shapes) { return make_shape_sequence("shapes", shapes); }), py::arg("shapes"))
+      .def_static("spheres", &make_spheres, py::arg("radius"), "radius: (N,), m, in [0, 1e30]")
+      .def_static("ellipsoids", &make_ellipsoids, py::arg("half_axes"), "half_axes: (N, 3), m, in [1e-30, 1e30]")
+      .def_static("superellipsoids", &make_superellipsoids, py::arg("half_axes"), py::arg("delta"), py::arg("epsilon"),
+                  "half_axes: (N, 3), m, in [1e-30, 1e30]; delta, epsilon: (N,) or a number, in [1.01, 1000]")
+      .def_static("superovoids", &make_superovoids, py::arg("half_axes"), py::arg("delta"), py::arg("epsilon"), py::arg("taper_x"),
+                  py::arg("taper_y"),
+                  "half_axes: (N, 3), m, in [1e-30, 1e30]; the others: (N,) or a number; exponents in [1.01, 1000]; tapers such "
+                  "that the body is convex, see Superovoid")
+      .def("__len__", &ShapeSequence::size)
+      .def("__getitem__", [](const ShapeSequence& self, std::size_t i) {
+        if (i >= self.size()) throw py::index_error("shapes has " + std::to_string(self.size()) + " entries");
+        return self.share(i);
+      });
+}
+
+}  // namespace supernormal::python

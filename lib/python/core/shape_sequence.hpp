@@ -1,0 +1,35 @@
+// N shapes, as Python programs give them.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "supernormal/shapes/shape.hpp"
+
+namespace supernormal::python {
+
+/// N shapes of any classes; Python: Shapes. Those of one class lie side by side in memory.
+class ShapeSequence {
+ public:
+  /// `owner` keeps what the pointers point to.
+  ShapeSequence(std::shared_ptr<const void> owner, std::vector<const Shape*> shapes)
+      : owner_(std::move(owner)), shapes_(std::move(shapes)) {}
+
+  std::size_t size() const { return shapes_.size(); }
+  const Shape& operator[](std::size_t i) const { return *shapes_[i]; }
+
+  /// The shape as an object of Python's, which keeps all of them.
+  std::shared_ptr<Shape> share(std::size_t i) const { return {owner_, const_cast<Shape*>(shapes_[i])}; }
+
+ private:
+  std::shared_ptr<const void> owner_;
+  std::vector<const Shape*> shapes_;
+};
+
+/// The Shapes of a sequence of Python's; TypeError, with the entry, if one is no Shape.
+std::shared_ptr<ShapeSequence> make_shape_sequence(const char* name, const pybind11::sequence& shapes);
+
+}  // namespace supernormal::python

@@ -1,0 +1,149 @@
+// Shape and the shapes that are given by their parameters.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "shape_queries.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+namespace py = pybind11;
+
+namespace supernormal::python {
+namespace {
+
+std::string text(const Vector3& v) { return vector_text(v.data(), 3); }
+std::string text(double x) { return py::repr(py::float_(x)); }
+
+template <typename ShapeClass>
+using ShapeBinding = py::class_<ShapeClass, Shape, std::shared_ptr<ShapeClass>>;
+
+void bind_round_shapes(py::module_& m) {
+  ShapeBinding<Sphere>(m, "Sphere", "A sphere, or a point if the radius is 0.\n\nradius: m, in [0, 1e30]; ValueError otherwise.")
+      .def(py::init<double>(), py::arg("radius"))
+      .def_property_readonly("radius", &Sphere::radius, "m")
+      .def("__repr__", [](const Sphere& self) { return "Sphere(radius=" + text(self.radius()) + ")"; });
+  ShapeBinding<Ellipsoid>(m, "Ellipsoid",
+                          "(x/a)^2 + (y/b)^2 + (z/c)^2 = 1 in the body's frame.\n\n"
+                          "half_axes: (3,): a, b, c, m, in [1e-30, 1e30]; ValueError otherwise.")
+      .def(py::init<const Vector3&>(), py::arg("half_axes"))
+      .def_property_readonly(
+          "half_axes", [](const Ellipsoid& self) { return self.half_axes(); }, "(3,), m")
+      .def("__repr__", [](const Ellipsoid& self) { return "Ellipsoid(half_axes=" + text(self.half_axes()) + ")"; });
+  ShapeBinding<Superellipsoid>(
+      m, "Superellipsoid",
+      "(|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 in the body's frame: from an\n"
+      "octahedron (exponents near 1) through the ellipsoid (2) to a box (large exponents).\n\n"
+      "half_axes: (3,): a, b, c, m, in [1e-30, 1e30]; delta, epsilon in [1.01, 1000]; ValueError otherwise.")
+      .def(py::init<const Vector3&, double, double>(), py::arg("half_axes"), py::arg("delta"), py::arg("epsilon"))
+      .def_property_readonly(
+          "half_axes", [](const Superellipsoid& self) { return self.half_axes(); }, "(3,), m")
+      .def_property_readonly("delta", &Superellipsoid::delta, "the exponent in the xy-section")
+      .def_property_readonly("epsilon", &Superellipsoid::epsilon, "the exponent along z")
+      .def("__repr__", [](const Superellipsoid& self) {
+        return "Superellipsoid(half_axes=" + text(self.half_axes()) + ", delta=" + text(self.delta()) +
+               ", epsilon=" + text(self.epsilon()) + ")";
+      });
+}
+
+constexpr const char* kSuperovoidDoc =
+    R"(A superellipsoid whose section grows or shrinks linearly along z: with X = 1 + taper_x z/c and Y = 1 + taper_y z/c,
+(|x/(a X)|^delta + |y/(b Y)|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 in the body's frame.
+
+half_axes: (3,): a, b, c, m, in [1e-30, 1e30]; delta, epsilon in [1.01, 1000]; tapers such that the body is convex: both within
+max_taper(epsilon); equal for epsilon > 2; for epsilon <= 2 different tapers are bounded together. ValueError otherwise, with the
+condition that fails. With a taper the centroid is not the origin of the frame.)";
+
+void bind_superovoid(py::module_& m) {
+  ShapeBinding<Superovoid>(m, "Superovoid", kSuperovoidDoc)
+      .def(py::init<const Vector3&, double, double, double, double>(), py::arg("half_axes"), py::arg("delta"), py::arg("epsilon"),
+           py::arg("taper_x"), py::arg("taper_y"))
+      .def_static("max_taper", &Superovoid::max_taper, py::arg("epsilon"),
+                  "The largest |taper| of a convex body whose section keeps its proportions: 2^(1/epsilon) (epsilon - 1)/epsilon.")
+      .def_property_readonly(
+          "half_axes", [](const Superovoid& self) { return self.half_axes(); },
+          "(3,), m; those of the superellipsoid that is tapered")
+      .def_property_readonly("delta", &Superovoid::delta, "the exponent in the xy-section")
+      .def_property_readonly("epsilon", &Superovoid::epsilon, "the exponent along z")
+      .def_property_readonly("taper_x", &Superovoid::taper_x, "relative growth of the half-axis a from z = 0 to z = c")
+      .def_property_readonly("taper_y", &Superovoid::taper_y, "relative growth of the half-axis b from z = 0 to z = c")
+      .def("__repr__", [](const Superovoid& self) {
+        return "Superovoid(half_axes=" + text(self.half_axes()) + ", delta=" + text(self.delta()) +
+               ", epsilon=" + text(self.epsilon()) + ", taper_x=" + text(self.taper_x()) + ", taper_y=" + text(self.taper_y()) +
+               ")";
+      });
+}
+
+/// Capsule and Cylinder have the same parameters.
+template <typename ShapeClass>
+void bind_of_radius_and_half_length(py::module_& m, const char* name, const char* doc) {
+  ShapeBinding<ShapeClass>(m, name, doc)
+      .def(py::init<double, double>(), py::arg("radius"), py::arg("half_length"))
+      .def_property_readonly("radius", &ShapeClass::radius, "m")
+      .def_property_readonly("half_length", &ShapeClass::half_length, "m")
+      .def("__repr__", [name = std::string(name)](const ShapeClass& self) {
+        return name + "(radius=" + text(self.radius()) + ", half_length=" + text(self.half_length()) + ")";
+      });
+}
+
+void bind_shapes_with_edges(py::module_& m) {
+  ShapeBinding<Box>(m, "Box",
+                    "|x| <= a, |y| <= b, |z| <= c.\n\nhalf_lengths: (3,): a, b, c, m, in [0, 1e30]; ValueError otherwise.")
+      .def(py::init<const Vector3&>(), py::arg("half_lengths"))
+      .def_property_readonly(
+          "half_lengths", [](const Box& self) { return self.half_lengths(); }, "(3,), m")
+      .def("__repr__", [](const Box& self) { return "Box(half_lengths=" + text(self.half_lengths()) + ")"; });
+  bind_of_radius_and_half_length<Capsule>(
+      m, "Capsule",
+      "The points within `radius` of the segment from (0, 0, -half_length) to (0, 0, half_length).\n\n"
+      "radius, half_length: m, in [0, 1e30]; ValueError otherwise.");
+  bind_of_radius_and_half_length<Cylinder>(m, "Cylinder",
+                                           "x^2 + y^2 <= radius^2, |z| <= half_length.\n\n"
+                                           "radius, half_length: m, in [0, 1e30]; ValueError otherwise.");
+}
+
+constexpr const char* kShapeDoc =
+    R"(A convex body, given by its support function h(n) and the boundary point r(n) of each outward normal n. Shapes do not change
+once they are made, and any number of threads may use them.)";
+
+}  // namespace
+
+void bind_shapes(py::module_& m) {
+  py::class_<MassProperties>(m, "MassProperties", "Volume integrals of a homogeneous body of density one, in its own frame.")
+      .def_readonly("volume", &MassProperties::volume, "m^3")
+      .def_property_readonly(
+          "centroid", [](const MassProperties& self) { return self.centroid; }, "(3,), m")
+      .def_property_readonly(
+          "second_moment", [](const MassProperties& self) { return self.second_moment; },
+          "(3, 3), m^5; the integral of x x^T about the origin of the frame")
+      .def_property_readonly("inertia", &central_inertia,
+                             "(3, 3), m^5; the tensor of inertia about the centroid: times the density in kg/m^3 it is in kg m^2")
+      .def_readonly("relative_error", &MassProperties::relative_error,
+                    "estimate, for volume and moments relative to their size; 0 for closed forms")
+      .def("__repr__", [](const MassProperties& self) {
+        return "MassProperties(volume=" + text(self.volume) + ", centroid=" + text(self.centroid) +
+               ", relative_error=" + text(self.relative_error) + ")";
+      });
+  py::class_<Tessellation>(m, "Tessellation", "A closed mesh whose corners are boundary points of a body.")
+      .def_property_readonly(
+          "points", [](const Tessellation& self) { return rows_of(self.points); }, "(N, 3), m, in the body's frame")
+      .def_property_readonly(
+          "normals", [](const Tessellation& self) { return rows_of(self.normals); }, "(N, 3), unit, outward; of the points")
+      .def_property_readonly("triangles", &triangles_of, "(M, 3) of uint32: indices of points, anticlockwise as seen from outside");
+  py::class_<Shape, std::shared_ptr<Shape>> shape(m, "Shape", kShapeDoc);
+  bind_shape_queries(shape);
+  bind_round_shapes(m);
+  bind_superovoid(m);
+  bind_shapes_with_edges(m);
+}
+
+}  // namespace supernormal::python

@@ -1,0 +1,230 @@
+"""Bodies of Supernormal in the worlds of PyODE (Debian: python3-pyode).
+
+    import ode
+    import supernormal.ode
+
+    space = ode.HashSpace()
+    pebble = supernormal.ode.Superellipsoid(space, (0.02, 0.015, 0.008), 2.3, 2.0)
+    body = ode.Body(world)
+    body.setMass(pebble.getMass(2650))
+    pebble.setBody(body)
+
+The geoms derive from ode.GeomObject: setBody, getPosition, setCategoryBits ..., Space.collide, ode.collide and ContactJoint treat them
+as PyODE's own. Names follow PyODE; lengths are in metres or in whatever unit the world uses. What the C interface refuses raises
+ValueError with its message: the parameter, its value and the valid range. As with ODE's own geoms, they are not made, set or
+destroyed within near callbacks. ode.collide() does not raise: a geom whose pose is not finite, or whose functions raise, makes no
+contacts, and lastError() says why.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional, Sequence, Tuple
+
+import ode as _pyode
+
+from . import _ode
+from ._core import Shape, Solver
+
+__all__ = [
+    "Convex",
+    "Ellipsoid",
+    "GeomProximity",
+    "Statistics",
+    "Superellipsoid",
+    "Superovoid",
+    "getStatistics",
+    "lastError",
+    "proximity",
+    "resetStatistics",
+    "setDefaultSolver",
+    "setWarmStart",
+]
+
+Vector = Tuple[float, float, float]
+
+
+def _find_slots() -> Tuple[int, int]:
+    space = _pyode.SimpleSpace()
+    sphere = _pyode.GeomSphere(space)
+    return _ode.find_slots(sphere, sphere._id(), space)
+
+
+_SLOTS = _find_slots()
+
+
+class _Geom(_pyode.GeomObject):  # type: ignore[misc]  # PyODE has no stubs
+    """What the geoms of this module have beside the methods of ode.GeomObject."""
+
+    def _adopt(self, number: int, space: Any) -> None:
+        _ode.adopt(self, _SLOTS, number, space)
+        _pyode._geom_c2py_lut[number] = self
+
+    def _id(self) -> int:
+        return _ode.number_of(self, _SLOTS)
+
+    def placeable(self) -> bool:
+        """True: the geom has a position and may have a body."""
+        return True
+
+    def setRounding(self, radius: float) -> None:
+        """Sweeps the body by a sphere of `radius`, m, in [0, 1e30]; replaces an earlier rounding, 0 takes it away."""
+        _ode.set_rounding(self._id(), radius)
+
+    def setSolver(self, solver: Solver = Solver.HYBRID, tolerance: float = 1e-9, maxEvaluations: int = 1000) -> None:
+        """Sets how queries with this geom are solved: a Solver, a tolerance in [1e-15, 1] and a limit in [1, 1000000]."""
+        _ode.set_solver(self._id(), solver, tolerance, maxEvaluations)
+
+    def pointDepth(self, p: Sequence[float]) -> float:
+        """The distance of a point (world frame, m) from the boundary, m: positive inside, negative outside."""
+        return _ode.point_depth(self._id(), p)
+
+    def support(self, direction: Sequence[float]) -> Vector:
+        """The boundary point (world frame, m) whose outward normal is `direction` (world frame, any length but 0)."""
+        return _ode.support_point(self._id(), direction)
+
+    def getMass(self, density: float) -> Any:
+        """The ode.Mass of the homogeneous body, in the geom's frame; density in kg/m^3, in (0, inf)."""
+        return _to_mass(_ode.mass(self._id(), density, False))
+
+    def getMassTotal(self, mass: float) -> Any:
+        """The ode.Mass of the homogeneous body with this mass, in the geom's frame; in kg, in (0, inf)."""
+        return _to_mass(_ode.mass(self._id(), mass, True))
+
+
+def _to_mass(parameters: Tuple[float, Vector, Tuple[float, ...]]) -> Any:
+    mass, centre, inertia = parameters
+    result = _pyode.Mass()
+    result.setParameters(mass, *centre, *inertia)
+    return result
+
+
+def _space_number(space: Any) -> int:
+    return 0 if space is None else int(space._id())
+
+
+class Ellipsoid(_Geom):
+    """(x/a)^2 + (y/b)^2 + (z/c)^2 = 1 with halfAxes a, b, c in m, in [1e-30, 1e30]."""
+
+    def __init__(self, space: Any = None, halfAxes: Sequence[float] = (1.0, 1.0, 1.0)) -> None:
+        self._adopt(_ode.create_ellipsoid(_space_number(space), halfAxes), space)
+
+    def getHalfAxes(self) -> Vector:
+        """The half-axes, m."""
+        return _ode.get_superellipsoid(self._id())[0]
+
+    def setHalfAxes(self, halfAxes: Sequence[float]) -> None:
+        """Sets the half-axes, m, in [1e-30, 1e30]; a rounding stays."""
+        _ode.set_superellipsoid(self._id(), halfAxes, 2.0, 2.0)
+
+
+class Superellipsoid(_Geom):
+    """(|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1.
+
+    halfAxes: a, b, c in m, in [1e-30, 1e30]; delta, epsilon in [1.01, 1000].
+    """
+
+    def __init__(
+        self, space: Any = None, halfAxes: Sequence[float] = (1.0, 1.0, 1.0), delta: float = 2.0, epsilon: float = 2.0
+    ) -> None:
+        self._adopt(_ode.create_superellipsoid(_space_number(space), halfAxes, delta, epsilon), space)
+
+    def getParams(self) -> Tuple[Vector, float, float]:
+        """The half-axes, m, and the exponents: (halfAxes, delta, epsilon)."""
+        return _ode.get_superellipsoid(self._id())
+
+    def setParams(self, halfAxes: Sequence[float], delta: float, epsilon: float) -> None:
+        """Sets half-axes and exponents; a rounding stays. What is refused leaves the geom as it was."""
+        _ode.set_superellipsoid(self._id(), halfAxes, delta, epsilon)
+
+
+class Superovoid(_Geom):
+    """A superellipsoid whose section grows or shrinks linearly along z; see supernormal.Superovoid.
+
+    Its centre of mass is not its origin: getMass() says where it is, and setOffsetPosition() is for that, as ever in ODE.
+    """
+
+    def __init__(
+        self,
+        space: Any = None,
+        halfAxes: Sequence[float] = (1.0, 1.0, 1.0),
+        delta: float = 2.0,
+        epsilon: float = 2.0,
+        taperX: float = 0.0,
+        taperY: float = 0.0,
+    ) -> None:
+        self._adopt(_ode.create_superovoid(_space_number(space), halfAxes, delta, epsilon, taperX, taperY), space)
+
+    def getParams(self) -> Tuple[Vector, float, float, float, float]:
+        """The half-axes, m, the exponents and the tapers: (halfAxes, delta, epsilon, taperX, taperY)."""
+        return _ode.get_superovoid(self._id())
+
+    def setParams(self, halfAxes: Sequence[float], delta: float, epsilon: float, taperX: float, taperY: float) -> None:
+        """Sets half-axes, exponents and tapers; a rounding stays. What is refused leaves the geom as it was."""
+        _ode.set_superovoid(self._id(), halfAxes, delta, epsilon, taperX, taperY)
+
+
+class Convex(_Geom):
+    """Any supernormal.Shape, such as a CallbackShape, a MinkowskiSum or a Polytope."""
+
+    def __init__(self, space: Any = None, shape: Optional[Shape] = None) -> None:
+        if shape is None:
+            raise TypeError("shape is None, but must be a supernormal.Shape")
+        self._adopt(_ode.create_convex(_space_number(space), shape), space)
+
+
+class GeomProximity(NamedTuple):
+    """What proximity() finds, in the world's frame; m. The normal is a unit vector from the first geom to the second."""
+
+    gap: float
+    error: float
+    normal: Vector
+    point1: Vector
+    point2: Vector
+    evaluations: int
+    converged: bool
+    isGlobal: bool
+
+
+def proximity(geom1: Any, geom2: Any, certified: bool = False) -> GeomProximity:
+    """The signed distance of two geoms, apart or overlapping; at least one of this module, the other one of PyODE's, but no space.
+
+    certified: search on until the depth of overlapping geoms is proved the smallest (isGlobal), or the evaluations run out.
+    """
+    return GeomProximity(*_ode.proximity(geom1._id(), geom2._id(), certified))
+
+
+def setDefaultSolver(solver: Solver = Solver.HYBRID, tolerance: float = 1e-9, maxEvaluations: int = 1000) -> None:
+    """Sets what geoms that are made from now on start with; see setSolver() of a geom."""
+    _ode.set_default_solver(solver, tolerance, maxEvaluations)
+
+
+def setWarmStart(on: bool) -> None:
+    """Whether each pair starts from its last normal (the default), or its contacts are a pure function of the poses."""
+    _ode.set_warm_start(on)
+
+
+class Statistics(NamedTuple):
+    """What the colliders and proximity() did in this thread since resetStatistics()."""
+
+    queriesCold: int
+    queriesWarm: int
+    evaluationsCold: int
+    evaluationsWarm: int
+    closedForms: int
+    contacts: int
+    notConverged: int
+
+
+def getStatistics() -> Statistics:
+    """What the colliders and proximity() did in this thread since resetStatistics()."""
+    return Statistics(*_ode.statistics())
+
+
+def resetStatistics() -> None:
+    """Sets all counts of this thread to 0."""
+    _ode.reset_statistics()
+
+
+def lastError() -> str:
+    """Why the last refused call of this thread was refused, a collider's too; "" if none was."""
+    return _ode.last_error()
