@@ -1,9 +1,12 @@
 // The Python module supernormal._ode: the C interface for geoms that are named by their numbers, as PyODE's _id() gives them.
 #include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -120,6 +123,29 @@ auto mass(Number g, double amount, bool is_total) {
   return std::tuple(m.mass, std::tuple(m.c[0], m.c[1], m.c[2]), std::tuple(m.I[0], m.I[5], m.I[10], m.I[1], m.I[2], m.I[6]));
 }
 
+/// The mesh of a geom, which is given back whatever happens.
+struct Mesh : snMesh {
+  Mesh(Number g, double chord_error) : snMesh{} { accepted(snGeomTessellate(geom(g), real(chord_error), this)); }
+  Mesh(const Mesh&) = delete;
+  Mesh& operator=(const Mesh&) = delete;
+  Mesh(Mesh&&) = delete;
+  Mesh& operator=(Mesh&&) = delete;
+  ~Mesh() { snMeshRelease(this); }
+};
+
+template <typename Number, typename Source>
+py::array_t<Number> triples(const Source* from, int count) {
+  py::array_t<Number> out({py::ssize_t{count}, py::ssize_t{3}});
+  std::transform(from, from + 3 * count, out.mutable_data(), [](Source value) { return static_cast<Number>(value); });
+  return out;
+}
+
+auto tessellation(Number g, double chord_error) {
+  const Mesh mesh(g, chord_error);
+  return std::tuple(triples<double>(mesh.position, mesh.points), triples<double>(mesh.normal, mesh.points),
+                    triples<std::uint32_t>(mesh.index, mesh.triangles));
+}
+
 auto proximity(Number g1, Number g2, bool certified) {
   snProximity p{};
   accepted(certified ? snGeomProximityCertified(geom(g1), geom(g2), &p) : snGeomProximity(geom(g1), geom(g2), &p));
@@ -148,6 +174,7 @@ void bind_geoms(py::module_& m) {
   m.def("point_depth", &point_depth);
   m.def("support_point", &support_point);
   m.def("mass", &mass);
+  m.def("tessellate", &tessellation);
   m.def("proximity", &proximity);
 }
 

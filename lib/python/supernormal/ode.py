@@ -20,6 +20,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
+import numpy as np
+import numpy.typing as npt
 import ode as _pyode
 
 from . import _ode
@@ -89,6 +91,13 @@ class _Geom(_pyode.GeomObject):  # type: ignore[misc]  # PyODE has no stubs
     def getMassTotal(self, mass: float) -> Any:
         """The ode.Mass of the homogeneous body with this mass, in the geom's frame; in kg, in (0, inf)."""
         return _to_mass(_ode.mass(self._id(), mass, True))
+
+    def tessellate(self, chordError: float) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.uint32]]:
+        """A closed mesh to draw: points (N, 3), m, normals (N, 3), triangles (M, 3), in the geom's frame.
+
+        Its edges are no farther than chordError (m) from the boundary: at least a millionth of the largest half-extent.
+        """
+        return _ode.tessellate(self._id(), chordError)
 
 
 def _to_mass(parameters: Tuple[float, Vector, Tuple[float, ...]]) -> Any:

@@ -1,0 +1,254 @@
+"""Geoms of Supernormal in PyODE's worlds behave as PyODE's own."""
+
+import gc
+import re
+import sys
+import weakref
+
+import numpy as np
+import pytest
+import supernormal as sn
+
+pyode = pytest.importorskip("ode", reason="python3-pyode is not installed")
+import supernormal.ode as so  # noqa: E402  # it imports PyODE
+
+
+def drop(make_geom):
+    """Two balls that are thrown, bounce on a plane and on each other, and roll; positions and attitudes every 50 ms for 3 s."""
+    world = pyode.World()
+    world.setGravity((0, 0, -9.81))
+    space = pyode.HashSpace()
+    contacts = pyode.JointGroup()
+    floor = pyode.GeomPlane(space, (0, 0, 1), 0)
+    geoms = []
+    for k in range(2):
+        body = pyode.Body(world)
+        mass = pyode.Mass()
+        mass.setSphereTotal(1, 0.2)
+        body.setMass(mass)
+        geom = make_geom(space)
+        geom.setBody(body)
+        body.setPosition((0.1 * k, 0.05 * k, 0.5 + 0.6 * k))
+        body.setLinearVel((1 - k, 0.2, 0))
+        geoms.append(geom)
+    met = set()
+
+    def near(_, geom1, geom2):
+        for contact in pyode.collide(geom1, geom2):
+            contact.setMu(0.4)
+            contact.setBounce(0.5)
+            joint = pyode.ContactJoint(world, contacts, contact)
+            joint.attach(geom1.getBody(), geom2.getBody())
+            met.add(frozenset((type(geom1), type(geom2))))
+
+    rows = []
+    for step in range(3000):
+        space.collide(None, near)
+        world.step(0.001)
+        contacts.empty()
+        if step % 50 == 0:
+            rows.append([x for geom in geoms for x in geom.getPosition() + geom.getQuaternion()])
+    assert len(met) == 2  # the floor with a ball, and the balls with each other
+    assert floor.getSpace() is space
+    return np.array(rows)
+
+
+@pytest.fixture(scope="module")
+def spheres():
+    return drop(lambda space: pyode.GeomSphere(space, 0.2))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda space: so.Ellipsoid(space, (0.2, 0.2, 0.2)),
+        lambda space: so.Superellipsoid(space, (0.2, 0.2, 0.2), 2, 2),
+        lambda space: so.Superovoid(space, (0.2, 0.2, 0.2), 2, 2, 0, 0),
+        lambda space: so.Convex(space, sn.Sphere(0.2)),
+    ],
+    ids=["Ellipsoid", "Superellipsoid", "Superovoid", "Convex"],
+)
+def test_the_trajectory_of_spheres(spheres, make):
+    assert np.ptp(spheres[:, 0]) > 0.1 and np.ptp(spheres[:, 2]) > 0.1  # they move
+    assert np.abs(drop(make) - spheres).max() <= 1e-9
+
+
+def test_a_geom_is_one_of_pyodes():
+    world, space, other = pyode.World(), pyode.HashSpace(), pyode.SimpleSpace()
+    geom = so.Superellipsoid(space, (0.3, 0.2, 0.1), 3, 4)
+    assert isinstance(geom, pyode.GeomObject) and geom.placeable() and not geom.isSpace()
+    assert geom.getSpace() is space and space.getNumGeoms() == 1 and space.getGeom(0) is geom and space.query(geom)
+    body = pyode.Body(world)
+    assert geom.getBody() is None
+    geom.setBody(body)
+    assert geom.getBody() is body
+    body.setPosition((1, 2, 3))
+    assert geom.getPosition() == (1, 2, 3)
+    geom.setPosition((4, 5, 6))
+    assert body.getPosition() == (4, 5, 6)
+    assert np.array(geom.getAABB()) == pytest.approx([3.7, 4.3, 4.8, 5.2, 5.9, 6.1], abs=1e-9)
+    geom.setOffsetPosition((0, 0, 1))
+    assert geom.getPosition() == (4, 5, 7)
+    geom.clearOffset()
+    geom.setQuaternion((0, 1, 0, 0))
+    assert geom.getRotation() == pytest.approx([1, 0, 0, 0, -1, 0, 0, 0, -1])
+    geom.setCategoryBits(6)
+    assert geom.getCategoryBits() == 6
+    geom.disable()
+    assert not geom.isEnabled()
+    geom.enable()
+    geom.colour = "blue"
+    assert geom.colour == "blue" and geom.attribs["colour"] == "blue"
+    space.remove(geom)
+    other.add(geom)
+    assert other.getNumGeoms() == 1 and space.getNumGeoms() == 0
+    geom.setBody(None)
+    assert geom.getBody() is None
+
+
+def test_a_geom_dies_with_its_object():
+    space = pyode.SimpleSpace()
+    before = sys.getrefcount(space)
+    shape = sn.CallbackShape(lambda n: n)
+    alive = weakref.ref(shape)
+    geoms = [so.Convex(space, shape), so.Ellipsoid(space, (1, 2, 3))]
+    del shape
+    gc.collect()
+    assert space.getNumGeoms() == 2
+    assert geoms[0].support((0, 0, 2)) == (0, 0, 1)
+    del geoms
+    gc.collect()
+    # An assertion that calls a method of the space would hold a reference to it.
+    references = sys.getrefcount(space)
+    assert references == before and alive() is None
+    assert space.getNumGeoms() == 0
+
+
+def test_a_refused_geom_leaves_nothing():
+    space = pyode.SimpleSpace()
+    before = sys.getrefcount(space)
+    for _ in range(3):
+        with pytest.raises(ValueError):
+            so.Ellipsoid(space, (0, 1, 1))
+    gc.collect()
+    references = sys.getrefcount(space)
+    assert references == before
+    assert space.getNumGeoms() == 0
+
+
+def test_queries_agree_with_the_core():
+    q = (0.8, 0.1, -0.3, np.sqrt(1 - 0.74))
+    geom = so.Superovoid(None, (0.3, 0.2, 0.4), 2.5, 2, 0.2, 0.1)
+    geom.setPosition((1, 2, 3))
+    geom.setQuaternion(q)
+    shape, pose = sn.Superovoid((0.3, 0.2, 0.4), 2.5, 2, 0.2, 0.1), sn.Pose((1, 2, 3), quaternion=q)
+    ball = pyode.GeomSphere(None, 0.5)
+    ball.setPosition((1.5, 2.5, 3.5))
+    found = so.proximity(geom, ball)
+    expected = sn.find_proximity(shape, pose, sn.Sphere(0.5), sn.Pose((1.5, 2.5, 3.5)))
+    assert found.gap == pytest.approx(expected.gap, abs=1e-12) and found.converged and found.isGlobal
+    assert found.normal == pytest.approx(expected.normal, abs=1e-6)
+    assert found.point1 == pytest.approx(expected.point1, abs=1e-6)
+    assert so.proximity(ball, geom).normal == pytest.approx(-expected.normal, abs=1e-6)
+    assert geom.pointDepth((1, 2, 3.1)) == pytest.approx(-shape.signed_distance((1, 2, 3.1), pose), abs=1e-12)
+    lowest = geom.support((0, 0, -1))
+    assert lowest[2] == pytest.approx(shape.bounding_box(pose)[0, 2])
+    mass, properties = geom.getMass(1000), shape.mass_properties()
+    assert mass.mass == pytest.approx(1000 * properties.volume)
+    assert mass.c == pytest.approx(tuple(properties.centroid))
+    about_origin = np.trace(properties.second_moment) * np.eye(3) - properties.second_moment
+    assert np.array(mass.I) == pytest.approx(1000 * about_origin)
+    assert geom.getMassTotal(2).mass == pytest.approx(2)
+    points, normals, triangles = geom.tessellate(0.002)
+    assert points == pytest.approx(shape.point(normals), abs=1e-12) and triangles.max() == len(points) - 1
+
+
+def test_a_certified_depth():
+    one, two = so.Superellipsoid(None, (1, 1.1, 1.2), 8, 8), so.Superellipsoid(None, (1, 1.1, 1.2), 8, 8)
+    assert not so.proximity(one, two).isGlobal
+    certified = so.proximity(one, two, certified=True)
+    assert certified.isGlobal and certified.gap == pytest.approx(-2, abs=1e-8)
+
+
+def test_set_and_get():
+    geom = so.Superellipsoid(None, (1, 2, 3), 2.5, 4)
+    geom.setParams((3, 2, 1), 3, 5)
+    assert geom.getParams() == ((3, 2, 1), 3, 5)
+    geom.setRounding(0.5)
+    assert geom.getAABB()[1] == pytest.approx(3.5)
+    ellipsoid = so.Ellipsoid(None, (1, 2, 3))
+    ellipsoid.setHalfAxes((4, 5, 6))
+    assert ellipsoid.getHalfAxes() == (4, 5, 6)
+    egg = so.Superovoid(None, (1, 1, 1), 2, 2, 0.1, 0.1)
+    egg.setParams((1, 1, 1.5), 2, 2, 0.3, 0.3)
+    assert egg.getParams() == ((1, 1, 1.5), 2, 2, 0.3, 0.3)
+
+
+def test_statistics_and_warm_start():
+    geom, ball = so.Superellipsoid(None, (1, 2, 3), 2.5, 4), so.Superellipsoid(None, (1, 2, 3), 3, 3)
+    ball.setPosition((1, 1, 1))
+    so.setWarmStart(False)
+    so.resetStatistics()
+    for _ in range(2):
+        assert len(pyode.collide(geom, ball)) >= 1
+    cold = so.getStatistics()
+    assert (cold.queriesCold, cold.queriesWarm, cold.notConverged) == (2, 0, 0) and cold.evaluationsCold > 2
+    so.setWarmStart(True)
+    for _ in range(2):
+        pyode.collide(geom, ball)
+    assert so.getStatistics().queriesWarm >= 1
+
+
+SPHERE = sn.Sphere(1)
+REFUSALS = [
+    (lambda: so.Ellipsoid(None, (1, 0, 1)), "snCreateEllipsoid: half-axis b = 0 m is outside [1e-30, 1e+30] m"),
+    (lambda: so.Superellipsoid(None, (1, 1, 1), 0.5, 2), "snCreateSuperellipsoid: delta = 0.5 is outside [1.01, 1000]"),
+    (lambda: so.Superovoid(None, (1, 1, 1), 2, 2, 0.9, 0.9), "snCreateSuperovoid: taper_x = 0.9"),
+    (lambda: so.Convex(None, sn.Polytope([[0, 0, 0]])), "snCreateConvex: "),
+    (lambda: so.Superellipsoid().setParams((1, 1, -1), 2, 2), "snGeomSuperellipsoidSetParams: half-axis c = -1 m is outside"),
+    (lambda: so.Superovoid().setParams((1, 1, 1), 2, 0, 0, 0), "snGeomSuperovoidSetParams: epsilon = 0 is outside"),
+    (lambda: so.Superellipsoid.getParams(so.Superovoid()), "snGeomSuperellipsoidGetParams: "),
+    (lambda: so.Superovoid.getParams(so.Convex(None, SPHERE)), "snGeomSuperovoidGetParams: "),
+    (lambda: so.Ellipsoid().setRounding(-1), "snGeomSetRounding: radius = -1 m is outside [0, 1e+30] m"),
+    (lambda: so.Ellipsoid().setSolver(sn.Solver.NEWTON, 2), "snGeomSetSolver: tolerance = 2 is outside [1e-15, 1]"),
+    (lambda: so.Ellipsoid().setSolver(7), "snGeomSetSolver: solver = 7 is none of"),
+    (lambda: so.setDefaultSolver(maxEvaluations=0), "snSetDefaultSolver: max_evaluations = 0 is outside [1, 1000000]"),
+    (lambda: so.Ellipsoid().pointDepth((float("nan"), 0, 0)), "snGeomPointDepth: x = nan m is outside"),
+    (lambda: so.Ellipsoid().support((0, 0, 0)), "snGeomSupport: direction = (0, 0, 0), but must have a length"),
+    (lambda: so.Ellipsoid().getMass(-1), "snMassSet: density = -1 kg/m^3 is outside (0, inf) kg/m^3"),
+    (lambda: so.Ellipsoid().getMassTotal(0), "snMassSetTotal: total_mass = 0 kg is outside (0, inf) kg"),
+    (lambda: so.Convex(None, sn.Box((1, 1, 1))).getMass(1), "is uncertain by"),
+    (lambda: so.Ellipsoid().tessellate(0), "snGeomTessellate: chord_error = 0 m"),
+    (lambda: so.proximity(pyode.GeomSphere(), pyode.GeomSphere()), "snGeomProximity: "),
+    (lambda: so.proximity(so.Ellipsoid(), pyode.SimpleSpace()), "snGeomProximity: "),
+    (lambda: so.proximity(pyode.GeomSphere(), pyode.GeomSphere(), True), "snGeomProximityCertified: "),
+]
+
+
+@pytest.mark.parametrize("call,message", REFUSALS, ids=[f"{k} {message}" for k, (_, message) in enumerate(REFUSALS)])
+def test_refusal(call, message):
+    with pytest.raises(ValueError, match=re.escape(message)) as refusal:
+        call()
+    assert str(refusal.value) == so.lastError()
+
+
+def test_a_collider_says_why_it_makes_no_contact():
+    calm = True
+
+    def point(n):
+        if calm:
+            return n
+        raise RuntimeError("out of order")
+
+    geom = so.Convex(None, sn.CallbackShape(point))
+    assert len(pyode.collide(geom, so.Ellipsoid())) == 1
+    calm = False
+    assert pyode.collide(geom, so.Ellipsoid()) == []
+    assert "out of order" in so.lastError()
+
+
+def test_wrong_types():
+    with pytest.raises(TypeError, match="must be a supernormal.Shape"):
+        so.Convex(pyode.SimpleSpace())
+    with pytest.raises(TypeError):
+        so.Ellipsoid(None, (1, 2))
