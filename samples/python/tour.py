@@ -36,8 +36,8 @@ RIM_RADIUS = np.sqrt(BALL_RADIUS**2 - (BALL_RADIUS - HALF_HEIGHT) ** 2)
 def lens_point(n: Vectors) -> Vectors:
     centre = -np.copysign(BALL_RADIUS - HALF_HEIGHT, n[2])  # of the ball whose cap has the normal n
     point = BALL_RADIUS * n + [0, 0, centre]
-    if point[2] * n[2] >= 0:
-        return point
+    if point[2] * n[2] > 0:
+        return np.asarray(point)
     return np.array([*(RIM_RADIUS * n[:2] / np.hypot(n[0], n[1])), 0])  # a normal between those of the caps: on the rim
 
 
