@@ -57,7 +57,9 @@ lens_pose = sn.Pose((0, 0, 0.8), quaternion=(np.cos(0.2), np.sin(0.2), 0, 0))
 for shape, pose, colour in ((brick, sn.Pose(), "tab:blue"), (egg, egg_pose, "tab:orange"), (lens, lens_pose, "tab:green")):
     draw(scene, shape, pose, colour)
 scene.plot(*np.transpose([nearest.point1, nearest.point2]), "k.-")
-scene.set(xlim=(-1, 2.2), ylim=(-1.6, 1.6), zlim=(-1, 2.2), xlabel="x in m", ylabel="y in m", zlabel="z in m")
+scene.set(xlim=(-0.9, 2.1), ylim=(-1.5, 1.5), zlim=(-0.9, 2.1), xlabel="x in m", ylabel="y in m", zlabel="z in m")
+scene.set_box_aspect((1, 1, 1), zoom=1.15)
+scene.view_init(elev=18, azim=-70)
 scene.set_title(f"gap {nearest.gap:.3f} m")
 
 # %% The gap on a path, in one call: the egg passes through the brick
@@ -142,7 +144,7 @@ if len(sys.argv) > 1:
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for number, name in zip(plt.get_fignums(), ("distance", "rays", "pebbles")):
-        plt.figure(number).savefig(folder / f"{name}.png", dpi=110)
+        plt.figure(number).savefig(folder / f"{name}.png", dpi=90)
         print(f"wrote {folder / name}.png")
 else:
     plt.show()
