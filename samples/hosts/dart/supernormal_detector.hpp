@@ -1,0 +1,43 @@
+// DART with real ellipsoids and superellipsoids: its ODE detector makes spheres of 1 cm of the shapes that it does not know.
+#pragma once
+
+#include <supernormal/supernormal.h>
+
+#include <dart/collision/ode/ode.hpp>
+#include <dart/dynamics/dynamics.hpp>
+#include <memory>
+
+namespace supernormal::dart_host {
+
+/// A shape that DART does not have; half-axes in m, exponents as those of snCreateSuperellipsoid. DART takes its inertia from
+/// computeInertia().
+class SuperellipsoidShape : public dart::dynamics::Shape {
+ public:
+  SuperellipsoidShape(const Eigen::Vector3d& half_axes, double delta, double epsilon);
+
+  static const std::string& getStaticType();
+  const std::string& getType() const override { return getStaticType(); }
+  Eigen::Matrix3d computeInertia(double mass) const override;
+
+  /// A geom of this shape, in no space. Throws std::runtime_error with the library's message when it refuses the parameters.
+  dGeomID create_geom() const;
+
+ protected:
+  void updateBoundingBox() const override;
+  void updateVolume() const override;
+
+ private:
+  Eigen::Vector3d half_axes_;
+  double delta_, epsilon_;
+};
+
+/// DART's ODE detector, but for EllipsoidShape and SuperellipsoidShape: their geoms are replaced by ours, on the same body, in the
+/// same space. Use it as DART's own: world->getConstraintSolver()->setCollisionDetector(SupernormalDetector::create()).
+class SupernormalDetector : public dart::collision::OdeCollisionDetector {
+ public:
+  static std::shared_ptr<SupernormalDetector> create();
+  std::unique_ptr<dart::collision::CollisionGroup> createCollisionGroup() override;
+  std::shared_ptr<dart::collision::CollisionDetector> cloneWithoutCollisionObjects() const override { return create(); }
+};
+
+}  // namespace supernormal::dart_host
