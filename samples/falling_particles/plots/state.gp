@@ -55,6 +55,6 @@ if (kinetic > 0) {
   set format y "%.0s %cJ"
   plot ARG1 using "time_s":(positive("energy_lost_J")) linewidth 2.5 linecolor rgb "#000000" title lost > 0 ? "lost" : "", \
        "" using "time_s":(positive("energy_gained_J")) linewidth 2.5 dashtype 2 linecolor rgb "#0072b2" title gained > 0 ? "gained" : "", \
-       "" using "time_s":(positive("largest_kinetic_energy_J")) linewidth 2.5 linecolor rgb "#d55e00" title "kinetic, largest of a grain"
+       "" using "time_s":(positive("largest_kinetic_energy_J")) linewidth 2.5 linecolor rgb "#d55e00" title "largest kinetic"
 }
 unset multiplot
