@@ -47,9 +47,9 @@ void draw_titles(Svg& svg, const Explanation& explanation, double close_up) {
   const Pair& pair = explanation.pair;
   // A long title is set smaller.
   constexpr double kLargest = 17, kWidthOfLetter = 0.56;  // px; of the size
-  const double letters = static_cast<double>(pair.title.size());
+  const auto letters = static_cast<double>(pair.title.size());
   const double size = std::min(kLargest, kPairBox.width / (kWidthOfLetter * std::max(letters, 1.0)));
-  svg.text({16, 28}, pair.title, "font-weight=\"bold\" font-size=\"" + coordinate(size) + '"');
+  svg.text({16, 28}, pair.title, R"(font-weight="bold" font-size=")" + coordinate(size) + '"');
   svg.rect({16, 40, 12, 12}, R"(fill="#8FB4D6" stroke="#1F5F8F")");
   svg.text({34, 51}, pair.body1.description, kSubtitle);
   svg.rect({16, 60, 12, 12}, R"(fill="#E3B583" stroke="#A3600F")");

@@ -85,7 +85,7 @@ void Svg::line(const Vector2& from, const Vector2& to, std::string_view style) {
 
 void Svg::polyline(const Polyline& points, std::string_view style) {
   if (points.size() < 2) return;
-  body_ += element("path", " fill=\"none\" d=\"" + path_of(points) + '"', style);
+  body_ += element("path", R"( fill="none" d=")" + path_of(points) + '"', style);
 }
 
 void Svg::polygons(std::span<const Polyline> polygons, std::string_view style) {
@@ -94,7 +94,7 @@ void Svg::polygons(std::span<const Polyline> polygons, std::string_view style) {
     if (polygon.size() > 2) path += path_of(polygon) + 'Z';
   }
   if (path.empty()) return;
-  body_ += element("path", " fill-rule=\"evenodd\" d=\"" + path + '"', style);
+  body_ += element("path", R"( fill-rule="evenodd" d=")" + path + '"', style);
 }
 
 void Svg::text(const Vector2& at, std::string_view words, std::string_view style) {

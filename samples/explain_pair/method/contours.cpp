@@ -129,7 +129,7 @@ double Grid::most() const { return *std::ranges::max_element(values_); }
 std::vector<Polyline> superlevel_polygons(const Grid& grid, double level) { return Marching(grid, level).polygons(); }
 
 std::vector<Polyline> without_border(const std::vector<Polyline>& polygons, const Grid& grid) {
-  const double last_column = static_cast<double>(grid.columns() - 1), last_row = static_cast<double>(grid.rows() - 1);
+  const auto last_column = static_cast<double>(grid.columns() - 1), last_row = static_cast<double>(grid.rows() - 1);
   const auto is_border = [&](const Vector2& a, const Vector2& b) {
     const auto both = [](double p, double q, double border) { return p == border && q == border; };
     return both(a.x(), b.x(), 0) || both(a.x(), b.x(), last_column) || both(a.y(), b.y(), 0) || both(a.y(), b.y(), last_row);

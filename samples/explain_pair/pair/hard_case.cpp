@@ -15,8 +15,8 @@ Pair hard_case(const std::string& name) {
   const std::vector<HardCase> cases = supernormal::samples::hard_cases();
   const auto found = std::ranges::find_if(cases, [&](const HardCase& one) { return one.name == name; });
   if (found == cases.end()) {
-    std::vector<std::string> names;
-    for (const HardCase& one : cases) names.push_back(one.name);
+    std::vector<std::string> names(cases.size());
+    std::ranges::transform(cases, names.begin(), &HardCase::name);
     throw falling_particles::InputError("--case: \"" + name + "\" is no hard case; allowed: one of the " +
                                         std::to_string(names.size()) + " names that --list prints" +
                                         falling_particles::did_you_mean(name, names));
