@@ -106,7 +106,7 @@ def run(*command):
 def test_stubtest_finds_no_difference():
     pytest.importorskip("mypy", reason="mypy is not installed")
     options = ["--mypy-config-file", str(HERE / "mypy.ini"), "--allowlist", str(HERE / "stubtest_allowlist.txt")]
-    run("mypy.stubtest", "supernormal._core", "supernormal._ode", *options)
+    run("mypy.stubtest", *(f"supernormal.{stub.stem}" for stub in PACKAGE.glob("*.pyi")), *options)
 
 
 def test_the_package_and_the_example_are_typed():

@@ -25,8 +25,10 @@ namespace {
 // PyODE has these as integers.
 using Number = std::uintptr_t;
 
+// NOLINTBEGIN(performance-no-int-to-ptr): the integers were pointers
 dGeomID geom(Number number) { return reinterpret_cast<dGeomID>(number); }
 dSpaceID space(Number number) { return reinterpret_cast<dSpaceID>(number); }
+// NOLINTEND(performance-no-int-to-ptr)
 Number number(dGeomID geom) { return reinterpret_cast<Number>(geom); }
 
 dReal real(double value) { return static_cast<dReal>(value); }
