@@ -34,7 +34,7 @@ class ContactJoints {
 
   /// Replaces the joints of the last step by those for `contacts`, as the effects of the world set them up. The contacts of a
   /// pair, at most kContactsPerPair, are consecutive. If `measures`, the next step tells measured() their forces.
-  void replace(std::span<const dContactGeom> contacts, bool measures);
+  void replace(std::span<const dContactGeom> contacts, bool measures = false);
 
   /// The contacts that the effects have left, in the order of their pairs; none when the last ones were not to be measured.
   const std::deque<MeasuredContact>& measured() const { return measured_; }
