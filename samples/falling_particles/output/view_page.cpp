@@ -14,7 +14,7 @@
 #include "output/write_file.hpp"
 
 // The page as `npm run build` leaves it in page/ (view_page_html.S).
-extern "C" const char view_page_html[], view_page_html_end[];
+extern "C" const char kViewPageHtml[], kViewPageHtmlEnd[];
 
 namespace falling_particles {
 namespace {
@@ -83,12 +83,12 @@ json describe(const ContainerPart& part) {
 void write_json(std::ostream& stream, const json& value) {
   std::string text = value.dump();
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
-  stream << "<script type=\"application/json\" id=\"run\">" << text << "</script>\n";
+  stream << R"(<script type="application/json" id="run">)" << text << "</script>\n";
 }
 
 template <typename Texts>
 void write_lines(std::ostream& stream, const char* id, const Texts& texts) {
-  stream << "<script type=\"text/plain\" id=\"" << id << "\">\n";
+  stream << R"(<script type="text/plain" id=")" << id << "\">\n";
   for (const std::string& text : texts) stream << text << '\n';
   stream << "</script>\n";
 }
@@ -122,7 +122,7 @@ void ViewPage::finish(const std::string& summary) {
     contacts.push_back(std::move(packed.text));
   }
 
-  const std::string_view page(view_page_html, static_cast<std::size_t>(view_page_html_end - view_page_html));
+  const std::string_view page(kViewPageHtml, static_cast<std::size_t>(kViewPageHtmlEnd - kViewPageHtml));
   const std::size_t place = page.find(kPlace);
   std::ofstream stream(path_, std::ios::binary);
   stream << page.substr(0, place);
