@@ -34,7 +34,7 @@ OwnedGeom make_geom(const dart::dynamics::Shape& shape) {
     const Eigen::Vector3d half = static_cast<const dart::dynamics::EllipsoidShape&>(shape).getRadii();
     return owned(snCreateEllipsoid(nullptr, half.x(), half.y(), half.z()));
   }
-  if (shape.getType() == SuperellipsoidShape::getStaticType()) {
+  if (shape.getType() == SuperellipsoidShape::static_type()) {
     return owned(static_cast<const SuperellipsoidShape&>(shape).create_geom());
   }
   return nullptr;
@@ -91,7 +91,7 @@ SuperellipsoidShape::SuperellipsoidShape(const Eigen::Vector3d& half_axes, doubl
   owned(create_geom());  // refuses bad parameters at once
 }
 
-const std::string& SuperellipsoidShape::getStaticType() {
+const std::string& SuperellipsoidShape::static_type() {
   static const std::string type = "supernormal::SuperellipsoidShape";
   return type;
 }
@@ -119,9 +119,7 @@ void SuperellipsoidShape::updateVolume() const {
   mIsVolumeDirty = false;
 }
 
-std::shared_ptr<SupernormalDetector> SupernormalDetector::create() {
-  return std::shared_ptr<SupernormalDetector>(new SupernormalDetector);
-}
+std::shared_ptr<SupernormalDetector> SupernormalDetector::create() { return std::make_shared<SupernormalDetector>(); }
 
 std::unique_ptr<dart::collision::CollisionGroup> SupernormalDetector::createCollisionGroup() {
   return std::make_unique<SupernormalGroup>(shared_from_this());

@@ -15,8 +15,8 @@ class SuperellipsoidShape : public dart::dynamics::Shape {
  public:
   SuperellipsoidShape(const Eigen::Vector3d& half_axes, double delta, double epsilon);
 
-  static const std::string& getStaticType();
-  const std::string& getType() const override { return getStaticType(); }
+  static const std::string& static_type();
+  const std::string& getType() const override { return static_type(); }
   Eigen::Matrix3d computeInertia(double mass) const override;
 
   /// A geom of this shape, in no space. Throws std::runtime_error with the library's message when it refuses the parameters.

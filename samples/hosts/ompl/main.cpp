@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -125,7 +126,12 @@ bool plan() {
 
 int main() {
   dInitODE2(0);
-  const bool is_solved = plan();
+  bool is_solved = false;
+  try {
+    is_solved = plan();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ompl_host: %s\n", error.what());
+  }
   snClose();
   dCloseODE();
   return is_solved ? 0 : 1;
