@@ -1,0 +1,126 @@
+#include "read_data.hpp"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace fit {
+namespace {
+
+constexpr const char* kExtensions = ".stl, .obj, .ply (meshes or points), .xyz (points)";
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// The numbers of a line, at most `values.size()` of them; -1 when something else stands there, or more.
+int parse_numbers(const std::string& line, std::array<double, 6>& values) {
+  const char* at = line.c_str();
+  int count = 0;
+  const auto skip = [&] {
+    while (std::isspace(static_cast<unsigned char>(*at)) != 0 || *at == ',' || *at == ';') ++at;
+  };
+  for (skip(); *at != '\0'; skip()) {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    if (end == at || count == 6) return -1;
+    values[static_cast<std::size_t>(count++)] = value;
+    at = end;
+  }
+  return count;
+}
+
+Data read_text(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be opened");
+  Data data;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    line.erase(std::min(line.find('#'), line.size()));
+    std::array<double, 6> values{};
+    const int count = parse_numbers(line, values);
+    if (count == 0) continue;
+    const std::string where = path + ":" + std::to_string(number) + ": ";
+    if (count != 3 && count != 6) throw InputError(where + "a line holds x y z, or x y z nx ny nz");
+    const bool has_normal = count == 6;
+    if (!data.vertices.points.empty() && has_normal == data.vertices.normals.empty()) {
+      throw InputError(where + "either all points have normals or none");
+    }
+    data.vertices.points.emplace_back(values[0], values[1], values[2]);
+    if (has_normal) data.vertices.normals.emplace_back(values[3], values[4], values[5]);
+  }
+  return data;
+}
+
+Eigen::Vector3d vector_of(const aiVector3D& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
+
+void append(const aiMesh& mesh, Data& data) {
+  const auto first = static_cast<std::uint32_t>(data.vertices.points.size());
+  // Assimp cannot tell whether normals of triangles come from the file; those of the triangles themselves always do.
+  const bool has_triangles = (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    data.vertices.points.push_back(vector_of(mesh.mVertices[i]));
+    if (mesh.HasNormals() && !has_triangles) data.vertices.normals.push_back(vector_of(mesh.mNormals[i]));
+  }
+  for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+    const aiFace& face = mesh.mFaces[k];
+    if (face.mNumIndices == 3)
+      data.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+  }
+}
+
+Data read_by_assimp(const std::string& path) {
+  Assimp::Importer importer;
+  // The three formats have no transformations, so that nodes need not be looked at.
+  const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+  if (scene == nullptr) throw InputError(path + ": cannot be read: " + importer.GetErrorString());
+  Data data;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], data);
+  if (data.vertices.normals.size() != data.vertices.points.size()) data.vertices.normals.clear();
+  return data;
+}
+
+void check(const std::string& path, Data& data) {
+  if (data.vertices.points.empty()) throw InputError(path + ": no points");
+  // A normal that is 0 or not finite says nothing, and then none of the file is trusted to.
+  bool has_normals = !data.vertices.normals.empty();
+  for (std::size_t i = 0; i < data.vertices.points.size(); ++i) {
+    if (!data.vertices.points[i].allFinite()) {
+      throw InputError(path + ": point " + std::to_string(i + 1) + " has a coordinate that is not finite");
+    }
+    if (!has_normals) continue;
+    const double length = data.vertices.normals[i].norm();
+    has_normals = std::isfinite(length) && length > 0;
+    if (has_normals) data.vertices.normals[i] /= length;
+  }
+  if (!has_normals) data.vertices.normals.clear();
+}
+
+}  // namespace
+
+Data read_data(const std::string& path, double scale) {
+  const std::string extension = lower_extension(path);
+  constexpr std::array kMeshes = {".stl", ".obj", ".ply"};
+  const bool is_text = extension == ".xyz";
+  if (!is_text && std::ranges::find(kMeshes, extension) == kMeshes.end()) {
+    throw InputError(path + ": unknown extension \"" + extension + "\"; allowed: " + kExtensions);
+  }
+  if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
+  Data data = is_text ? read_text(path) : read_by_assimp(path);
+  check(path, data);
+  for (Eigen::Vector3d& x : data.vertices.points) x *= scale;
+  return data;
+}
+
+}  // namespace fit

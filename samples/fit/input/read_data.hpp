@@ -1,0 +1,28 @@
+// Meshes and point clouds from files.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sampling.hpp"
+
+namespace fit {
+
+/// Thrown when the user's file is of no use. what() is the whole message for the user.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a file holds: triangles, or points alone.
+struct Data {
+  Cloud vertices;                   ///< all points of the file, with the normals that it gives (points only)
+  std::vector<Triangle> triangles;  ///< none: a point cloud
+};
+
+/// Reads a mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz: lines of x y z, or x y z nx ny nz, with # for comments), and
+/// multiplies lengths by `scale`. Throws InputError: no such file, unknown extension, nothing in it, a number that is not finite.
+Data read_data(const std::string& path, double scale);
+
+}  // namespace fit

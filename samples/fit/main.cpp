@@ -1,0 +1,156 @@
+// Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or a cloud of points.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "input/read_data.hpp"
+#include "model/fit_body.hpp"
+#include "model/fit_error.hpp"
+#include "output/paste.hpp"
+#include "output/picture.hpp"
+#include "output/report.hpp"
+
+namespace {
+
+enum ExitCode { Done = 0, Failed = 1, BadInput = 2 };
+
+struct Options {
+  std::string path;
+  std::string shape = "auto";
+  std::string noise = "auto";
+  std::string outliers = "auto";
+  double scale = 1;
+  double density = 1000;
+  std::string name;
+  std::string out = "out/fit";
+  bool uses_vertices = false;
+  bool is_quick = false;
+  int threads = 1;
+};
+
+/// The points that are fitted: of a mesh, as many random ones of its triangles as it has vertices, within bounds.
+fit::Cloud points_of(const fit::Data& data, bool uses_vertices) {
+  if (data.triangles.empty() || uses_vertices) return data.vertices;
+  const std::size_t count = std::clamp<std::size_t>(data.vertices.points.size(), 2000, 100000);
+  return fit::sample_triangles(data.vertices.points, data.triangles, count, 1);
+}
+
+fit::FitSettings settings_of(const Options& options, bool is_mesh) {
+  const std::map<std::string, std::optional<fit::Family>> families = {{"auto", std::nullopt},
+                                                                      {"ellipsoid", fit::Family::Ellipsoid},
+                                                                      {"superellipsoid", fit::Family::Superellipsoid},
+                                                                      {"superovoid", fit::Family::Superovoid}};
+  fit::FitSettings settings;
+  settings.family = families.at(options.shape);
+  settings.noise = options.noise == "normal" ? fit::Noise::AlongNormal : fit::Noise::Isotropic;
+  // A mesh is the surface itself: what is far from the body is no outlier but another shape, and no noise.
+  settings.rejects_outliers = options.outliers == "auto" ? !is_mesh : options.outliers == "reject";
+  if (is_mesh && options.noise == "auto") settings.noise = fit::Noise::AlongNormal;
+  settings.threads = options.threads;
+  return settings;
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+void write_results(const Options& options, const std::vector<fit::FittedBody>& fitted, const fit::Data& data,
+                   const fit::FitError& error) {
+  const std::string file = std::filesystem::path(options.path).filename().string();
+  const std::string name =
+      options.name.empty() ? fit::identifier(std::filesystem::path(options.path).stem().string()) : options.name;
+  const std::string source = "fitted to " + file + " by samples/fit";
+  const std::string toml = fit::toml_lines(fitted, name, options.density, source);
+  const std::string c = fit::c_lines(fitted, name, source);
+  std::printf("\n%s\n%s", toml.c_str(), c.c_str());
+  std::vector<fit::Body> bodies;
+  for (const fit::FittedBody& each : fitted) bodies.push_back(each.body);
+  const std::filesystem::path folder = options.out;
+  std::filesystem::create_directories(folder);
+  write(folder / (name + ".toml"), toml);
+  write(folder / (name + ".c"), c);
+  write(folder / (name + ".svg"), fit::draw(bodies, data.vertices, error.rms, file));
+  std::printf("\nwritten: %s.toml, .c and .svg\n", (folder / name).c_str());
+}
+
+void run(const Options& options) {
+  const fit::Data data = fit::read_data(options.path, options.scale);
+  const bool is_mesh = !data.triangles.empty();
+  std::printf("%s: %zu points, %zu triangles\n", options.path.c_str(), data.vertices.points.size(), data.triangles.size());
+  const fit::Cloud points = points_of(data, options.uses_vertices);
+  const std::vector<fit::FittedBody> fitted = {fit::fit_body(points, settings_of(options, is_mesh))};
+  for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
+  if (options.is_quick) return;
+  std::vector<fit::Body> bodies;
+  for (const fit::FittedBody& each : fitted) bodies.push_back(each.body);
+  const fit::FitError error = fit::find_error(bodies, data);
+  std::fputs(fit::describe(error).c_str(), stdout);
+  write_results(options, fitted, data, error);
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or to points.", "fit");
+  Options options;
+  app.add_option("file", options.path, "mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz)")->required();
+  app.add_option("--shape", options.shape, "what to look for; auto: what the data call for")
+      ->check(CLI::IsMember({"auto", "ellipsoid", "superellipsoid", "superovoid"}))
+      ->capture_default_str();
+  app.add_option("--scale", options.scale, "metres in a unit of the file")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--name", options.name, "of the body in what is written; the file's if not given");
+  app.add_option("--noise", options.noise,
+                 "how points scatter: alike in all directions, or along the surface's normal only; auto: the first of points, the "
+                 "second of a mesh")
+      ->check(CLI::IsMember({"auto", "isotropic", "normal"}))
+      ->capture_default_str();
+  app.add_option("--outliers", options.outliers, "points beyond 5 standard deviations; auto: reject in a cloud, keep in a mesh")
+      ->check(CLI::IsMember({"auto", "reject", "keep"}))
+      ->capture_default_str();
+  app.add_option("--out", options.out, "folder for the results")->capture_default_str();
+  app.add_option("--threads", options.threads, "for the last descent; the same result to rounding")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  app.add_flag("--vertices", options.uses_vertices, "fit the vertices of a mesh and not random points of its triangles");
+  app.add_flag("--quick", options.is_quick, "fit only: no comparison of volumes and surfaces, nothing written");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? Done : BadInput;
+  }
+  if (!options.name.empty() && options.name != fit::identifier(options.name)) {
+    std::fprintf(stderr, "fit: --name \"%s\"; allowed: letters, digits and _, no digit first\n", options.name.c_str());
+    return BadInput;
+  }
+  run(options);
+  return Done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const fit::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return BadInput;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "fit: %s\n", error.what());
+    return BadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "fit: %s\n", error.what());
+    return Failed;
+  }
+}

@@ -1,0 +1,78 @@
+#include "distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <supernormal/proximity/solve.hpp>
+#include <supernormal/shapes/sphere.hpp>
+
+namespace fit {
+namespace {
+
+// The normals are then right to about 1e-6, and with them the derivatives.
+constexpr double kTolerance = 1e-12;
+
+// Inside, the distance function has as many local maxima as the body has faces. Down to this depth, over the smallest half-axis,
+// the one next to the point's projection from the centre is taken; deeper ones are searched for.
+constexpr double kShallow = 0.1;
+
+}  // namespace
+
+DistanceFunction::DistanceFunction(const Body& body) : body_(body), rotation_(body.rotation()), shape_(make_shape(body)) {}
+
+// The normal of the body's enlarged or shrunk image through x (body's frame): the gradient of the implicit function there. Near the
+// boundary it is so near to the witness's that the search takes half of the time.
+Vector3 DistanceFunction::gauge_normal(const Vector3& x) const {
+  constexpr double kLeastSection = 0.05;
+  const Vector3& axes = body_.half_axes;
+  const double section = std::max(kLeastSection, 1 + body_.taper * x.z() / axes.z());
+  const Vector3 widths(axes.x() * section, axes.y() * section, axes.z());
+  Vector3 u = x.cwiseAbs().cwiseQuotient(widths);
+  const double scale = u.maxCoeff();
+  if (!(scale > 0)) return Vector3::UnitZ();
+  u /= scale;  // nothing overflows then
+  const double sum = std::pow(u.x(), body_.delta) + std::pow(u.y(), body_.delta);
+  Vector3 normal = Vector3::Zero();
+  if (sum > 0) {
+    const double outer = std::pow(sum, body_.epsilon / body_.delta - 1);
+    for (int i = 0; i < 2; ++i) normal[i] = std::copysign(outer * std::pow(u[i], body_.delta - 1) / widths[i], x[i]);
+    normal.z() = -scale * outer * sum * body_.taper / (axes.z() * section);
+  }
+  normal.z() += std::copysign(std::pow(u.z(), body_.epsilon - 1) / axes.z(), x.z());
+  const double length = normal.norm();
+  return length > 0 && std::isfinite(length) ? Vector3(normal / length) : Vector3::UnitZ();
+}
+
+bool DistanceFunction::contains(const Vector3& x) const {
+  const Vector3 p = rotation_.transpose() * (x - body_.position);
+  const double z = p.z() / body_.half_axes.z(), section = 1 + body_.taper * z;
+  if (!(std::abs(z) < 1) || !(section > 0)) return false;
+  const double u = std::abs(p.x() / (body_.half_axes.x() * section)), v = std::abs(p.y() / (body_.half_axes.y() * section));
+  if (!(u < 1) || !(v < 1)) return false;
+  const double sum = std::pow(u, body_.delta) + std::pow(v, body_.delta);
+  return std::pow(sum, body_.epsilon / body_.delta) + std::pow(std::abs(z), body_.epsilon) < 1;
+}
+
+std::optional<Witness> DistanceFunction::find(const Vector3& x) const {
+  static const supernormal::Sphere kPoint(0);
+  supernormal::Settings settings;
+  settings.tolerance = kTolerance;
+  const supernormal::Pose pose{body_.position, rotation_}, place{x, Matrix3::Identity()};
+  const Vector3 first = gauge_normal(rotation_.transpose() * (x - body_.position));
+  auto proximity = supernormal::find_proximity(*shape_, pose, kPoint, place, settings, &first);
+  if (proximity.status == supernormal::Status::InvalidInput) return std::nullopt;
+  if (proximity.gap < -kShallow * body_.half_axes.minCoeff()) {
+    proximity = supernormal::find_proximity(*shape_, pose, kPoint, place, settings);
+  }
+  return Witness{proximity.gap, proximity.normal, x - proximity.gap * proximity.normal};
+}
+
+Gradient DistanceFunction::gradient(const Witness& witness) const {
+  const Vector3 n = to_body(witness.normal), r = to_body(witness.foot - body_.position);
+  Gradient gradient = -support_gradient(body_, n, r);
+  gradient.segment<3>(kPosition) = -witness.normal;
+  // A turn of the body by w moves its boundary point by w x r, which lowers the distance by n.(w x r) = w.(r x n).
+  gradient.segment<3>(kRotation) = n.cross(r);
+  return gradient;
+}
+
+}  // namespace fit

@@ -1,0 +1,259 @@
+#include "fit_body.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "least_squares.hpp"
+#include "noise_offset.hpp"
+#include "starts.hpp"
+
+namespace fit {
+namespace {
+
+// Lengths below are of data of extent 1.
+constexpr double kLargestOverRadius = 3;  // the largest half-axis, over the radius of the data
+constexpr double kRounding = 1e-9;        // distances below it are taken for rounding
+constexpr double kHuber = 1.345;          // standard deviations: 95 % efficiency for normal noise
+
+double median_size(std::span<const double> values) {
+  std::vector<double> sizes(values.size());
+  std::ranges::transform(values, sizes.begin(), [](double value) { return std::abs(value); });
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+/// The standard deviation of normal noise whose absolute values have this median.
+double robust_sigma(std::span<const double> residuals) { return std::max(1.4826 * median_size(residuals), kRounding); }
+
+double largest_half_axis(const Cloud& cloud) {
+  std::vector<double> radii;
+  for (const Vector3& x : cloud.points) radii.push_back(x.norm());
+  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(radii.size() - 1));
+  std::nth_element(radii.begin(), at, radii.end());
+  return kLargestOverRadius * *at;
+}
+
+struct Measured {
+  std::vector<Witness> witnesses;
+  std::vector<double> distances;
+};
+
+Measured measure(const Body& body, std::span<const Vector3> points) {
+  Measured result;
+  const DistanceFunction function(body);
+  for (const Vector3& x : points) {
+    const std::optional<Witness> witness = function.find(x);
+    if (!witness) throw std::runtime_error("the distance of a point from the fitted body cannot be computed");
+    result.witnesses.push_back(*witness);
+    result.distances.push_back(witness->distance);
+  }
+  return result;
+}
+
+/// Whether normals of the data point outwards from the body: one-sided data fit the far side of a body as well.
+bool is_right_side_out(const Body& body, const Cloud& cloud) {
+  if (cloud.normals.empty()) return true;
+  const Measured measured = measure(body, cloud.points);
+  double sum = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) sum += measured.witnesses[i].normal.dot(cloud.normals[i]);
+  return sum > 0;
+}
+
+double mean_square(const LeastSquaresResult& result, std::size_t points) { return 2 * result.cost / static_cast<double>(points); }
+
+/// Descends from each start on the points, and keeps the best `count`.
+std::vector<Candidate> descend(const std::vector<Candidate>& starts, const Cloud& cloud, const LeastSquaresSettings& settings,
+                               std::size_t count) {
+  std::vector<Candidate> ends;
+  for (const Candidate& start : starts) {
+    const LeastSquaresResult result = minimize_distances(start.body, cloud.points, {}, settings);
+    if (!std::isfinite(result.cost) || !is_right_side_out(result.body, cloud)) continue;
+    ends.push_back({result.body, mean_square(result, cloud.points.size())});
+  }
+  std::ranges::stable_sort(ends, {}, &Candidate::mean_square);
+  if (ends.size() > count) ends.resize(count);
+  return ends;
+}
+
+/// The state of the last descent, on all points.
+struct Descent {
+  Body body;
+  std::vector<std::size_t> inliers;
+  Measured measured;            // of all points
+  std::vector<double> offsets;  // of all points
+};
+
+double sigma_of(const Descent& descent, bool is_robust) {
+  std::vector<double> residuals;
+  for (const std::size_t i : descent.inliers) residuals.push_back(descent.measured.distances[i] - descent.offsets[i]);
+  if (is_robust) return robust_sigma(residuals);
+  const double square = std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+  return std::sqrt(square / static_cast<double>(residuals.size()));
+}
+
+/// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether the latter changed.
+bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings) {
+  descent.measured = measure(descent.body, cloud.points);
+  if (descent.offsets.empty()) descent.offsets.assign(cloud.points.size(), 0.0);
+  const double sigma = sigma_of(descent, settings.rejects_outliers);
+  if (settings.noise == Noise::Isotropic && sigma > kRounding) {
+    const DistanceFunction function(descent.body);
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+      descent.offsets[i] = noise_offset(function, descent.measured.witnesses[i], sigma);
+    }
+  }
+  if (!settings.rejects_outliers) return false;
+  std::vector<std::size_t> inliers;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (std::abs(descent.measured.distances[i] - descent.offsets[i]) <= kOutlier * sigma) inliers.push_back(i);
+  }
+  const bool has_changed = inliers != descent.inliers;
+  descent.inliers = std::move(inliers);
+  return has_changed;
+}
+
+void solve(Descent& descent, const Cloud& cloud, LeastSquaresSettings settings) {
+  const Cloud chosen = selected(cloud, descent.inliers);
+  std::vector<double> offsets;
+  for (const std::size_t i : descent.inliers) offsets.push_back(descent.offsets[i]);
+  descent.body = minimize_distances(descent.body, chosen.points, offsets, settings).body;
+}
+
+/// Least squares on all points but outliers, repeated until these and the noise's effect are settled.
+Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings& settings, int rounds) {
+  Descent descent{start, {}, {}, {}};
+  descent.inliers.resize(cloud.points.size());
+  std::iota(descent.inliers.begin(), descent.inliers.end(), std::size_t{0});
+  LeastSquaresSettings least_squares;
+  least_squares.largest_half_axis = largest_half_axis(cloud);
+  // A step that lowers the cost by less moves no number by more than a tenth of its standard error.
+  least_squares.tolerance = 1e-2 / static_cast<double>(cloud.points.size());
+  least_squares.threads = settings.threads;
+  least_squares.max_iterations = 12;
+  for (int round = 0; round < rounds; ++round) {
+    const bool has_changed = update(descent, cloud, settings);
+    if (round > 0 && !has_changed && settings.noise == Noise::AlongNormal) break;
+    solve(descent, cloud, least_squares);
+  }
+  descent.measured = measure(descent.body, cloud.points);
+  return descent;
+}
+
+void require_points(const Cloud& cloud, std::size_t least) {
+  if (cloud.points.size() < least) {
+    throw std::invalid_argument(std::to_string(cloud.points.size()) + " points; a fit takes at least " + std::to_string(least));
+  }
+  for (const Vector3& x : cloud.points) {
+    if (!x.allFinite()) throw std::invalid_argument("a coordinate is not finite");
+  }
+  const Extent extent = extent_of(cloud.points);
+  if (!(extent.size > 1e-12 * extent.centre.norm()) || !std::isfinite(extent.size)) {
+    throw std::invalid_argument("the points are all in one place, or too large to be told apart");
+  }
+}
+
+/// The result in the frame of the data, which have been normalized by `extent`.
+FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud) {
+  FittedBody fitted;
+  std::vector<Witness> witnesses;
+  std::vector<double> residuals;
+  std::vector<bool> is_inlier(cloud.points.size(), false);
+  for (const std::size_t i : descent.inliers) {
+    is_inlier[i] = true;
+    witnesses.push_back(descent.measured.witnesses[i]);
+    residuals.push_back(descent.measured.distances[i] - descent.offsets[i]);
+  }
+  for (std::size_t i = 0; i < is_inlier.size(); ++i) {
+    if (!is_inlier[i]) fitted.outliers.push_back(i);
+  }
+  fitted.inliers = descent.inliers.size();
+  fitted.uncertainty = find_uncertainty(descent.body, witnesses, residuals);
+  const double sharpest = make_shape(descent.body)->min_curvature_radius_estimate();
+  fitted.is_edge_below_noise = fitted.uncertainty.sigma > kRounding && sharpest < 2 * fitted.uncertainty.sigma;
+  fitted.uncertainty.sigma *= extent.size;
+  fitted.uncertainty.standard_error.segment<3>(kPosition) *= extent.size;
+  fitted.uncertainty.standard_error.segment<3>(kLogAxes) *= extent.size;
+  fitted.is_at_largest_size = descent.body.half_axes.maxCoeff() > 0.999 * largest_half_axis(cloud);
+  fitted.body = moved(descent.body, extent.size, extent.centre);
+  return fitted;
+}
+
+/// The family with the least Bayesian information criterion, n ln(mean square) + k ln n; distances of rounding count alike.
+Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
+  if (settings.family) return search_body(cloud, *settings.family, settings.rejects_outliers);
+  Candidate best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto points = static_cast<double>(cloud.points.size());
+  for (const Family family : {Family::Ellipsoid, Family::Superellipsoid, Family::Superovoid}) {
+    if (cloud.points.size() < least_points(family)) continue;
+    const Candidate candidate = search_body(cloud, family, settings.rejects_outliers);
+    const double criterion =
+        points * std::log(candidate.mean_square + kRounding * kRounding) + parameter_count(family) * std::log(points);
+    if (!(criterion < least)) continue;
+    least = criterion;
+    best = candidate;
+    if (candidate.mean_square < kRounding * kRounding) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::size_t least_points(Family family) { return static_cast<std::size_t>(parameter_count(family)) + 1; }
+
+Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers) {
+  const Cloud few = thinned(cloud, 200), some = thinned(cloud, 1000), many = thinned(cloud, 3000);
+  LeastSquaresSettings settings;
+  settings.largest_half_axis = largest_half_axis(many);
+  settings.max_iterations = 6;
+  settings.tolerance = 1e-3;
+  settings.loss_width = 0.1;
+  std::vector<Candidate> candidates;
+  for (const Body& start : make_starts(some, family)) candidates.push_back({start});
+  candidates = descend(candidates, few, settings, 6);
+
+  settings.max_iterations = 25;
+  settings.tolerance = 1e-4;
+  candidates = descend(candidates, some, settings, 2);
+  for (Candidate& candidate : candidates) {
+    // A third descent with a loss as narrow as the noise, and the mean square without those that are far beyond it.
+    if (rejects_outliers) settings.loss_width = kHuber * robust_sigma(measure(candidate.body, many.points).distances);
+    settings.max_iterations = 50;
+    settings.tolerance = 1e-8;
+    candidate.body = minimize_distances(candidate.body, many.points, {}, settings).body;
+    const std::vector<double> distances = measure(candidate.body, many.points).distances;
+    const double limit = rejects_outliers ? kOutlier * robust_sigma(distances) : std::numeric_limits<double>::infinity();
+    double square = 0;
+    for (const double distance : distances) square += std::min(distance * distance, limit * limit);
+    candidate.mean_square = square / static_cast<double>(distances.size());
+  }
+  std::ranges::stable_sort(candidates, {}, &Candidate::mean_square);
+  return candidates.empty() ? Candidate{} : candidates.front();
+}
+
+FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings) {
+  require_points(cloud, least_points(start.family));
+  const Extent extent = extent_of(cloud.points);
+  const Cloud data = normalized(cloud, extent);
+  const Body body = moved(start, 1 / extent.size, -extent.centre / extent.size);
+  return finish(descend_on_all(body, data, settings, 4), extent, data);
+}
+
+FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
+  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
+  const Extent extent = extent_of(cloud.points);
+  const Cloud data = normalized(cloud, extent);
+  const Candidate best = best_family(thinned(data, 3000), settings);
+  if (!std::isfinite(best.mean_square)) throw std::runtime_error("no body fits: every descent failed");
+  // Most of the way is done on some of the points.
+  const bool is_large = data.points.size() > 10000;
+  const Body near = is_large ? descend_on_all(best.body, thinned(data, 5000), settings, 3).body : best.body;
+  return finish(descend_on_all(in_customary_order(near), data, settings, is_large ? 2 : 4), extent, data);
+}
+
+}  // namespace fit

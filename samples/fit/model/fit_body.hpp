@@ -1,0 +1,56 @@
+// The body that fits data best.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "body.hpp"
+#include "cloud.hpp"
+#include "uncertainty.hpp"
+
+namespace fit {
+
+/// How data scatter about the surface.
+enum class Noise {
+  Isotropic,    ///< alike in all directions: then points lie outside of a convex surface more often than inside
+  AlongNormal,  ///< along the surface's normal only
+};
+
+struct FitSettings {
+  std::optional<Family> family;  ///< nothing: the one that the data call for
+  Noise noise = Noise::Isotropic;
+  bool rejects_outliers = true;  ///< leaves out points farther away than kOutlier standard deviations
+  int threads = 1;
+};
+
+constexpr double kOutlier = 5;
+
+struct FittedBody {
+  Body body;
+  Uncertainty uncertainty;
+  std::vector<std::size_t> outliers;  ///< indices of points that were left out
+  std::size_t inliers = 0;            ///< how many others there are
+  /// Whether the smallest radius of curvature is below twice the noise's standard deviation: noise then hides how sharp edges are.
+  bool is_edge_below_noise = false;
+  /// Half-axes that ended at the largest length which is allowed, several times the extent of the data.
+  bool is_at_largest_size = false;
+};
+
+/// The least number of points for a family: one more than the numbers of the body, to have an error bar.
+std::size_t least_points(Family family);
+
+/// Fits the points and measures how well. std::invalid_argument when there are too few points, they are not finite, or they are all
+/// in one place.
+FittedBody fit_body(const Cloud& cloud, const FitSettings& settings = {});
+
+/// Only descends from `start` on all points: for a start that is near.
+FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings = {});
+
+/// Finds the best body for (a part of) data of extent 1, without error bars; infinite cost where there is none.
+struct Candidate {
+  Body body;
+  double mean_square = std::numeric_limits<double>::infinity();
+};
+Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers);
+
+}  // namespace fit

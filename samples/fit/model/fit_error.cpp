@@ -1,0 +1,215 @@
+#include "fit_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nanoflann.hpp>
+#include <random>
+#include <stdexcept>
+#include <supernormal/shapes/polytope.hpp>
+#include <utility>
+
+#include "distance.hpp"
+
+namespace fit {
+namespace {
+
+constexpr std::size_t kSamples = 20000;         // points of a surface
+constexpr std::size_t kVolumeSamples = 400000;  // points of a volume
+
+/// Points as nanoflann wants them.
+struct Adaptor {
+  const std::vector<Eigen::Vector3d>* points;
+  std::size_t kdtree_get_point_count() const { return points->size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t k) const { return (*points)[i][static_cast<Eigen::Index>(k)]; }
+  template <typename Box>
+  bool kdtree_get_bbox(Box& /*box*/) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>, Adaptor, 3>;
+
+Solid about_centroid(double volume, const Vector3& centroid, const Matrix3& second_moment) {
+  const Matrix3 moment = second_moment - volume * centroid * centroid.transpose();
+  return {volume, centroid, moment.trace() * Matrix3::Identity() - moment};
+}
+
+Solid solid_of(const Body& body) {
+  const supernormal::MassProperties mass = make_shape(body)->mass_properties();
+  Solid solid = about_centroid(mass.volume, mass.centroid, mass.second_moment);
+  const Matrix3 R = body.rotation();
+  solid.centroid = body.position + R * solid.centroid;
+  solid.inertia = R * solid.inertia * R.transpose();
+  return solid;
+}
+
+/// Every edge belongs to two triangles that run along it in opposite directions.
+bool is_closed(const Data& data) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+  for (const Triangle& t : data.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      balance[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  }
+  return !data.triangles.empty() && std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+}
+
+/// Sums over the tetrahedra between the triangles and their mean point (Mirtich 1996, in the form of Blow and Binstock 2004).
+Solid solid_of_mesh(const Data& data) {
+  const Extent extent = extent_of(data.vertices.points);
+  double volume = 0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  for (const Triangle& t : data.triangles) {
+    Matrix3 A;
+    for (int k = 0; k < 3; ++k) A.col(k) = data.vertices.points[t[static_cast<std::size_t>(k)]] - extent.centre;
+    const double part = A.determinant() / 6;
+    const Vector3 sum = A.rowwise().sum();
+    volume += part;
+    first += part / 4 * sum;
+    second += part / 20 * (A * A.transpose() + sum * sum.transpose());
+  }
+  Solid solid = about_centroid(volume, first / volume, second);
+  solid.centroid += extent.centre;
+  return solid;
+}
+
+Solid solid_of_hull(const Data& data) {
+  const Extent extent = extent_of(data.vertices.points);
+  const Cloud cloud = normalized(data.vertices, extent);
+  const supernormal::MassProperties mass = supernormal::Polytope(cloud.points).mass_properties();
+  const double s = extent.size;
+  Solid solid = about_centroid(mass.volume * s * s * s, mass.centroid * s, mass.second_moment * std::pow(s, 5));
+  solid.centroid += extent.centre;
+  return solid;
+}
+
+/// The union's volume integrals by random points in its box.
+void integrate_union(std::span<const Body> bodies, FitError& error) {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::vector<DistanceFunction> functions;
+  for (const Body& body : bodies) {
+    functions.emplace_back(body);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 up = Vector3::Unit(i);
+      high[i] = std::max(high[i], body.position[i] + functions.back().shape().support(functions.back().to_body(up)));
+      low[i] = std::min(low[i], body.position[i] - functions.back().shape().support(functions.back().to_body(-up)));
+    }
+  }
+  std::mt19937_64 random(1);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  const double box = (high - low).prod();
+  const Vector3 middle = (low + high) / 2;
+  double inside = 0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  for (std::size_t i = 0; i < kVolumeSamples; ++i) {
+    const Vector3 x = (Vector3(uniform(), uniform(), uniform()).array() - 0.5).matrix().cwiseProduct(high - low);
+    const bool is_inside = std::ranges::any_of(functions, [&](const DistanceFunction& f) { return f.contains(middle + x); });
+    if (!is_inside) continue;
+    inside += 1;
+    first += x;
+    second += x * x.transpose();
+  }
+  const auto all = static_cast<double>(kVolumeSamples);
+  const double share = inside / all;
+  error.body = about_centroid(box * share, first / inside, box / all * second);
+  error.body.centroid += middle;
+  error.body_error = box * std::sqrt(share * (1 - share) / all);
+}
+
+double triangle_distance(const Data& data, const Triangle& t, const Vector3& x) {
+  // Ericson, Real-Time Collision Detection, section 5.1.5: the nearest point by the regions of Voronoi.
+  const Vector3 &a = data.vertices.points[t[0]], &b = data.vertices.points[t[1]], &c = data.vertices.points[t[2]];
+  const auto segment = [&](const Vector3& p, const Vector3& q) {
+    const double length = (q - p).squaredNorm();
+    const double s = length > 0 ? std::clamp((x - p).dot(q - p) / length, 0.0, 1.0) : 0;
+    return (x - p - s * (q - p)).norm();
+  };
+  const Vector3 n = (b - a).cross(c - a);
+  const double area = n.squaredNorm();
+  if (area > 0) {
+    const Vector3 p = x - a;
+    const double v = n.dot(p.cross(c - a)) / area, w = n.dot((b - a).cross(p)) / area;
+    if (v >= 0 && w >= 0 && v + w <= 1) return std::abs(n.dot(p)) / std::sqrt(area);
+  }
+  return std::min({segment(a, b), segment(b, c), segment(c, a)});
+}
+
+/// The largest distance of the bodies' free surface from the data. Of a mesh, the triangles about the nearest points are asked.
+double largest_distance_to_data(std::span<const Body> bodies, const Data& data) {
+  Cloud cloud = data.vertices;
+  std::vector<std::size_t> triangle_of;
+  if (!data.triangles.empty()) {
+    cloud.points.clear();
+    // A point for each triangle at least, so that the nearest of them leads to the nearest triangles.
+    for (std::size_t i = 0; i < data.triangles.size(); ++i) {
+      const Triangle& t = data.triangles[i];
+      const auto& p = data.vertices.points;
+      cloud.points.push_back((p[t[0]] + p[t[1]] + p[t[2]]) / 3);
+      triangle_of.push_back(i);
+      for (const std::uint32_t corner : t) {
+        cloud.points.push_back(p[corner]);
+        triangle_of.push_back(i);
+      }
+    }
+  }
+  const Adaptor adaptor{&cloud.points};
+  const Tree tree(3, adaptor);
+  constexpr std::size_t kNeighbours = 32;
+  const std::size_t neighbours = std::min(data.triangles.empty() ? std::size_t{1} : kNeighbours, cloud.points.size());
+  double largest = 0;
+  for (const Body& body : bodies) {
+    const Cloud surface = sample_boundary(*make_shape(body), kSamples, 1);
+    for (const Eigen::Vector3d& r : surface.points) {
+      const Vector3 x = body.position + body.rotation() * r;
+      const bool is_covered =
+          std::ranges::any_of(bodies, [&](const Body& other) { return &other != &body && DistanceFunction(other).contains(x); });
+      if (is_covered) continue;
+      std::array<std::uint32_t, kNeighbours> indices{};
+      std::array<double, kNeighbours> squares{};
+      const std::size_t found = tree.knnSearch(x.data(), neighbours, indices.data(), squares.data());
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < found; ++k) {
+        const double distance =
+            data.triangles.empty() ? std::sqrt(squares[k]) : triangle_distance(data, data.triangles[triangle_of[indices[k]]], x);
+        nearest = std::min(nearest, distance);
+      }
+      largest = std::max(largest, nearest);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+FitError find_error(std::span<const Body> bodies, const Data& data) {
+  FitError error;
+  std::vector<DistanceFunction> functions;
+  for (const Body& body : bodies) functions.emplace_back(body);
+  std::vector<Vector3> points = data.vertices.points;
+  if (!data.triangles.empty()) {
+    const Cloud more = sample_triangles(data.vertices.points, data.triangles, kSamples, 2);
+    points.insert(points.end(), more.points.begin(), more.points.end());
+  }
+  double square = 0;
+  for (const Vector3& x : points) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const DistanceFunction& function : functions) least = std::min(least, function.find(x).value_or(Witness{least}).distance);
+    error.to_body = std::max(error.to_body, std::abs(least));
+    square += least * least;
+  }
+  error.rms = std::sqrt(square / static_cast<double>(points.size()));
+  error.to_data = largest_distance_to_data(bodies, data);
+  error.is_hull = !is_closed(data);
+  error.data = error.is_hull ? solid_of_hull(data) : solid_of_mesh(data);
+  if (bodies.size() == 1) {
+    error.body = solid_of(bodies.front());
+  } else {
+    integrate_union(bodies, error);
+  }
+  return error;
+}
+
+}  // namespace fit

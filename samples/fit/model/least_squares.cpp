@@ -1,0 +1,193 @@
+#include "least_squares.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <supernormal/shapes/superellipsoid.hpp>
+
+#include "distance.hpp"
+
+namespace fit {
+namespace {
+
+// Exponents and taper as Ceres varies them: ln(delta - 1), ln(epsilon - 1) and the inverse hyperbolic tangent of the taper over its
+// limit, so that every value is a convex body.
+const double kLeastLogExponent = std::log(supernormal::Superellipsoid::kMinExponent - 1);
+const double kLargestLogExponent = std::log(supernormal::Superellipsoid::kMaxExponent - 1);
+constexpr double kLargestArtanh = 5;
+constexpr double kLeastHalfAxis = 1e-4;
+
+enum Block { kPositionBlock, kAttitudeBlock, kAxesBlock, kExponentsBlock, kTaperBlock, kBlocks };
+constexpr std::array kBlockSizes = {3, 4, 3, 2, 1};
+
+/// The parameter blocks of one body.
+struct Unknowns {
+  std::array<double, 3> position;
+  std::array<double, 4> attitude;  // x, y, z, w
+  std::array<double, 3> log_axes;
+  std::array<double, 2> log_exponents;
+  std::array<double, 1> artanh_taper;
+
+  explicit Unknowns(const Body& body) {
+    for (int i = 0; i < 3; ++i) {
+      position[static_cast<std::size_t>(i)] = body.position[i];
+      log_axes[static_cast<std::size_t>(i)] = std::log(std::max(body.half_axes[i], kLeastHalfAxis));
+    }
+    Eigen::Map<Eigen::Vector4d>(attitude.data()) = body.attitude.coeffs();
+    log_exponents = {std::clamp(std::log(body.delta - 1), kLeastLogExponent, kLargestLogExponent),
+                     std::clamp(std::log(body.epsilon - 1), kLeastLogExponent, kLargestLogExponent)};
+    artanh_taper = {std::clamp(std::atanh(body.taper / taper_limit(body.epsilon)), -kLargestArtanh, kLargestArtanh)};
+  }
+
+  std::array<double*, kBlocks> blocks() {
+    return {position.data(), attitude.data(), log_axes.data(), log_exponents.data(), artanh_taper.data()};
+  }
+};
+
+Body body_of(Family family, const double* const* blocks) {
+  Body body;
+  body.family = family;
+  body.position = Eigen::Map<const Vector3>(blocks[kPositionBlock]);
+  body.attitude = Eigen::Map<const Eigen::Quaterniond>(blocks[kAttitudeBlock]).normalized();
+  body.half_axes = Eigen::Map<const Vector3>(blocks[kAxesBlock]).array().exp();
+  if (family == Family::Ellipsoid) return body;
+  const auto exponent = [&](int i) {
+    return std::clamp(1 + std::exp(blocks[kExponentsBlock][i]), supernormal::Superellipsoid::kMinExponent,
+                      supernormal::Superellipsoid::kMaxExponent);
+  };
+  body.delta = exponent(0);
+  body.epsilon = exponent(1);
+  if (family == Family::Superovoid) body.taper = taper_limit(body.epsilon) * std::tanh(blocks[kTaperBlock][0]);
+  return body;
+}
+
+/// The distances of some points, their loss applied: a distance d beyond the width w becomes sqrt(2 w d - w^2), whose square is
+/// Huber's loss.
+class Distances final : public ceres::CostFunction {
+ public:
+  Distances(Family family, std::span<const Vector3> points, std::span<const double> offsets, const LeastSquaresSettings& settings)
+      : family_(family), points_(points), offsets_(offsets), width_(settings.loss_width) {
+    set_num_residuals(static_cast<int>(points.size()));
+    mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
+  }
+
+  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
+    const DistanceFunction function(body_of(family_, blocks));
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const std::optional<Witness> witness = function.find(points_[i]);
+      if (!witness) return false;
+      const double excess = witness->distance - (offsets_.empty() ? 0 : offsets_[i]);
+      double slope = 1;
+      residuals[i] = with_loss(excess, slope);
+      if (jacobians != nullptr) write_row(i, function, slope * function.gradient(*witness), blocks, jacobians);
+    }
+    return true;
+  }
+
+ private:
+  double with_loss(double excess, double& slope) const {
+    const double size = std::abs(excess);
+    if (!(size > width_)) return excess;
+    const double root = std::sqrt(width_ * (2 * size - width_));
+    slope = width_ / root;
+    return std::copysign(root, excess);
+  }
+
+  /// Row i of the Jacobian in Ceres' unknowns, from the gradient in ours.
+  static void write_row(std::size_t i, const DistanceFunction& function, const Gradient& gradient, const double* const* blocks,
+                        double** jacobians) {
+    const Body& body = function.body();
+    const auto row = [&](Block block) { return jacobians[block] + i * static_cast<std::size_t>(kBlockSizes[block]); };
+    if (jacobians[kPositionBlock] != nullptr) Eigen::Map<Vector3>(row(kPositionBlock)) = gradient.segment<3>(kPosition);
+    if (jacobians[kAttitudeBlock] != nullptr) {
+      // ceres::EigenQuaternionManifold turns by twice its step, about the axes of the data; the columns of its derivative are
+      // orthonormal, so that their transpose takes the row back to the quaternion's coefficients.
+      const Vector3 step = 2 * (body.rotation() * gradient.segment<3>(kRotation));
+      const Eigen::Map<const Eigen::Quaterniond> q(blocks[kAttitudeBlock]);
+      Eigen::Map<Eigen::Vector4d> out(row(kAttitudeBlock));
+      out.head<3>() = q.w() * step - q.vec().cross(step);
+      out[3] = -q.vec().dot(step);
+    }
+    if (jacobians[kAxesBlock] != nullptr) Eigen::Map<Vector3>(row(kAxesBlock)) = gradient.segment<3>(kLogAxes);
+    const double artanh = blocks[kTaperBlock][0];
+    if (jacobians[kExponentsBlock] != nullptr) {
+      double* const out = row(kExponentsBlock);
+      out[0] = gradient[kLogDelta];
+      // The taper's limit moves with epsilon.
+      out[1] = gradient[kLogEpsilon] + gradient[kTaper] * taper_limit_slope(body.epsilon) * std::tanh(artanh);
+    }
+    if (jacobians[kTaperBlock] != nullptr) {
+      const double cosh = std::cosh(artanh);
+      *row(kTaperBlock) = gradient[kTaper] * taper_limit(body.epsilon) / (cosh * cosh);
+    }
+  }
+
+  Family family_;
+  std::span<const Vector3> points_;
+  std::span<const double> offsets_;
+  double width_;
+};
+
+void set_bounds(ceres::Problem& problem, Unknowns& unknowns, const LeastSquaresSettings& settings) {
+  for (int i = 0; i < 3; ++i) {
+    problem.SetParameterLowerBound(unknowns.log_axes.data(), i, std::log(kLeastHalfAxis));
+    if (std::isfinite(settings.largest_half_axis)) {
+      double& log_axis = unknowns.log_axes[static_cast<std::size_t>(i)];
+      log_axis = std::min(log_axis, std::log(settings.largest_half_axis));
+      problem.SetParameterUpperBound(unknowns.log_axes.data(), i, std::log(settings.largest_half_axis));
+    }
+  }
+  for (int i = 0; i < 2; ++i) {
+    problem.SetParameterLowerBound(unknowns.log_exponents.data(), i, kLeastLogExponent);
+    problem.SetParameterUpperBound(unknowns.log_exponents.data(), i, kLargestLogExponent);
+  }
+  problem.SetParameterLowerBound(unknowns.artanh_taper.data(), 0, -kLargestArtanh);
+  problem.SetParameterUpperBound(unknowns.artanh_taper.data(), 0, kLargestArtanh);
+}
+
+ceres::Solver::Options options_of(const LeastSquaresSettings& settings) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = settings.max_iterations;
+  options.function_tolerance = settings.tolerance;
+  options.gradient_tolerance = 1e-16;
+  options.parameter_tolerance = 1e-13;
+  options.num_threads = settings.threads;
+  options.logging_type = ceres::SILENT;
+  // Steps are projected into the bounds. The search along the projected step would evaluate everything once more per step.
+  options.max_num_line_search_step_size_iterations = 0;
+  return options;
+}
+
+}  // namespace
+
+LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3> points, std::span<const double> offsets,
+                                      const LeastSquaresSettings& settings) {
+  constexpr std::size_t kChunk = 256;  // points of a residual block, which one thread evaluates with one shape
+  Unknowns unknowns(start);
+  ceres::Problem problem;
+  const auto blocks = unknowns.blocks();
+  for (int i = 0; i < kBlocks; ++i)
+    problem.AddParameterBlock(blocks[static_cast<std::size_t>(i)], kBlockSizes[static_cast<std::size_t>(i)]);
+  problem.SetManifold(unknowns.attitude.data(), new ceres::EigenQuaternionManifold);
+  set_bounds(problem, unknowns, settings);
+  if (start.family == Family::Ellipsoid) problem.SetParameterBlockConstant(unknowns.log_exponents.data());
+  if (start.family != Family::Superovoid) problem.SetParameterBlockConstant(unknowns.artanh_taper.data());
+  for (std::size_t first = 0; first < points.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, points.size() - first);
+    const std::span<const double> their_offsets = offsets.empty() ? offsets : offsets.subspan(first, count);
+    problem.AddResidualBlock(new Distances(start.family, points.subspan(first, count), their_offsets, settings), nullptr,
+                             std::vector<double*>(blocks.begin(), blocks.end()));
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(options_of(settings), &problem, &summary);
+  LeastSquaresResult result;
+  result.body = body_of(start.family, blocks.data());
+  if (summary.IsSolutionUsable()) result.cost = summary.final_cost;
+  return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,135 @@
+#include "starts.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+namespace fit {
+namespace {
+
+constexpr double kHalfTurn = std::numbers::pi;
+
+Eigen::SelfAdjointEigenSolver<Matrix3> principal_axes(const Cloud& cloud) {
+  const Extent extent = extent_of(cloud.points);
+  Matrix3 moment = Matrix3::Zero();
+  for (const Vector3& x : cloud.points) moment += (x - extent.centre) * (x - extent.centre).transpose();
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(moment / static_cast<double>(cloud.points.size()));
+}
+
+/// The centre of the sphere that fits best: with normals m, x = centre + radius m; without, |x|^2 - 2 centre.x is the same for all
+/// points (Coope 1993). Both are linear least squares.
+Vector3 sphere_centre(const Cloud& cloud) {
+  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Vector3& x = cloud.points[i];
+    if (cloud.normals.empty()) {
+      const Eigen::Vector4d row(2 * x.x(), 2 * x.y(), 2 * x.z(), 1);
+      A += row * row.transpose();
+      b += row * x.squaredNorm();
+    } else {
+      for (int k = 0; k < 3; ++k) {
+        Eigen::Vector4d row = Eigen::Vector4d::Unit(k);
+        row[3] = cloud.normals[i][k];
+        A += row * row.transpose();
+        b += row * x[k];
+      }
+    }
+  }
+  return A.completeOrthogonalDecomposition().solve(b).head<3>();
+}
+
+/// Turns that carry the principal axes to those of a start.
+std::vector<Matrix3> make_turns(const Vector3& moments) {
+  const auto about = [](const Vector3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); };
+  // Each of the three axes becomes the z-axis once.
+  Matrix3 cycle;
+  cycle << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  const std::array<Matrix3, 3> permutations = {Matrix3::Identity(), cycle, cycle * cycle};
+  std::vector<Matrix3> turns;
+  for (const Matrix3& permutation : permutations) {
+    turns.push_back(permutation);
+    turns.push_back(permutation * about(Vector3::UnitZ(), kHalfTurn / 4));
+  }
+  // Moments are sorted. Axes whose moments hardly differ say little about the attitude.
+  constexpr double kAlike = 0.7;
+  const bool first_two = moments[0] > kAlike * moments[1], last_two = moments[1] > kAlike * moments[2];
+  std::vector<Matrix3> more;
+  if (first_two && last_two) {
+    std::mt19937_64 random(1);
+    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    for (int i = 0; i < 10; ++i) {  // uniform over the rotations (Shoemake 1992)
+      const double u = uniform(), v = 2 * kHalfTurn * uniform(), w = 2 * kHalfTurn * uniform();
+      const double s = std::sqrt(1 - u), t = std::sqrt(u);
+      more.push_back(Eigen::Quaterniond(t * std::cos(w), s * std::sin(v), s * std::cos(v), t * std::sin(w)).toRotationMatrix());
+    }
+  } else if (first_two || last_two) {
+    const Vector3 axis = first_two ? Vector3::UnitZ() : Vector3::UnitX();
+    for (const double eighths : {1, 3}) more.push_back(about(axis, kHalfTurn * eighths / 8));
+    more.push_back(about(axis, kHalfTurn / 4));
+  }
+  for (const Matrix3& turn : more) {
+    for (const Matrix3& permutation : permutations) turns.push_back(turn * permutation);
+  }
+  return turns;
+}
+
+/// Half of the range of the points along an axis, and its middle, without the outermost 2 %.
+std::pair<double, double> range_along(const Cloud& cloud, const Vector3& axis) {
+  std::vector<double> heights;
+  for (const Vector3& x : cloud.points) heights.push_back(axis.dot(x));
+  const auto quantile = [&](double share) {
+    const auto at = heights.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(heights.size() - 1));
+    std::nth_element(heights.begin(), at, heights.end());
+    return *at;
+  };
+  const double low = quantile(0.01), high = quantile(0.99);
+  return {(high - low) / 2, (high + low) / 2};
+}
+
+}  // namespace
+
+std::vector<Body> make_starts(const Cloud& cloud, Family family) {
+  const auto principal = principal_axes(cloud);
+  const Vector3 sphere = sphere_centre(cloud);
+  constexpr std::array<std::pair<double, double>, 5> kExponents = {{{2, 2}, {1.4, 1.4}, {6, 6}, {2, 6}, {6, 2}}};
+  Matrix3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(2) *= -1;
+  std::vector<Body> starts;
+  for (const Matrix3& turn : make_turns(principal.eigenvalues())) {
+    Body body;
+    body.family = family;
+    body.attitude = Eigen::Quaterniond(axes * turn).normalized();
+    const Matrix3 rotation = body.rotation();
+    Vector3 middle;
+    for (int i = 0; i < 3; ++i) {
+      std::tie(body.half_axes[i], middle[i]) = range_along(cloud, rotation.col(i));
+      body.half_axes[i] = std::max(body.half_axes[i], 0.02);
+    }
+    for (const bool at_sphere : {false, true}) {
+      Body placed = body;
+      placed.position = rotation * middle;
+      if (at_sphere) {
+        const Vector3 shift = rotation.transpose() * sphere - middle;
+        // A centre that is hardly another, or is nowhere near, is of no use.
+        const double relative = shift.cwiseQuotient(body.half_axes).norm();
+        if (!(relative > 0.2 && relative < 4)) continue;
+        placed.position = sphere;
+        placed.half_axes += shift.cwiseAbs();
+      }
+      for (const auto& [delta, epsilon] : kExponents) {
+        placed.delta = family == Family::Ellipsoid ? 2 : delta;
+        placed.epsilon = family == Family::Ellipsoid ? 2 : epsilon;
+        starts.push_back(placed);
+        if (family == Family::Ellipsoid) break;
+      }
+    }
+  }
+  return starts;
+}
+
+}  // namespace fit

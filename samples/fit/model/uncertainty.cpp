@@ -1,0 +1,128 @@
+#include "uncertainty.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fit {
+namespace {
+
+using SquareMatrix = Eigen::Matrix<double, kParameters, kParameters>;
+
+// Over the body's size: distances are not known better than the first; what is below the second is rounding, which has patterns.
+constexpr double kExact = 1e-12, kRounding = 1e-9;
+
+/// Directions over the sphere, evenly spread (Gonzalez, Mathematical Geosciences 42, 2010).
+std::vector<Vector3> fibonacci_directions(int count) {
+  std::vector<Vector3> directions;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, angle = 2 * std::numbers::pi * i / std::numbers::phi;
+    const double radius = std::sqrt(1 - z * z);
+    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return directions;
+}
+
+/// The F statistic of the test for lack of fit: the mean square of the patches' means against that within the patches (Draper and
+/// Smith, Applied Regression Analysis, section 2.1). Patches are where the surface is seen in 100 directions from the centre.
+void test_lack_of_fit(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals,
+                      Uncertainty& result) {
+  const auto points = static_cast<double>(residuals.size());
+  const int parameters = parameter_count(body.family);
+  const std::vector<Vector3> directions = fibonacci_directions(std::min(100, static_cast<int>(points / 8)));
+  if (directions.size() < 2 * static_cast<std::size_t>(parameters)) return;
+  const Matrix3 to_body = body.half_axes.cwiseInverse().asDiagonal() * body.rotation().transpose();
+  std::vector<double> sums(directions.size()), counts(directions.size());
+  double square = 0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    const Vector3 direction = to_body * (witnesses[i].foot - body.position);
+    const auto nearest =
+        std::ranges::max_element(directions, {}, [&](const Vector3& candidate) { return candidate.dot(direction); });
+    const auto patch = static_cast<std::size_t>(nearest - directions.begin());
+    sums[patch] += residuals[i];
+    counts[patch] += 1;
+    square += residuals[i] * residuals[i];
+  }
+  double between = 0, patches = 0;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (counts[k] == 0) continue;
+    between += sums[k] * sums[k] / counts[k];
+    patches += 1;
+  }
+  const double within = (square - between) / (points - patches), freedom = patches - parameters;
+  if (!(within > 0) || !(freedom > 0)) return;
+  result.lack_of_fit = between / freedom / within;
+  // The statistic of chance has the mean 1 and nearly this standard deviation.
+  result.is_significant = result.lack_of_fit > 1 + 4 * std::sqrt(2 / freedom);
+}
+
+/// What a number may vary by at most to be called determined: a third of the size, 20 degrees, half of a half-axis, a factor of e
+/// in an exponent - 1, half of the taper's range.
+Gradient largest_errors(const Body& body) {
+  Gradient largest;
+  largest.segment<3>(kPosition).setConstant(body.half_axes.maxCoeff() / 3);
+  largest.segment<3>(kRotation).setConstant(std::numbers::pi / 9);
+  largest.segment<3>(kLogAxes).setConstant(0.5);
+  largest[kLogDelta] = largest[kLogEpsilon] = 1;
+  largest[kTaper] = 0.35;
+  return largest;
+}
+
+/// The indices of the numbers that the family varies.
+std::vector<int> varied(Family family) {
+  std::vector<int> indices;
+  for (int k = 0; k < parameter_count(family); ++k) indices.push_back(k);
+  return indices;
+}
+
+}  // namespace
+
+Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals) {
+  Uncertainty result;
+  const double size = body.half_axes.maxCoeff();
+  const DistanceFunction function(body);
+  SquareMatrix normal_matrix = SquareMatrix::Zero();
+  double square = 0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    Gradient row = function.gradient(witnesses[i]);
+    row.segment<3>(kPosition) *= size;  // all in lengths, so that eigenvalues may be compared
+    normal_matrix.selfadjointView<Eigen::Lower>().rankUpdate(row);
+    square += residuals[i] * residuals[i];
+  }
+  normal_matrix = SquareMatrix(normal_matrix.selfadjointView<Eigen::Lower>());
+  const int parameters = parameter_count(body.family);
+  const double freedom = std::max(1.0, static_cast<double>(residuals.size()) - parameters);
+  result.sigma = std::max(std::sqrt(square / freedom), kExact * size);
+  if (result.sigma > kRounding * size) test_lack_of_fit(body, witnesses, residuals, result);
+
+  const std::vector<int> indices = varied(body.family);
+  const Eigen::MatrixXd reduced = normal_matrix(indices, indices);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
+  constexpr double kNoWeight = 1e-9;  // of the largest eigenvalue; the derivatives are right to about 1e-6
+  constexpr double kShare = 1e-2;
+  const double threshold = kNoWeight * eigen.eigenvalues().maxCoeff();
+  Gradient variance = Gradient::Zero();
+  result.is_determined.fill(true);
+  for (int k = 0; k < parameters; ++k) {
+    const Eigen::VectorXd direction = eigen.eigenvectors().col(k);
+    const bool has_weight = eigen.eigenvalues()[k] > threshold;
+    for (int i = 0; i < parameters; ++i) {
+      if (has_weight) variance[i] += direction[i] * direction[i] / eigen.eigenvalues()[k];
+      if (!has_weight && std::abs(direction[i]) > kShare) result.is_determined[static_cast<std::size_t>(i)] = false;
+    }
+  }
+  variance.segment<3>(kPosition) *= size * size;
+  const double scale = result.sigma * (result.is_significant ? std::sqrt(result.lack_of_fit) : 1);
+  result.standard_error = scale * variance.cwiseSqrt();
+  const Gradient largest = largest_errors(body);
+  for (int i = 0; i < parameters; ++i) {
+    if (result.standard_error[i] > largest[i]) result.is_determined[static_cast<std::size_t>(i)] = false;
+  }
+  result.standard_error.segment<3>(kLogAxes) = result.standard_error.segment<3>(kLogAxes).cwiseProduct(body.half_axes).eval();
+  result.standard_error[kLogDelta] *= body.delta - 1;
+  result.standard_error[kLogEpsilon] *= body.epsilon - 1;
+  return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,100 @@
+#include "paste.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <vector>
+
+#include "output/toml_string.hpp"
+
+namespace fit {
+namespace {
+
+std::string number(double value) {
+  std::vector<char> text(32);
+  std::snprintf(text.data(), text.size(), "%.9g", value);
+  return text.data();
+}
+
+/// As a literal of the type double in either language.
+std::string literal(double value) {
+  const std::string text = number(value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string list(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + literal(value);
+  return text;
+}
+
+std::string name_of_part(const std::string& name, std::size_t parts, std::size_t i) {
+  return parts == 1 ? name : name + "_" + std::to_string(i + 1);
+}
+
+/// What may stand in a comment of C, on one line.
+std::string harmless(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::iscntrl(c) != 0 || c == '*' || c == '\\' || c == '?'; }, '_');
+  return text;
+}
+
+std::string create_call(const Body& body) {
+  const Vector3& axes = body.half_axes;
+  switch (body.family) {
+    case Family::Ellipsoid:
+      return "snCreateEllipsoid(space, " + list({axes.x(), axes.y(), axes.z()}) + ")";
+    case Family::Superellipsoid:
+      return "snCreateSuperellipsoid(space, " + list({axes.x(), axes.y(), axes.z(), body.delta, body.epsilon}) + ")";
+    case Family::Superovoid:
+      break;
+  }
+  return "snCreateSuperovoid(space, " + list({axes.x(), axes.y(), axes.z(), body.delta, body.epsilon, body.taper, body.taper}) +
+         ")";
+}
+
+}  // namespace
+
+std::string identifier(const std::string& text) {
+  std::string name = text;
+  const auto is_allowed = [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); };
+  std::ranges::replace_if(
+      name, [&](unsigned char c) { return !is_allowed(c); }, '_');
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0) name = "fit_" + name;
+  return name;
+}
+
+std::string toml_lines(std::span<const FittedBody> bodies, const std::string& name, double density, const std::string& source) {
+  std::string text;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i].body;
+    const std::string part = name_of_part(name, bodies.size(), i);
+    if (i > 0) text += "\n";
+    if (body.family == Family::Superovoid) {
+      text += "# " + part + " is a superovoid, which catalogues of grains do not have; in C it is snCreateSuperovoid.\n";
+      continue;
+    }
+    if (body.half_axes.maxCoeff() > 1) text += "# falling_particles takes half-axes up to 1 m: is the unit right (fit --scale)?\n";
+    text += "[" + part + "]\n";
+    text += "half_axes = [" + list({body.half_axes.x(), body.half_axes.y(), body.half_axes.z()}) + "]\n";
+    text += "delta = " + literal(body.delta) + "\nepsilon = " + literal(body.epsilon) + "\n";
+    text += "density = " + literal(density) + "\nsource = " + falling_particles::toml_string(source) + "\n";
+  }
+  return text;
+}
+
+std::string c_lines(std::span<const FittedBody> bodies, const std::string& name, const std::string& source) {
+  std::string text = "/* " + harmless(source) + " */\n";
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i].body;
+    const std::string part = name_of_part(name, bodies.size(), i);
+    const Eigen::Quaterniond& q = body.attitude;
+    text += "const dQuaternion " + part + "_attitude = {" + list({q.w(), q.x(), q.y(), q.z()}) + "};\n";
+    text += "dGeomID " + part + " = " + create_call(body) + ";\n";
+    text += "dGeomSetPosition(" + part + ", " + list({body.position.x(), body.position.y(), body.position.z()}) + ");\n";
+    text += "dGeomSetQuaternion(" + part + ", " + part + "_attitude);\n";
+  }
+  return text;
+}
+
+}  // namespace fit

@@ -1,0 +1,99 @@
+#include "report.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cstdarg>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+namespace fit {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vector<char> text(512);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+std::string row(const char* name, double value, const FittedBody& fitted, int parameter) {
+  const Uncertainty& uncertainty = fitted.uncertainty;
+  if (!uncertainty.is_determined[static_cast<std::size_t>(parameter)]) {
+    return format("  %-22s %14.7g   not determined by the data\n", name, value);
+  }
+  return format("  %-22s %14.7g ± %.2g\n", name, value, uncertainty.standard_error[parameter]);
+}
+
+std::string attitude_rows(const FittedBody& fitted) {
+  const Eigen::Quaterniond& q = fitted.body.attitude;
+  std::string text = format("  attitude (w, x, y, z)  %.7g %.7g %.7g %.7g\n", q.w(), q.x(), q.y(), q.z());
+  for (int i = 0; i < 3; ++i) {
+    const double error = fitted.uncertainty.standard_error[kRotation + i] * 180 / std::numbers::pi;
+    const bool is_determined = fitted.uncertainty.is_determined[static_cast<std::size_t>(kRotation + i)];
+    text += is_determined ? format("    turn about its %c-axis ± %.2g degrees\n", "xyz"[i], error)
+                          : format("    turn about its %c-axis not determined by the data\n", "xyz"[i]);
+  }
+  return text;
+}
+
+std::string remarks(const FittedBody& fitted) {
+  const Uncertainty& uncertainty = fitted.uncertainty;
+  std::string text;
+  if (uncertainty.is_significant) {
+    text += format(
+        "  Neighbouring distances agree with one another (lack of fit F = %.3g; independent ones: 1): the body is not of this "
+        "family,\n"
+        "  or the noise is no noise. The standard errors are larger by the root of F.\n",
+        uncertainty.lack_of_fit);
+  }
+  if (fitted.is_edge_below_noise) {
+    text +=
+        "  Its sharpest edges are sharper than the noise, which hides how sharp: exponents may be wrong by more than they say.\n";
+  }
+  if (fitted.is_at_largest_size)
+    text += "  A half-axis ended at the largest length that is allowed: the data do not bound the body.\n";
+  return text;
+}
+
+std::string inertia_row(const Solid& solid) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(solid.inertia, Eigen::EigenvaluesOnly);
+  const Vector3 moments = eigen.eigenvalues();
+  return format("%.6g %.6g %.6g", moments[0], moments[1], moments[2]);
+}
+
+}  // namespace
+
+std::string describe(const FittedBody& fitted) {
+  const Body& body = fitted.body;
+  std::string text = std::string(name_of(body.family)) + "\n";
+  for (int i = 0; i < 3; ++i)
+    text += row(("half-axis " + std::string(1, "abc"[i])).c_str(), body.half_axes[i], fitted, kLogAxes + i);
+  if (body.family != Family::Ellipsoid) {
+    text += row("delta", body.delta, fitted, kLogDelta);
+    text += row("epsilon", body.epsilon, fitted, kLogEpsilon);
+  }
+  if (body.family == Family::Superovoid) text += row("taper_x = taper_y", body.taper, fitted, kTaper);
+  for (int i = 0; i < 3; ++i) text += row(("centre " + std::string(1, "xyz"[i])).c_str(), body.position[i], fitted, kPosition + i);
+  text += attitude_rows(fitted);
+  text += format("  %zu points, standard deviation of their distances %.4g; %zu outliers left out\n", fitted.inliers,
+                 fitted.uncertainty.sigma, fitted.outliers.size());
+  return text + remarks(fitted);
+}
+
+std::string describe(const FitError& error) {
+  std::string text =
+      format("distance of the data from the surface: root mean square %.4g, largest %.4g\n", error.rms, error.to_body);
+  text += format("distance of the surface from the data: largest %.4g\n", error.to_data);
+  const char* const whose = error.is_hull ? "convex hull of the data" : "closed mesh";
+  text += format("volume %.6g", error.body.volume);
+  if (error.body_error > 0) text += format(" ± %.2g", error.body_error);
+  text += format("; %s %.6g (%+.2f %%)\n", whose, error.data.volume, 100 * (error.body.volume / error.data.volume - 1));
+  text +=
+      "principal moments of inertia, density 1: " + inertia_row(error.body) + "; " + whose + " " + inertia_row(error.data) + "\n";
+  text += format("centroids are %.4g apart\n", (error.body.centroid - error.data.centroid).norm());
+  return text;
+}
+
+}  // namespace fit

@@ -1,0 +1,18 @@
+// What the fit found, in words and numbers.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "model/fit_body.hpp"
+#include "model/fit_error.hpp"
+
+namespace fit {
+
+/// The numbers of a body, each with one standard error, or why it has none.
+std::string describe(const FittedBody& fitted);
+
+/// Distances, volume and inertia beside those of the data.
+std::string describe(const FitError& error);
+
+}  // namespace fit
