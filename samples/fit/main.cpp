@@ -39,7 +39,7 @@ struct Options {
 /// The points that are fitted: of a mesh, as many random ones of its triangles as it has vertices, within bounds.
 fit::Cloud points_of(const fit::Data& data, bool uses_vertices) {
   if (data.triangles.empty() || uses_vertices) return data.vertices;
-  const std::size_t count = std::clamp<std::size_t>(data.vertices.points.size(), 2000, 100000);
+  const std::size_t count = std::clamp<std::size_t>(data.vertices.points.size(), 2000, 20000);
   return fit::sample_triangles(data.vertices.points, data.triangles, count, 1);
 }
 
@@ -84,12 +84,20 @@ void write_results(const Options& options, const std::vector<fit::FittedBody>& f
   std::printf("\nwritten: %s.toml, .c and .svg\n", (folder / name).c_str());
 }
 
+fit::FittedBody fit_points(const fit::Cloud& points, const Options& options, bool is_mesh) {
+  try {
+    return fit::fit_body(points, settings_of(options, is_mesh));
+  } catch (const std::invalid_argument& error) {
+    throw fit::InputError(options.path + ": " + error.what());
+  }
+}
+
 void run(const Options& options) {
   const fit::Data data = fit::read_data(options.path, options.scale);
   const bool is_mesh = !data.triangles.empty();
   std::printf("%s: %zu points, %zu triangles\n", options.path.c_str(), data.vertices.points.size(), data.triangles.size());
   const fit::Cloud points = points_of(data, options.uses_vertices);
-  const std::vector<fit::FittedBody> fitted = {fit::fit_body(points, settings_of(options, is_mesh))};
+  const std::vector<fit::FittedBody> fitted = {fit_points(points, options, is_mesh)};
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
   if (options.is_quick) return;
   std::vector<fit::Body> bodies;

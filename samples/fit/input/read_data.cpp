@@ -11,7 +11,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
+#include <map>
+#include <utility>
 
 namespace fit {
 namespace {
@@ -83,12 +84,28 @@ void append(const aiMesh& mesh, Data& data) {
 Data read_by_assimp(const std::string& path) {
   Assimp::Importer importer;
   // The three formats have no transformations, so that nodes need not be looked at.
-  const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+  const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw InputError(path + ": cannot be read: " + importer.GetErrorString());
   Data data;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], data);
   if (data.vertices.normals.size() != data.vertices.points.size()) data.vertices.normals.clear();
   return data;
+}
+
+/// Makes one vertex of those in the same place: an .stl repeats them for every triangle.
+void weld(Data& data) {
+  std::map<std::array<double, 3>, std::uint32_t> number_of;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::uint32_t> welded;
+  for (const Eigen::Vector3d& x : data.vertices.points) {
+    const auto [entry, is_new] = number_of.try_emplace({x.x(), x.y(), x.z()}, static_cast<std::uint32_t>(points.size()));
+    if (is_new) points.push_back(x);
+    welded.push_back(entry->second);
+  }
+  data.vertices.points = std::move(points);
+  for (Triangle& triangle : data.triangles) {
+    for (std::uint32_t& corner : triangle) corner = welded[corner];
+  }
 }
 
 void check(const std::string& path, Data& data) {
@@ -119,6 +136,7 @@ Data read_data(const std::string& path, double scale) {
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
   Data data = is_text ? read_text(path) : read_by_assimp(path);
   check(path, data);
+  if (!data.triangles.empty()) weld(data);
   for (Eigen::Vector3d& x : data.vertices.points) x *= scale;
   return data;
 }

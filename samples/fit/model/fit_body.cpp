@@ -158,7 +158,7 @@ void require_points(const Cloud& cloud, std::size_t least) {
 }
 
 /// The result in the frame of the data, which have been normalized by `extent`.
-FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud) {
+FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud, Noise noise) {
   FittedBody fitted;
   std::vector<Witness> witnesses;
   std::vector<double> residuals;
@@ -174,7 +174,8 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
   fitted.inliers = descent.inliers.size();
   fitted.uncertainty = find_uncertainty(descent.body, witnesses, residuals);
   const double sharpest = make_shape(descent.body)->min_curvature_radius_estimate();
-  fitted.is_edge_below_noise = fitted.uncertainty.sigma > kRounding && sharpest < 2 * fitted.uncertainty.sigma;
+  fitted.is_edge_below_noise =
+      noise == Noise::Isotropic && fitted.uncertainty.sigma > kRounding && sharpest < 2 * fitted.uncertainty.sigma;
   fitted.uncertainty.sigma *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kPosition) *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kLogAxes) *= extent.size;
@@ -183,23 +184,30 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
   return fitted;
 }
 
+/// How many independent distances the points stand for: neighbours that agree with one another count for less (find_uncertainty).
+double independent_points(const Candidate& candidate, const Cloud& cloud) {
+  const Measured measured = measure(candidate.body, cloud.points);
+  const Uncertainty uncertainty = find_uncertainty(candidate.body, measured.witnesses, measured.distances);
+  const auto points = static_cast<double>(cloud.points.size());
+  return uncertainty.is_significant ? points / uncertainty.lack_of_fit : points;
+}
+
 /// The family with the least Bayesian information criterion, n ln(mean square) + k ln n; distances of rounding count alike.
 Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
   if (settings.family) return search_body(cloud, *settings.family, settings.rejects_outliers);
-  Candidate best;
-  double least = std::numeric_limits<double>::infinity();
-  const auto points = static_cast<double>(cloud.points.size());
+  std::vector<Candidate> candidates;
   for (const Family family : {Family::Ellipsoid, Family::Superellipsoid, Family::Superovoid}) {
     if (cloud.points.size() < least_points(family)) continue;
     const Candidate candidate = search_body(cloud, family, settings.rejects_outliers);
-    const double criterion =
-        points * std::log(candidate.mean_square + kRounding * kRounding) + parameter_count(family) * std::log(points);
-    if (!(criterion < least)) continue;
-    least = criterion;
-    best = candidate;
+    if (std::isfinite(candidate.mean_square)) candidates.push_back(candidate);
     if (candidate.mean_square < kRounding * kRounding) break;
   }
-  return best;
+  if (candidates.empty()) return {};
+  const double points = std::max(independent_points(candidates.back(), cloud), std::exp(1.0));
+  return *std::ranges::min_element(candidates, {}, [&](const Candidate& candidate) {
+    return points * std::log(candidate.mean_square + kRounding * kRounding) +
+           parameter_count(candidate.body.family) * std::log(points);
+  });
 }
 
 }  // namespace
@@ -241,7 +249,7 @@ FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings&
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent);
   const Body body = moved(start, 1 / extent.size, -extent.centre / extent.size);
-  return finish(descend_on_all(body, data, settings, 4), extent, data);
+  return finish(descend_on_all(body, data, settings, 4), extent, data, settings.noise);
 }
 
 FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
@@ -253,7 +261,7 @@ FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
   // Most of the way is done on some of the points.
   const bool is_large = data.points.size() > 10000;
   const Body near = is_large ? descend_on_all(best.body, thinned(data, 5000), settings, 3).body : best.body;
-  return finish(descend_on_all(in_customary_order(near), data, settings, is_large ? 2 : 4), extent, data);
+  return finish(descend_on_all(in_customary_order(near), data, settings, is_large ? 2 : 4), extent, data, settings.noise);
 }
 
 }  // namespace fit

@@ -1,0 +1,85 @@
+#include "truth.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "input/sampling.hpp"
+
+namespace fit {
+namespace {
+
+/// Normal numbers that are the same with every library (Box and Muller).
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(std::uint64_t seed) : random_(seed) {}
+  double operator()() {
+    const double u = 1 - static_cast<double>(random_() >> 11) * 0x1p-53, v = static_cast<double>(random_() >> 11) * 0x1p-53;
+    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+}  // namespace
+
+double mean_half_axis(const Body& body) { return std::cbrt(body.half_axes.prod()); }
+
+Cloud scatter(const Body& truth, const Scatter& settings) {
+  const std::size_t wanted = settings.points;
+  // Half of them are about half of the points: a few more than twice as many are made.
+  const std::size_t made = settings.is_half_missing ? 2 * wanted + wanted / 2 + 50 : wanted;
+  const Cloud surface = sample_boundary(*make_shape(truth), made, settings.seed);
+  NormalNumbers normal(settings.seed + 1000);
+  const double sigma = settings.noise * mean_half_axis(truth);
+  const Matrix3 R = truth.rotation();
+  const Vector3 side = Vector3(1, 0.6, -0.5).cwiseQuotient(truth.half_axes);
+  Cloud cloud;
+  for (std::size_t i = 0; i < surface.points.size() && cloud.points.size() < wanted; ++i) {
+    if (settings.is_half_missing && side.dot(surface.points[i]) < 0) continue;
+    const double x = normal(), y = normal(), z = normal();
+    cloud.points.push_back(truth.position + R * surface.points[i] + sigma * Vector3(x, y, z));
+    if (settings.has_normals) cloud.normals.push_back(R * surface.normals[i]);
+  }
+  return cloud;
+}
+
+Body aligned(const Body& fitted, const Body& truth, Eigen::Matrix3d& axes) {
+  const bool z_is_free = truth.delta == truth.epsilon && truth.taper == 0;
+  constexpr std::array<std::array<int, 3>, 6> kPermutations = {{{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}}};
+  double largest = -4;
+  axes.setIdentity();
+  for (const auto& permutation : kPermutations) {
+    if (permutation[2] != 2 && !z_is_free) continue;
+    for (int signs = 0; signs < 8; ++signs) {
+      Matrix3 candidate = Matrix3::Zero();
+      for (int k = 0; k < 3; ++k) candidate(permutation[static_cast<std::size_t>(k)], k) = ((signs >> k) & 1) != 0 ? -1 : 1;
+      if (candidate.determinant() < 0 || (truth.taper != 0 && candidate(2, 2) < 0)) continue;
+      const double trace = (truth.rotation().transpose() * fitted.rotation() * candidate).trace();
+      if (trace <= largest) continue;
+      largest = trace;
+      axes = candidate;
+    }
+  }
+  Body result = fitted;
+  result.attitude = Eigen::Quaterniond(fitted.rotation() * axes).normalized();
+  result.half_axes = axes.cwiseAbs().transpose() * fitted.half_axes;
+  return result;
+}
+
+Eigen::Matrix<double, kParameters, 1> deviation(const Body& fitted, const Body& truth) {
+  Eigen::Matrix<double, kParameters, 1> result;
+  result.segment<3>(kPosition) = fitted.position - truth.position;
+  const Eigen::AngleAxisd turn(truth.rotation().transpose() * fitted.rotation());
+  result.segment<3>(kRotation) = turn.angle() * turn.axis();
+  result.segment<3>(kLogAxes) = fitted.half_axes - truth.half_axes;
+  result[kLogDelta] = fitted.delta - truth.delta;
+  result[kLogEpsilon] = fitted.epsilon - truth.epsilon;
+  result[kTaper] = fitted.taper - truth.taper;
+  return result;
+}
+
+}  // namespace fit
