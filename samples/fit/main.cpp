@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "input/read_data.hpp"
-#include "model/fit_body.hpp"
 #include "model/fit_error.hpp"
+#include "model/fit_union.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
@@ -33,6 +33,7 @@ struct Options {
   std::string out = "out/fit";
   bool uses_vertices = false;
   bool is_quick = false;
+  int bodies = 1;
   int threads = 1;
 };
 
@@ -84,9 +85,9 @@ void write_results(const Options& options, const std::vector<fit::FittedBody>& f
   std::printf("\nwritten: %s.toml, .c and .svg\n", (folder / name).c_str());
 }
 
-fit::FittedBody fit_points(const fit::Cloud& points, const Options& options, bool is_mesh) {
+std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options& options, bool is_mesh) {
   try {
-    return fit::fit_body(points, settings_of(options, is_mesh));
+    return fit::fit_union(points, options.bodies, settings_of(options, is_mesh));
   } catch (const std::invalid_argument& error) {
     throw fit::InputError(options.path + ": " + error.what());
   }
@@ -114,6 +115,7 @@ int run_program(int argc, char** argv) {
   app.add_option("--shape", options.shape, "what to look for; auto: what the data call for")
       ->check(CLI::IsMember({"auto", "ellipsoid", "superellipsoid", "superovoid"}))
       ->capture_default_str();
+  app.add_option("--bodies", options.bodies, "the most bodies that a union may have")->check(CLI::Range(1, 16))->capture_default_str();
   app.add_option("--scale", options.scale, "metres in a unit of the file")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")
       ->check(CLI::PositiveNumber)

@@ -6,10 +6,13 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <fstream>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "compounds.hpp"
 #include "model/fit_body.hpp"
 #include "truth.hpp"
 
@@ -165,6 +168,13 @@ void print_time() {
   }
 }
 
+void write_points(const std::string& path, const std::vector<Vector3>& points) {
+  std::ofstream file(path);
+  for (const Vector3& x : points) file << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -178,11 +188,20 @@ int main(int argc, char** argv) {
   coverage->add_option("--points", points)->check(CLI::Range(100, 1000000))->capture_default_str();
   coverage->add_option("--noise", noise, "over the mean half-axis")->check(CLI::Range(0.0, 1.0))->capture_default_str();
   CLI::App* const time = app.add_subcommand("time", "processor time of 100 000 points");
+  CLI::App* const compound = app.add_subcommand("compound", "writes points of a body of samples/compound");
+  std::string name, path;
+  double sigma = 0.0003;
+  std::size_t each = 4000;
+  compound->add_option("name", name, "dumbbell or molar")->required();
+  compound->add_option("file", path, "NAME.xyz, written")->required();
+  compound->add_option("--sigma", sigma, "m, noise in every direction")->check(CLI::NonNegativeNumber)->capture_default_str();
+  compound->add_option("--points", each, "of each of its parts")->check(CLI::Range(100, 1000000))->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     if (*recovery) print_recovery();
     if (*coverage) print_coverage(fits, noise, points);
     if (*time) print_time();
+    if (*compound) write_points(path, fit::scatter_union(fit::make_compound(name), each, sigma, 1).points);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "fit_study: %s\n", error.what());
     return 1;

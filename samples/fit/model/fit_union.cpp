@@ -1,0 +1,190 @@
+#include "fit_union.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "kmeans.hpp"
+#include "least_squares.hpp"
+
+namespace fit {
+namespace {
+
+// Lengths below are of data of extent 1.
+constexpr double kRounding = 1e-9;
+constexpr double kLoss = 0.02;  // of distances while points still change hands
+
+enum class Distance {
+  Surface,  ///< from the nearest surface: which points go together is not known yet
+  Union,    ///< from the union
+};
+
+struct Assignment {
+  std::vector<int> owner;           // of each point
+  std::vector<double> distances;    // of each point, from its owner
+  std::vector<std::size_t> counts;  // of the points of each body
+};
+
+Assignment assign(const std::vector<Body>& bodies, const Cloud& cloud, Distance distance) {
+  std::vector<DistanceFunction> functions;
+  for (const Body& body : bodies) functions.emplace_back(body);
+  Assignment result;
+  result.counts.assign(bodies.size(), 0);
+  for (const Vector3& x : cloud.points) {
+    double least = std::numeric_limits<double>::infinity(), chosen = 0;
+    int owner = 0;
+    for (std::size_t k = 0; k < functions.size(); ++k) {
+      const std::optional<Witness> witness = functions[k].find(x);
+      if (!witness) continue;
+      const double key = distance == Distance::Surface ? std::abs(witness->distance) : witness->distance;
+      if (!(key < least)) continue;
+      least = key;
+      chosen = witness->distance;
+      owner = static_cast<int>(k);
+    }
+    result.owner.push_back(owner);
+    result.distances.push_back(chosen);
+    ++result.counts[static_cast<std::size_t>(owner)];
+  }
+  return result;
+}
+
+Cloud owned(const Cloud& cloud, const std::vector<int>& owner, std::size_t body) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < owner.size(); ++i) {
+    if (owner[i] == static_cast<int>(body)) indices.push_back(i);
+  }
+  return selected(cloud, indices);
+}
+
+/// Huber's loss, the mean over the points, as a mean square.
+double mean_loss(const std::vector<double>& distances) {
+  double sum = 0;
+  for (const double distance : distances) {
+    const double size = std::abs(distance);
+    sum += size <= kLoss ? size * size : kLoss * (2 * size - kLoss);
+  }
+  return sum / static_cast<double>(distances.size());
+}
+
+/// A number of bodies and how well they do.
+struct Model {
+  std::vector<Body> bodies;
+  double mean_square = std::numeric_limits<double>::infinity();
+};
+
+bool has_enough(const Assignment& assignment, Family family) {
+  return std::ranges::all_of(assignment.counts, [&](std::size_t count) { return count >= 2 * least_points(family); });
+}
+
+/// Alternates until no point changes hands. A model that loses a body has an infinite mean square.
+Model alternate(std::vector<Body> bodies, const Cloud& cloud, Distance distance, int rounds) {
+  LeastSquaresSettings settings;
+  settings.loss_width = kLoss;
+  settings.largest_half_axis = 4;
+  settings.max_iterations = 8;
+  settings.tolerance = 1e-5;
+  Assignment assignment = assign(bodies, cloud, distance);
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      if (!has_enough(assignment, bodies[k].family)) return {};
+      bodies[k] = minimize_distances(bodies[k], owned(cloud, assignment.owner, k).points, {}, settings).body;
+    }
+    const std::vector<int> before = std::move(assignment.owner);
+    assignment = assign(bodies, cloud, distance);
+    if (assignment.owner == before) break;
+  }
+  if (distance == Distance::Surface) assignment = assign(bodies, cloud, Distance::Union);
+  return {bodies, mean_loss(assignment.distances)};
+}
+
+/// Ellipsoids from the clusters of k-means.
+Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
+  const std::vector<int> cluster = find_clusters(cloud.points, count, seed);
+  std::vector<Body> bodies;
+  for (int k = 0; k < count; ++k) {
+    const Cloud part = owned(cloud, cluster, static_cast<std::size_t>(k));
+    if (part.points.size() < 2 * least_points(Family::Ellipsoid)) return {};
+    // Its own extent, so that the search is one for data of size 1.
+    const Extent extent = extent_of(part.points);
+    const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, true);
+    if (!std::isfinite(found.mean_square)) return {};
+    bodies.push_back(moved(found.body, extent.size, extent.centre));
+  }
+  const Model model = alternate(bodies, cloud, Distance::Surface, 12);
+  return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, Distance::Union, 12) : model;
+}
+
+/// Searches each body's numbers afresh in the wanted family, on its own points.
+Model with_family(const Model& model, const Cloud& cloud, Family family) {
+  if (family == Family::Ellipsoid || !std::isfinite(model.mean_square)) return model;
+  const Assignment assignment = assign(model.bodies, cloud, Distance::Union);
+  if (!has_enough(assignment, family)) return {};
+  std::vector<Body> bodies;
+  for (std::size_t k = 0; k < model.bodies.size(); ++k) {
+    const Cloud part = owned(cloud, assignment.owner, k);
+    const Extent extent = extent_of(part.points);
+    const Candidate found = search_body(normalized(part, extent), family, true);
+    if (!std::isfinite(found.mean_square)) return {};
+    bodies.push_back(moved(found.body, extent.size, extent.centre));
+  }
+  return alternate(bodies, cloud, Distance::Union, 20);
+}
+
+double criterion(const Model& model, std::size_t points) {
+  const auto n = static_cast<double>(points);
+  double numbers = 0;
+  for (const Body& body : model.bodies) numbers += parameter_count(body.family);
+  return n * std::log(model.mean_square + kRounding * kRounding) + numbers * std::log(n);
+}
+
+/// The last descents, on all points and with error bars.
+std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, const FitSettings& settings) {
+  constexpr int kRounds = 4;
+  std::vector<FittedBody> fitted(bodies.size());
+  std::vector<int> before;
+  for (int round = 0; round < kRounds; ++round) {
+    const Assignment assignment = assign(bodies, cloud, Distance::Union);
+    if (assignment.owner == before) break;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      fitted[k] = refine_body(bodies[k], owned(cloud, assignment.owner, k), settings);
+      bodies[k] = fitted[k].body;
+    }
+    before = assignment.owner;
+  }
+  for (FittedBody& each : fitted) each.body = in_customary_order(each.body);
+  return fitted;
+}
+
+}  // namespace
+
+std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings) {
+  constexpr int kLargestCount = 16, kSeeds = 6;
+  if (largest_count < 1 || largest_count > kLargestCount) {
+    throw std::invalid_argument("at most " + std::to_string(largest_count) + " bodies; allowed: 1 to " + std::to_string(kLargestCount));
+  }
+  const FittedBody single = fit_body(cloud, settings);
+  if (largest_count == 1) return {single};
+  const Extent extent = extent_of(cloud.points);
+  const Cloud data = normalized(cloud, extent), few = thinned(data, 3000);
+  const Family family = settings.family.value_or(Family::Superellipsoid);
+
+  Model best{{moved(single.body, 1 / extent.size, -extent.centre / extent.size)}, 0};
+  best.mean_square = mean_loss(assign(best.bodies, few, Distance::Union).distances);
+  for (int count = 2; count <= largest_count; ++count) {
+    Model of_count;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      const Model model = start_from_clusters(few, count, static_cast<std::uint64_t>(seed));
+      if (model.mean_square < of_count.mean_square) of_count = model;
+    }
+    of_count = with_family(of_count, few, family);
+    if (criterion(of_count, few.points.size()) < criterion(best, few.points.size())) best = of_count;
+  }
+  if (best.bodies.size() == 1) return {single};
+  for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
+  return finish(best.bodies, cloud, settings);
+}
+
+}  // namespace fit
