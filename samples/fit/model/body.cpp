@@ -18,15 +18,6 @@ double entropy(double part, double rest) {
   return -(part / whole) * std::log(part / whole) - (rest / whole) * std::log(rest / whole);
 }
 
-/// The body seen in axes that are columns of `axes`, a signed permutation of its own.
-Body with_axes(const Body& body, const Matrix3& axes) {
-  Body turned = body;
-  turned.attitude = Eigen::Quaterniond(body.rotation() * axes);
-  turned.attitude.normalize();
-  turned.half_axes = axes.transpose().cwiseAbs() * body.half_axes;
-  return turned;
-}
-
 Matrix3 axes_of(const Vector3& x, const Vector3& y, const Vector3& z) {
   Matrix3 axes;
   axes << x, y, z;
@@ -55,6 +46,14 @@ std::unique_ptr<supernormal::Shape> make_shape(const Body& body) {
       break;
   }
   return std::make_unique<supernormal::Superovoid>(body.half_axes, body.delta, body.epsilon, body.taper, body.taper);
+}
+
+Body with_axes(const Body& body, const Matrix3& axes) {
+  Body turned = body;
+  turned.attitude = Eigen::Quaterniond(body.rotation() * axes);
+  turned.attitude.normalize();
+  turned.half_axes = axes.transpose().cwiseAbs() * body.half_axes;
+  return turned;
 }
 
 Body in_customary_order(const Body& body) {

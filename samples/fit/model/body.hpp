@@ -43,6 +43,10 @@ std::unique_ptr<supernormal::Shape> make_shape(const Body& body);
 /// ellipsoid's half-axes fall from x to z, a superovoid grows thinner upwards or not at all.
 Body in_customary_order(const Body& body);
 
+/// The body seen in axes that are the columns of `axes`, a signed permutation of its own: another body with its place and size,
+/// the same one where the exponents agree.
+Body with_axes(const Body& body, const Matrix3& axes);
+
 /// The body after x -> scale x + offset.
 Body moved(const Body& body, double scale, const Vector3& offset);
 

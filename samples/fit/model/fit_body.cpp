@@ -215,7 +215,7 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
 std::size_t least_points(Family family) { return static_cast<std::size_t>(parameter_count(family)) + 1; }
 
 Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers) {
-  const Cloud few = thinned(cloud, 200), some = thinned(cloud, 1000), many = thinned(cloud, 3000);
+  const Cloud few = thinned(cloud, 200), some = thinned(cloud, 800), many = thinned(cloud, 3000);
   LeastSquaresSettings settings;
   settings.largest_half_axis = largest_half_axis(many);
   settings.max_iterations = 6;
@@ -223,11 +223,11 @@ Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers) 
   settings.loss_width = 0.1;
   std::vector<Candidate> candidates;
   for (const Body& start : make_starts(some, family)) candidates.push_back({start});
-  candidates = descend(candidates, few, settings, 6);
+  candidates = descend(candidates, few, settings, 10);
 
   settings.max_iterations = 25;
   settings.tolerance = 1e-4;
-  candidates = descend(candidates, some, settings, 2);
+  candidates = descend(candidates, some, settings, 3);
   for (Candidate& candidate : candidates) {
     // A third descent with a loss as narrow as the noise, and the mean square without those that are far beyond it.
     if (rejects_outliers) settings.loss_width = kHuber * robust_sigma(measure(candidate.body, many.points).distances);

@@ -1,7 +1,9 @@
 #include "fit_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nanoflann.hpp>
 #include <random>
@@ -137,46 +139,69 @@ double triangle_distance(const Data& data, const Triangle& t, const Vector3& x) 
   return std::min({segment(a, b), segment(b, c), segment(c, a)});
 }
 
-/// The largest distance of the bodies' free surface from the data. Of a mesh, the triangles about the nearest points are asked.
-double largest_distance_to_data(std::span<const Body> bodies, const Data& data) {
-  Cloud cloud = data.vertices;
+/// Points that lead to the nearest surface of the data: its own, or for a mesh a grid on every triangle, with the triangle's number.
+struct Landmarks {
+  std::vector<Eigen::Vector3d> points;
   std::vector<std::size_t> triangle_of;
-  if (!data.triangles.empty()) {
-    cloud.points.clear();
-    // A point for each triangle at least, so that the nearest of them leads to the nearest triangles.
-    for (std::size_t i = 0; i < data.triangles.size(); ++i) {
-      const Triangle& t = data.triangles[i];
-      const auto& p = data.vertices.points;
-      cloud.points.push_back((p[t[0]] + p[t[1]] + p[t[2]]) / 3);
-      triangle_of.push_back(i);
-      for (const std::uint32_t corner : t) {
-        cloud.points.push_back(p[corner]);
-        triangle_of.push_back(i);
+};
+
+Landmarks make_landmarks(const Data& data) {
+  if (data.triangles.empty()) return {data.vertices.points, {}};
+  constexpr double kSpacing = 0.02;  // over the extent
+  const double spacing = kSpacing * extent_of(data.vertices.points).size;
+  Landmarks landmarks;
+  for (std::size_t i = 0; i < data.triangles.size(); ++i) {
+    const Triangle& t = data.triangles[i];
+    const Vector3 a = data.vertices.points[t[0]], u = data.vertices.points[t[1]] - a, v = data.vertices.points[t[2]] - a;
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()})) / spacing)));
+    for (int j = 0; j <= steps; ++j) {
+      for (int k = 0; j + k <= steps; ++k) {
+        landmarks.points.emplace_back(a + (j * u + k * v) / steps);
+        landmarks.triangle_of.push_back(i);
       }
     }
   }
-  const Adaptor adaptor{&cloud.points};
-  const Tree tree(3, adaptor);
-  constexpr std::size_t kNeighbours = 32;
-  const std::size_t neighbours = std::min(data.triangles.empty() ? std::size_t{1} : kNeighbours, cloud.points.size());
+  return landmarks;
+}
+
+/// The distance of places from the data's surface: of a mesh, from the triangles of the nearest landmarks.
+class DataDistance {
+ public:
+  explicit DataDistance(const Data& data) : data_(data), landmarks_(make_landmarks(data)), adaptor_{&landmarks_.points}, tree_(3, adaptor_) {}
+
+  double operator()(const Vector3& x) const {
+    constexpr std::size_t kNeighbours = 16;
+    const bool is_mesh = !data_.triangles.empty();
+    std::array<std::uint32_t, kNeighbours> indices{};
+    std::array<double, kNeighbours> squares{};
+    const std::size_t wanted = std::min(is_mesh ? kNeighbours : std::size_t{1}, landmarks_.points.size());
+    const std::size_t found = tree_.knnSearch(x.data(), wanted, indices.data(), squares.data());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < found; ++k) {
+      nearest = std::min(nearest, is_mesh ? triangle_distance(data_, data_.triangles[landmarks_.triangle_of[indices[k]]], x) : std::sqrt(squares[k]));
+    }
+    return nearest;
+  }
+
+ private:
+  const Data& data_;
+  Landmarks landmarks_;
+  Adaptor adaptor_;
+  Tree tree_;
+};
+
+/// The largest distance of the bodies' free surface from the data.
+double largest_distance_to_data(std::span<const Body> bodies, const Data& data) {
+  const DataDistance distance(data);
+  std::vector<DistanceFunction> functions;
+  for (const Body& body : bodies) functions.emplace_back(body);
   double largest = 0;
-  for (const Body& body : bodies) {
-    const Cloud surface = sample_boundary(*make_shape(body), kSamples, 1);
-    for (const Eigen::Vector3d& r : surface.points) {
-      const Vector3 x = body.position + body.rotation() * r;
-      const bool is_covered =
-          std::ranges::any_of(bodies, [&](const Body& other) { return &other != &body && DistanceFunction(other).contains(x); });
-      if (is_covered) continue;
-      std::array<std::uint32_t, kNeighbours> indices{};
-      std::array<double, kNeighbours> squares{};
-      const std::size_t found = tree.knnSearch(x.data(), neighbours, indices.data(), squares.data());
-      double nearest = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < found; ++k) {
-        const double distance =
-            data.triangles.empty() ? std::sqrt(squares[k]) : triangle_distance(data, data.triangles[triangle_of[indices[k]]], x);
-        nearest = std::min(nearest, distance);
-      }
-      largest = std::max(largest, nearest);
+  for (const DistanceFunction& function : functions) {
+    const Matrix3 R = function.body().rotation();
+    for (const Eigen::Vector3d& r : sample_boundary(function.shape(), kSamples, 1).points) {
+      const Vector3 x = function.body().position + R * r;
+      const bool is_covered = std::ranges::any_of(functions, [&](const DistanceFunction& other) { return &other != &function && other.contains(x); });
+      if (!is_covered) largest = std::max(largest, distance(x));
     }
   }
   return largest;

@@ -117,18 +117,34 @@ Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
   return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, Distance::Union, 12) : model;
 }
 
-/// Searches each body's numbers afresh in the wanted family, on its own points.
+/// Gives an ellipsoid the numbers of another family, on its own points, with the best of its three axes for z.
+Body promoted(const Body& ellipsoid, const Cloud& points, Family family) {
+  LeastSquaresSettings settings;
+  settings.loss_width = kLoss;
+  settings.largest_half_axis = 4;
+  settings.max_iterations = 15;
+  settings.tolerance = 1e-4;
+  Matrix3 cycle;
+  cycle << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  LeastSquaresResult best;
+  Body start = ellipsoid;
+  start.family = family;
+  best.body = start;
+  for (int turn = 0; turn < 3; ++turn, start = with_axes(start, cycle)) {
+    const LeastSquaresResult result = minimize_distances(start, points.points, {}, settings);
+    if (result.cost < best.cost) best = result;
+  }
+  return best.body;
+}
+
+/// The same for all bodies of a model, and the alternation again.
 Model with_family(const Model& model, const Cloud& cloud, Family family) {
   if (family == Family::Ellipsoid || !std::isfinite(model.mean_square)) return model;
   const Assignment assignment = assign(model.bodies, cloud, Distance::Union);
   if (!has_enough(assignment, family)) return {};
   std::vector<Body> bodies;
   for (std::size_t k = 0; k < model.bodies.size(); ++k) {
-    const Cloud part = owned(cloud, assignment.owner, k);
-    const Extent extent = extent_of(part.points);
-    const Candidate found = search_body(normalized(part, extent), family, true);
-    if (!std::isfinite(found.mean_square)) return {};
-    bodies.push_back(moved(found.body, extent.size, extent.centre));
+    bodies.push_back(promoted(model.bodies[k], owned(cloud, assignment.owner, k), family));
   }
   return alternate(bodies, cloud, Distance::Union, 20);
 }
@@ -168,7 +184,7 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
   const FittedBody single = fit_body(cloud, settings);
   if (largest_count == 1) return {single};
   const Extent extent = extent_of(cloud.points);
-  const Cloud data = normalized(cloud, extent), few = thinned(data, 3000);
+  const Cloud data = normalized(cloud, extent), few = thinned(data, 2000);
   const Family family = settings.family.value_or(Family::Superellipsoid);
 
   Model best{{moved(single.body, 1 / extent.size, -extent.centre / extent.size)}, 0};
@@ -176,10 +192,9 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
   for (int count = 2; count <= largest_count; ++count) {
     Model of_count;
     for (int seed = 1; seed <= kSeeds; ++seed) {
-      const Model model = start_from_clusters(few, count, static_cast<std::uint64_t>(seed));
+      const Model model = with_family(start_from_clusters(few, count, static_cast<std::uint64_t>(seed)), few, family);
       if (model.mean_square < of_count.mean_square) of_count = model;
     }
-    of_count = with_family(of_count, few, family);
     if (criterion(of_count, few.points.size()) < criterion(best, few.points.size())) best = of_count;
   }
   if (best.bodies.size() == 1) return {single};

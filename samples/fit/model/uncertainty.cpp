@@ -57,12 +57,12 @@ void test_lack_of_fit(const Body& body, std::span<const Witness> witnesses, std:
   result.is_significant = result.lack_of_fit > 1 + 4 * std::sqrt(2 / freedom);
 }
 
-/// What a number may vary by at most to be called determined: a third of the size, 20 degrees, half of a half-axis, a factor of e
+/// What a number may vary by at most to be called determined: a third of the size, 10 degrees, half of a half-axis, a factor of e
 /// in an exponent - 1, half of the taper's range.
 Gradient largest_errors(const Body& body) {
   Gradient largest;
   largest.segment<3>(kPosition).setConstant(body.half_axes.maxCoeff() / 3);
-  largest.segment<3>(kRotation).setConstant(std::numbers::pi / 9);
+  largest.segment<3>(kRotation).setConstant(std::numbers::pi / 18);
   largest.segment<3>(kLogAxes).setConstant(0.5);
   largest[kLogDelta] = largest[kLogEpsilon] = 1;
   largest[kTaper] = 0.35;
