@@ -115,7 +115,9 @@ int run_program(int argc, char** argv) {
   app.add_option("--shape", options.shape, "what to look for; auto: what the data call for")
       ->check(CLI::IsMember({"auto", "ellipsoid", "superellipsoid", "superovoid"}))
       ->capture_default_str();
-  app.add_option("--bodies", options.bodies, "the most bodies that a union may have")->check(CLI::Range(1, 16))->capture_default_str();
+  app.add_option("--bodies", options.bodies, "the most bodies that a union may have")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
   app.add_option("--scale", options.scale, "metres in a unit of the file")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")
       ->check(CLI::PositiveNumber)

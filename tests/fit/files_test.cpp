@@ -1,5 +1,5 @@
-#include <doctest/doctest.h>
 #include <dlfcn.h>
+#include <doctest/doctest.h>
 #include <supernormal/supernormal.h>
 
 #include <cstdlib>
@@ -36,7 +36,8 @@ FittedBody fitted_of(const Body& body) {
 }
 
 Body make_body(Family family, double delta, double epsilon, double taper = 0) {
-  return {family, {0.3, -0.2, 0.5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {0.03, 0.02, 0.01}, delta, epsilon, taper};
+  return {family, {0.3, -0.2, 0.5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {0.03, 0.02, 0.01}, delta, epsilon,
+          taper};
 }
 
 /// A mesh of the body as an .obj.
@@ -84,10 +85,11 @@ TEST_CASE("points are read from .xyz, .obj and .ply alike") {
   const Data obj = read_data(folder.write("a.obj", "v 1 2 3\nv 4 5 6\n"), 0.5);
   REQUIRE(obj.vertices.points.size() == 2);
   CHECK(obj.vertices.points[1] == Vector3(2, 2.5, 3));
-  const Data ply = read_data(folder.write("a.ply",
-                                          "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
-                                          "end_header\n1 2 3\n4 5 6\n"),
-                             0.5);
+  const Data ply =
+      read_data(folder.write("a.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+                             "end_header\n1 2 3\n4 5 6\n"),
+                0.5);
   REQUIRE(ply.vertices.points.size() == 2);
   CHECK(ply.vertices.points[1] == Vector3(2, 2.5, 3));
   CHECK(ply.triangles.empty());
@@ -112,9 +114,11 @@ TEST_CASE("a mesh gives its body back, and volume and inertia agree") {
 
 TEST_CASE("a catalogue of grains takes the lines of TOML") {
   const TemporaryFolder folder;
-  const std::vector<FittedBody> fitted = {fitted_of(make_body(Family::Superellipsoid, 3, 2.5)), fitted_of(make_body(Family::Ellipsoid, 2, 2)),
+  const std::vector<FittedBody> fitted = {fitted_of(make_body(Family::Superellipsoid, 3, 2.5)),
+                                          fitted_of(make_body(Family::Ellipsoid, 2, 2)),
                                           fitted_of(make_body(Family::Superovoid, 2, 2, -0.3))};
-  const auto grains = falling_particles::load_catalogue(folder.write("grains.toml", toml_lines(fitted, "thing", 1200, "a \"scan\"")));
+  const auto grains =
+      falling_particles::load_catalogue(folder.write("grains.toml", toml_lines(fitted, "thing", 1200, "a \"scan\"")));
   REQUIRE(grains.size() == 2);  // there is no superovoid in a catalogue
   CHECK(grains[0].name == "thing_1");
   CHECK(grains[0].half_axes == std::array<double, 3>{0.03, 0.02, 0.01});
@@ -127,14 +131,17 @@ TEST_CASE("a catalogue of grains takes the lines of TOML") {
 
 TEST_CASE("the lines of C compile, and make the bodies") {
   const TemporaryFolder folder;
-  const std::vector<FittedBody> fitted = {fitted_of(make_body(Family::Superellipsoid, 3, 2.5)), fitted_of(make_body(Family::Ellipsoid, 2, 2)),
+  const std::vector<FittedBody> fitted = {fitted_of(make_body(Family::Superellipsoid, 3, 2.5)),
+                                          fitted_of(make_body(Family::Ellipsoid, 2, 2)),
                                           fitted_of(make_body(Family::Superovoid, 2, 2, -0.3))};
-  const std::string source = folder.write("thing.c", "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dGeomID *out);\n"
-                                                     "void make(dSpaceID space, dGeomID *out) {\n" +
-                                                         c_lines(fitted, "thing", "a */ scan") +
-                                                         "out[0] = thing_1; out[1] = thing_2; out[2] = thing_3;\n}\n");
+  const std::string source =
+      folder.write("thing.c",
+                   "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dGeomID *out);\n"
+                   "void make(dSpaceID space, dGeomID *out) {\n" +
+                       c_lines(fitted, "thing", "a */ scan") + "out[0] = thing_1; out[1] = thing_2; out[2] = thing_3;\n}\n");
   const std::string library = (folder.path() / "thing.so").string();
-  const std::string command = std::string(SUPERNORMAL_CXX) + " -x c -Wall -Wextra -Werror -shared -fPIC -I" SUPERNORMAL_INCLUDE " " + source + " -o " + library;
+  const std::string command = std::string(SUPERNORMAL_CXX) +
+                              " -x c -Wall -Wextra -Werror -shared -fPIC -I" SUPERNORMAL_INCLUDE " " + source + " -o " + library;
   REQUIRE(std::system(command.c_str()) == 0);
   void* const handle = dlopen(library.c_str(), RTLD_NOW);
   REQUIRE_MESSAGE(handle != nullptr, dlerror());
@@ -151,7 +158,8 @@ TEST_CASE("the lines of C compile, and make the bodies") {
   for (std::size_t k = 0; k < 3; ++k) {
     const Cloud cloud = scatter(fitted[k].body, {.points = 20});
     for (const Vector3& x : cloud.points) {
-      CHECK(std::abs(double{snGeomPointDepth(geoms[k], static_cast<dReal>(x.x()), static_cast<dReal>(x.y()), static_cast<dReal>(x.z()))}) < 1e-7);
+      CHECK(std::abs(double{snGeomPointDepth(geoms[k], static_cast<dReal>(x.x()), static_cast<dReal>(x.y()),
+                                             static_cast<dReal>(x.z()))}) < 1e-7);
     }
     dGeomDestroy(geoms[k]);
   }

@@ -33,8 +33,10 @@ Body varied(const Body& body, int parameter, double step) {
 
 TEST_CASE("the gradient of the distance is that of differences") {
   const Eigen::Quaterniond attitude = Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized();
-  for (const auto& [family, delta, epsilon, taper] : {std::tuple{Family::Superellipsoid, 2.5, 4.0, 0.0}, {Family::Superellipsoid, 1.4, 1.8, 0.0},
-                                                      {Family::Superovoid, 3.0, 2.2, -0.3}, {Family::Superovoid, 1.7, 5.0, 0.2}}) {
+  for (const auto& [family, delta, epsilon, taper] : {std::tuple{Family::Superellipsoid, 2.5, 4.0, 0.0},
+                                                      {Family::Superellipsoid, 1.4, 1.8, 0.0},
+                                                      {Family::Superovoid, 3.0, 2.2, -0.3},
+                                                      {Family::Superovoid, 1.7, 5.0, 0.2}}) {
     const Body body{family, {0.3, -0.2, 0.5}, attitude, {1.5, 1.1, 0.8}, delta, epsilon, taper};
     const DistanceFunction function(body);
     for (int k = 0; k < 20; ++k) {
@@ -55,7 +57,8 @@ TEST_CASE("the gradient of the distance is that of differences") {
 }
 
 TEST_CASE("a body contains what is at a negative distance") {
-  const Body body{Family::Superovoid, {0.3, -0.2, 0.5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {1.5, 1.1, 0.8}, 3, 4, -0.3};
+  const Body body{
+      Family::Superovoid, {0.3, -0.2, 0.5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {1.5, 1.1, 0.8}, 3, 4, -0.3};
   const DistanceFunction function(body);
   int inside = 0;
   for (int k = 0; k < 500; ++k) {

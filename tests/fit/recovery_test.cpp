@@ -25,9 +25,9 @@ double largest_deviation(const Body& fitted, const Body& truth) {
 }  // namespace
 
 TEST_CASE("bodies without noise are recovered") {
-  for (const Body& truth :
-       {make_body(Family::Ellipsoid, 2, 2), make_body(Family::Superellipsoid, 1.2, 1.2), make_body(Family::Superellipsoid, 2.5, 4),
-        make_body(Family::Superellipsoid, 8, 1.5), make_body(Family::Superellipsoid, 20, 20), make_body(Family::Superovoid, 3, 2.5, -0.4)}) {
+  for (const Body& truth : {make_body(Family::Ellipsoid, 2, 2), make_body(Family::Superellipsoid, 1.2, 1.2),
+                            make_body(Family::Superellipsoid, 2.5, 4), make_body(Family::Superellipsoid, 8, 1.5),
+                            make_body(Family::Superellipsoid, 20, 20), make_body(Family::Superovoid, 3, 2.5, -0.4)}) {
     CAPTURE(truth.delta);
     CAPTURE(truth.epsilon);
     const FittedBody fitted = fit_body(scatter(truth, {.points = 1000}), {.family = truth.family});
@@ -38,7 +38,8 @@ TEST_CASE("bodies without noise are recovered") {
 }
 
 TEST_CASE("the data call for the family") {
-  for (const Body& truth : {make_body(Family::Ellipsoid, 2, 2), make_body(Family::Superellipsoid, 2.5, 4), make_body(Family::Superovoid, 2, 2, -0.4)}) {
+  for (const Body& truth :
+       {make_body(Family::Ellipsoid, 2, 2), make_body(Family::Superellipsoid, 2.5, 4), make_body(Family::Superovoid, 2, 2, -0.4)}) {
     const FittedBody fitted = fit_body(scatter(truth, {.points = 1000, .noise = 0.01}));
     CHECK(fitted.body.family == truth.family);
   }
@@ -84,7 +85,8 @@ TEST_CASE("a motion and a change of units move the answer and nothing else") {
 TEST_CASE("outliers are left out") {
   const Body truth = make_body(Family::Superellipsoid, 2.5, 4);
   Cloud cloud = scatter(truth, {.points = 1000, .noise = 0.005});
-  for (int i = 0; i < 50; ++i) cloud.points.push_back(truth.position + Vector3(std::cos(i), std::sin(2 * i), std::cos(3 * i)) * 2.2);
+  for (int i = 0; i < 50; ++i)
+    cloud.points.push_back(truth.position + Vector3(std::cos(i), std::sin(2 * i), std::cos(3 * i)) * 2.2);
   const FittedBody fitted = fit_body(cloud, {.family = truth.family});
   CHECK(fitted.outliers.size() >= 40);
   CHECK(largest_deviation(fitted.body, truth) < 0.1);

@@ -14,7 +14,8 @@ TEST_CASE("a dumbbell is taken apart") {
   const std::vector<FittedBody> fitted = fit_union(cloud, 3, {.family = Family::Superellipsoid});
   REQUIRE(fitted.size() == 3);
   for (const Body& part : truth) {
-    const auto nearest = std::ranges::min_element(fitted, {}, [&](const FittedBody& each) { return (each.body.position - part.position).norm(); });
+    const auto nearest =
+        std::ranges::min_element(fitted, {}, [&](const FittedBody& each) { return (each.body.position - part.position).norm(); });
     CHECK((nearest->body.position - part.position).norm() < 1e-3);
     CHECK((nearest->body.half_axes - part.half_axes).cwiseAbs().maxCoeff() < 1e-3);
     CHECK(std::abs(nearest->body.epsilon / part.epsilon - 1) < 0.1);

@@ -52,15 +52,13 @@ Body moved(const Body& body, double scale, const Vector3& offset);
 
 /// The numbers of a body in the order of gradients and covariances. Each has about the same weight for a body of size 1: lengths
 /// and angles (rad, about the body's axes) as they are, half-axes and exponents by logarithms, of a and of delta - 1.
-enum Parameter {
-  kPosition = 0,  // three, in the frame of the data
-  kRotation = 3,  // three, about the body's axes
-  kLogAxes = 6,   // three
-  kLogDelta = 9,
-  kLogEpsilon = 10,
-  kTaper = 11,
-  kParameters = 12,
-};
+constexpr int kPosition = 0;  // three, in the frame of the data
+constexpr int kRotation = 3;  // three, about the body's axes
+constexpr int kLogAxes = 6;   // three
+constexpr int kLogDelta = 9;
+constexpr int kLogEpsilon = 10;
+constexpr int kTaper = 11;
+constexpr int kParameters = 12;
 
 using Gradient = Eigen::Matrix<double, kParameters, 1>;
 

@@ -53,15 +53,15 @@ bool DistanceFunction::contains(const Vector3& x) const {
 }
 
 std::optional<Witness> DistanceFunction::find(const Vector3& x) const {
-  static const supernormal::Sphere kPoint(0);
+  static const supernormal::Sphere point(0);
   supernormal::Settings settings;
   settings.tolerance = kTolerance;
   const supernormal::Pose pose{body_.position, rotation_}, place{x, Matrix3::Identity()};
   const Vector3 first = gauge_normal(rotation_.transpose() * (x - body_.position));
-  auto proximity = supernormal::find_proximity(*shape_, pose, kPoint, place, settings, &first);
+  auto proximity = supernormal::find_proximity(*shape_, pose, point, place, settings, &first);
   if (proximity.status == supernormal::Status::InvalidInput) return std::nullopt;
   if (proximity.gap < -kShallow * body_.half_axes.minCoeff()) {
-    proximity = supernormal::find_proximity(*shape_, pose, kPoint, place, settings);
+    proximity = supernormal::find_proximity(*shape_, pose, point, place, settings);
   }
   return Witness{proximity.gap, proximity.normal, x - proximity.gap * proximity.normal};
 }

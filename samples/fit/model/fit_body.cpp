@@ -17,6 +17,7 @@ namespace {
 // Lengths below are of data of extent 1.
 constexpr double kLargestOverRadius = 3;  // the largest half-axis, over the radius of the data
 constexpr double kRounding = 1e-9;        // distances below it are taken for rounding
+constexpr double kUnsettled = 2e-3;       // as much noise is allowed for until a descent has ended: flat faces may fit long before
 constexpr double kHuber = 1.345;          // standard deviations: 95 % efficiency for normal noise
 
 double median_size(std::span<const double> values) {
@@ -66,7 +67,14 @@ bool is_right_side_out(const Body& body, const Cloud& cloud) {
 
 double mean_square(const LeastSquaresResult& result, std::size_t points) { return 2 * result.cost / static_cast<double>(points); }
 
-/// Descends from each start on the points, and keeps the best `count`.
+/// Whether two descents are on the way to the same body.
+bool are_alike(const Candidate& a, const Candidate& b) {
+  constexpr double kAlike = 0.1;
+  return (a.body.position - b.body.position).norm() < kAlike && std::abs(a.mean_square / b.mean_square - 1) < kAlike &&
+         std::abs(std::log(a.body.half_axes.prod() / b.body.half_axes.prod())) < kAlike;
+}
+
+/// Descends from each start on the points, and keeps the best `count` of those that differ.
 std::vector<Candidate> descend(const std::vector<Candidate>& starts, const Cloud& cloud, const LeastSquaresSettings& settings,
                                std::size_t count) {
   std::vector<Candidate> ends;
@@ -76,8 +84,12 @@ std::vector<Candidate> descend(const std::vector<Candidate>& starts, const Cloud
     ends.push_back({result.body, mean_square(result, cloud.points.size())});
   }
   std::ranges::stable_sort(ends, {}, &Candidate::mean_square);
-  if (ends.size() > count) ends.resize(count);
-  return ends;
+  std::vector<Candidate> kept;
+  for (const Candidate& end : ends) {
+    if (kept.size() == count) break;
+    if (std::ranges::none_of(kept, [&](const Candidate& other) { return are_alike(end, other); })) kept.push_back(end);
+  }
+  return kept;
 }
 
 /// The state of the last descent, on all points.
@@ -97,7 +109,7 @@ double sigma_of(const Descent& descent, bool is_robust) {
 }
 
 /// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether the latter changed.
-bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings) {
+bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, double least_sigma) {
   descent.measured = measure(descent.body, cloud.points);
   if (descent.offsets.empty()) descent.offsets.assign(cloud.points.size(), 0.0);
   const double sigma = sigma_of(descent, settings.rejects_outliers);
@@ -110,7 +122,8 @@ bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings) {
   if (!settings.rejects_outliers) return false;
   std::vector<std::size_t> inliers;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (std::abs(descent.measured.distances[i] - descent.offsets[i]) <= kOutlier * sigma) inliers.push_back(i);
+    if (std::abs(descent.measured.distances[i] - descent.offsets[i]) <= kOutlier * std::max(sigma, least_sigma))
+      inliers.push_back(i);
   }
   const bool has_changed = inliers != descent.inliers;
   descent.inliers = std::move(inliers);
@@ -136,7 +149,7 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
   least_squares.threads = settings.threads;
   least_squares.max_iterations = 12;
   for (int round = 0; round < rounds; ++round) {
-    const bool has_changed = update(descent, cloud, settings);
+    const bool has_changed = update(descent, cloud, settings, round == 0 ? kUnsettled : 0);
     if (round > 0 && !has_changed && settings.noise == Noise::AlongNormal) break;
     solve(descent, cloud, least_squares);
   }
@@ -184,6 +197,53 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
   return fitted;
 }
 
+/// A descent on many points with a loss as narrow as the noise, and the mean square without what is far beyond it.
+void polish(Candidate& candidate, const Cloud& many, LeastSquaresSettings settings, bool rejects_outliers) {
+  if (rejects_outliers) {
+    settings.loss_width = kHuber * std::max(kUnsettled, robust_sigma(measure(candidate.body, many.points).distances));
+  }
+  settings.max_iterations = 50;
+  settings.tolerance = 1e-8;
+  candidate.body = minimize_distances(candidate.body, many.points, {}, settings).body;
+  const std::vector<double> distances = measure(candidate.body, many.points).distances;
+  const double limit =
+      rejects_outliers ? kOutlier * std::max(kUnsettled, robust_sigma(distances)) : std::numeric_limits<double>::infinity();
+  double square = 0;
+  for (const double distance : distances) square += std::min(distance * distance, limit * limit);
+  candidate.mean_square = square / static_cast<double>(distances.size());
+}
+
+/// Descends from the starts on ever more points, with ever fewer bodies.
+Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, bool rejects_outliers) {
+  constexpr double kHopeless = 4;  // times the least mean square
+  const Cloud few = thinned(cloud, 200), some = thinned(cloud, 800), many = thinned(cloud, 3000);
+  LeastSquaresSettings settings;
+  settings.largest_half_axis = largest_half_axis(many);
+  settings.max_iterations = 6;
+  settings.tolerance = 1e-3;
+  settings.loss_width = 0.1;
+  std::vector<Candidate> candidates;
+  for (const Body& start : starts) candidates.push_back({start});
+  candidates = descend(candidates, few, settings, 10);
+  settings.max_iterations = 25;
+  settings.tolerance = 1e-4;
+  candidates = descend(candidates, some, settings, 3);
+  if (candidates.empty()) return {};
+  const double limit = kHopeless * candidates.front().mean_square;
+  std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.mean_square > limit; });
+  for (Candidate& candidate : candidates) polish(candidate, many, settings, rejects_outliers);
+  return *std::ranges::min_element(candidates, {}, &Candidate::mean_square);
+}
+
+/// The body with each of its axes for z, as starts of another family.
+std::vector<Body> make_starts_near(Body body, Family family) {
+  Matrix3 cycle;
+  cycle << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  body.family = family;
+  const Body second = with_axes(body, cycle);
+  return {body, second, with_axes(second, cycle)};
+}
+
 /// How many independent distances the points stand for: neighbours that agree with one another count for less (find_uncertainty).
 double independent_points(const Candidate& candidate, const Cloud& cloud) {
   const Measured measured = measure(candidate.body, cloud.points);
@@ -198,7 +258,11 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
   std::vector<Candidate> candidates;
   for (const Family family : {Family::Ellipsoid, Family::Superellipsoid, Family::Superovoid}) {
     if (cloud.points.size() < least_points(family)) continue;
-    const Candidate candidate = search_body(cloud, family, settings.rejects_outliers);
+    // The taper is a small change: what was found without it is near enough.
+    const bool is_near = family == Family::Superovoid && !candidates.empty();
+    const Candidate candidate =
+        is_near ? best_descent(make_starts_near(candidates.back().body, family), cloud, settings.rejects_outliers)
+                : search_body(cloud, family, settings.rejects_outliers);
     if (std::isfinite(candidate.mean_square)) candidates.push_back(candidate);
     if (candidate.mean_square < kRounding * kRounding) break;
   }
@@ -215,33 +279,7 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
 std::size_t least_points(Family family) { return static_cast<std::size_t>(parameter_count(family)) + 1; }
 
 Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers) {
-  const Cloud few = thinned(cloud, 200), some = thinned(cloud, 800), many = thinned(cloud, 3000);
-  LeastSquaresSettings settings;
-  settings.largest_half_axis = largest_half_axis(many);
-  settings.max_iterations = 6;
-  settings.tolerance = 1e-3;
-  settings.loss_width = 0.1;
-  std::vector<Candidate> candidates;
-  for (const Body& start : make_starts(some, family)) candidates.push_back({start});
-  candidates = descend(candidates, few, settings, 10);
-
-  settings.max_iterations = 25;
-  settings.tolerance = 1e-4;
-  candidates = descend(candidates, some, settings, 3);
-  for (Candidate& candidate : candidates) {
-    // A third descent with a loss as narrow as the noise, and the mean square without those that are far beyond it.
-    if (rejects_outliers) settings.loss_width = kHuber * robust_sigma(measure(candidate.body, many.points).distances);
-    settings.max_iterations = 50;
-    settings.tolerance = 1e-8;
-    candidate.body = minimize_distances(candidate.body, many.points, {}, settings).body;
-    const std::vector<double> distances = measure(candidate.body, many.points).distances;
-    const double limit = rejects_outliers ? kOutlier * robust_sigma(distances) : std::numeric_limits<double>::infinity();
-    double square = 0;
-    for (const double distance : distances) square += std::min(distance * distance, limit * limit);
-    candidate.mean_square = square / static_cast<double>(distances.size());
-  }
-  std::ranges::stable_sort(candidates, {}, &Candidate::mean_square);
-  return candidates.empty() ? Candidate{} : candidates.front();
+  return best_descent(make_starts(thinned(cloud, 800), family), cloud, rejects_outliers);
 }
 
 FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings) {

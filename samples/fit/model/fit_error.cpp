@@ -139,7 +139,8 @@ double triangle_distance(const Data& data, const Triangle& t, const Vector3& x) 
   return std::min({segment(a, b), segment(b, c), segment(c, a)});
 }
 
-/// Points that lead to the nearest surface of the data: its own, or for a mesh a grid on every triangle, with the triangle's number.
+/// Points that lead to the nearest surface of the data: its own, or for a mesh a grid on every triangle, with the triangle's
+/// number.
 struct Landmarks {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::size_t> triangle_of;
@@ -153,7 +154,8 @@ Landmarks make_landmarks(const Data& data) {
   for (std::size_t i = 0; i < data.triangles.size(); ++i) {
     const Triangle& t = data.triangles[i];
     const Vector3 a = data.vertices.points[t[0]], u = data.vertices.points[t[1]] - a, v = data.vertices.points[t[2]] - a;
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()})) / spacing)));
+    const int steps = std::max(
+        1, static_cast<int>(std::ceil(std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()})) / spacing)));
     for (int j = 0; j <= steps; ++j) {
       for (int k = 0; j + k <= steps; ++k) {
         landmarks.points.emplace_back(a + (j * u + k * v) / steps);
@@ -167,7 +169,8 @@ Landmarks make_landmarks(const Data& data) {
 /// The distance of places from the data's surface: of a mesh, from the triangles of the nearest landmarks.
 class DataDistance {
  public:
-  explicit DataDistance(const Data& data) : data_(data), landmarks_(make_landmarks(data)), adaptor_{&landmarks_.points}, tree_(3, adaptor_) {}
+  explicit DataDistance(const Data& data)
+      : data_(data), landmarks_(make_landmarks(data)), adaptor_{&landmarks_.points}, tree_(3, adaptor_) {}
 
   double operator()(const Vector3& x) const {
     constexpr std::size_t kNeighbours = 16;
@@ -178,7 +181,8 @@ class DataDistance {
     const std::size_t found = tree_.knnSearch(x.data(), wanted, indices.data(), squares.data());
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < found; ++k) {
-      nearest = std::min(nearest, is_mesh ? triangle_distance(data_, data_.triangles[landmarks_.triangle_of[indices[k]]], x) : std::sqrt(squares[k]));
+      nearest = std::min(nearest, is_mesh ? triangle_distance(data_, data_.triangles[landmarks_.triangle_of[indices[k]]], x)
+                                          : std::sqrt(squares[k]));
     }
     return nearest;
   }
@@ -193,14 +197,14 @@ class DataDistance {
 /// The largest distance of the bodies' free surface from the data.
 double largest_distance_to_data(std::span<const Body> bodies, const Data& data) {
   const DataDistance distance(data);
-  std::vector<DistanceFunction> functions;
-  for (const Body& body : bodies) functions.emplace_back(body);
+  const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   double largest = 0;
   for (const DistanceFunction& function : functions) {
     const Matrix3 R = function.body().rotation();
     for (const Eigen::Vector3d& r : sample_boundary(function.shape(), kSamples, 1).points) {
       const Vector3 x = function.body().position + R * r;
-      const bool is_covered = std::ranges::any_of(functions, [&](const DistanceFunction& other) { return &other != &function && other.contains(x); });
+      const bool is_covered =
+          std::ranges::any_of(functions, [&](const DistanceFunction& other) { return &other != &function && other.contains(x); });
       if (!is_covered) largest = std::max(largest, distance(x));
     }
   }
@@ -211,8 +215,7 @@ double largest_distance_to_data(std::span<const Body> bodies, const Data& data) 
 
 FitError find_error(std::span<const Body> bodies, const Data& data) {
   FitError error;
-  std::vector<DistanceFunction> functions;
-  for (const Body& body : bodies) functions.emplace_back(body);
+  const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   std::vector<Vector3> points = data.vertices.points;
   if (!data.triangles.empty()) {
     const Cloud more = sample_triangles(data.vertices.points, data.triangles, kSamples, 2);

@@ -28,8 +28,7 @@ struct Assignment {
 };
 
 Assignment assign(const std::vector<Body>& bodies, const Cloud& cloud, Distance distance) {
-  std::vector<DistanceFunction> functions;
-  for (const Body& body : bodies) functions.emplace_back(body);
+  const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   Assignment result;
   result.counts.assign(bodies.size(), 0);
   for (const Vector3& x : cloud.points) {
@@ -149,6 +148,23 @@ Model with_family(const Model& model, const Cloud& cloud, Family family) {
   return alternate(bodies, cloud, Distance::Union, 20);
 }
 
+/// Searches one body after the other afresh, on its own points, and keeps what makes the model better: the descent from an
+/// ellipsoid may have ended in a local minimum.
+Model searched_again(Model model, const Cloud& cloud, Family family) {
+  if (!std::isfinite(model.mean_square)) return model;
+  for (std::size_t k = 0; k < model.bodies.size(); ++k) {
+    const Cloud part = owned(cloud, assign(model.bodies, cloud, Distance::Union).owner, k);
+    const Extent extent = extent_of(part.points);
+    const Candidate found = search_body(normalized(part, extent), family, true);
+    if (!std::isfinite(found.mean_square)) continue;
+    std::vector<Body> bodies = model.bodies;
+    bodies[k] = moved(found.body, extent.size, extent.centre);
+    const Model other = alternate(bodies, cloud, Distance::Union, 20);
+    if (other.mean_square < model.mean_square) model = other;
+  }
+  return model;
+}
+
 double criterion(const Model& model, std::size_t points) {
   const auto n = static_cast<double>(points);
   double numbers = 0;
@@ -179,7 +195,8 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, con
 std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings) {
   constexpr int kLargestCount = 16, kSeeds = 6;
   if (largest_count < 1 || largest_count > kLargestCount) {
-    throw std::invalid_argument("at most " + std::to_string(largest_count) + " bodies; allowed: 1 to " + std::to_string(kLargestCount));
+    throw std::invalid_argument("at most " + std::to_string(largest_count) + " bodies; allowed: 1 to " +
+                                std::to_string(kLargestCount));
   }
   const FittedBody single = fit_body(cloud, settings);
   if (largest_count == 1) return {single};
@@ -195,6 +212,7 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
       const Model model = with_family(start_from_clusters(few, count, static_cast<std::uint64_t>(seed)), few, family);
       if (model.mean_square < of_count.mean_square) of_count = model;
     }
+    of_count = searched_again(of_count, few, family);
     if (criterion(of_count, few.points.size()) < criterion(best, few.points.size())) best = of_count;
   }
   if (best.bodies.size() == 1) return {single};

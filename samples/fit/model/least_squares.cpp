@@ -20,7 +20,7 @@ const double kLargestLogExponent = std::log(supernormal::Superellipsoid::kMaxExp
 constexpr double kLargestArtanh = 5;
 constexpr double kLeastHalfAxis = 1e-4;
 
-enum Block { kPositionBlock, kAttitudeBlock, kAxesBlock, kExponentsBlock, kTaperBlock, kBlocks };
+constexpr int kPositionBlock = 0, kAttitudeBlock = 1, kAxesBlock = 2, kExponentsBlock = 3, kTaperBlock = 4, kBlocks = 5;
 constexpr std::array kBlockSizes = {3, 4, 3, 2, 1};
 
 /// The parameter blocks of one body.
@@ -100,7 +100,9 @@ class Distances final : public ceres::CostFunction {
   static void write_row(std::size_t i, const DistanceFunction& function, const Gradient& gradient, const double* const* blocks,
                         double** jacobians) {
     const Body& body = function.body();
-    const auto row = [&](Block block) { return jacobians[block] + i * static_cast<std::size_t>(kBlockSizes[block]); };
+    const auto row = [&](int block) {
+      return jacobians[block] + i * static_cast<std::size_t>(kBlockSizes[static_cast<std::size_t>(block)]);
+    };
     if (jacobians[kPositionBlock] != nullptr) Eigen::Map<Vector3>(row(kPositionBlock)) = gradient.segment<3>(kPosition);
     if (jacobians[kAttitudeBlock] != nullptr) {
       // ceres::EigenQuaternionManifold turns by twice its step, about the axes of the data; the columns of its derivative are

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <tuple>
 #include <utility>
 
 namespace fit {
@@ -53,7 +54,7 @@ std::vector<Matrix3> make_turns(const Vector3& moments) {
   std::vector<Matrix3> turns;
   for (const Matrix3& permutation : permutations) {
     turns.push_back(permutation);
-    turns.push_back(permutation * about(Vector3::UnitZ(), kHalfTurn / 4));
+    turns.emplace_back(permutation * about(Vector3::UnitZ(), kHalfTurn / 4));
   }
   // Moments are sorted. Axes whose moments hardly differ say little about the attitude.
   constexpr double kAlike = 0.7;
@@ -73,7 +74,7 @@ std::vector<Matrix3> make_turns(const Vector3& moments) {
     more.push_back(about(axis, kHalfTurn / 4));
   }
   for (const Matrix3& turn : more) {
-    for (const Matrix3& permutation : permutations) turns.push_back(turn * permutation);
+    for (const Matrix3& permutation : permutations) turns.emplace_back(turn * permutation);
   }
   return turns;
 }
@@ -91,6 +92,44 @@ std::pair<double, double> range_along(const Cloud& cloud, const Vector3& axis) {
   return {(high - low) / 2, (high + low) / 2};
 }
 
+/// The same body in its box, and where the centre of the best sphere is elsewhere, which tells of data of one side: about that
+/// centre, and with one face of the box as the middle of the body.
+std::vector<Body> make_places(const Body& boxed, const Vector3& sphere) {
+  std::vector<Body> places = {boxed};
+  const Matrix3 rotation = boxed.rotation();
+  const Vector3 shift = rotation.transpose() * (sphere - boxed.position);
+  const double relative = shift.cwiseQuotient(boxed.half_axes).norm();
+  if (!(relative > 0.2)) return places;
+  if (relative < 4) {
+    Body at_sphere = boxed;
+    at_sphere.position = sphere;
+    at_sphere.half_axes += shift.cwiseAbs();
+    places.push_back(at_sphere);
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (const double side : {-1, 1}) {
+      Body at_face = boxed;
+      at_face.position += side * boxed.half_axes[i] * rotation.col(i);
+      at_face.half_axes[i] *= 2;
+      places.push_back(at_face);
+    }
+  }
+  return places;
+}
+
+/// The box of the points along the body's axes, without the outermost.
+Body boxed_by(const Cloud& cloud, Body body) {
+  constexpr double kLeastHalfAxis = 0.02;
+  const Matrix3 rotation = body.rotation();
+  body.position.setZero();
+  for (int i = 0; i < 3; ++i) {
+    const auto [half_range, middle] = range_along(cloud, rotation.col(i));
+    body.half_axes[i] = std::max(half_range, kLeastHalfAxis);
+    body.position += middle * rotation.col(i);
+  }
+  return body;
+}
+
 }  // namespace
 
 std::vector<Body> make_starts(const Cloud& cloud, Family family) {
@@ -104,28 +143,12 @@ std::vector<Body> make_starts(const Cloud& cloud, Family family) {
     Body body;
     body.family = family;
     body.attitude = Eigen::Quaterniond(axes * turn).normalized();
-    const Matrix3 rotation = body.rotation();
-    Vector3 middle;
-    for (int i = 0; i < 3; ++i) {
-      std::tie(body.half_axes[i], middle[i]) = range_along(cloud, rotation.col(i));
-      body.half_axes[i] = std::max(body.half_axes[i], 0.02);
-    }
-    for (const bool at_sphere : {false, true}) {
-      Body placed = body;
-      placed.position = rotation * middle;
-      if (at_sphere) {
-        const Vector3 shift = rotation.transpose() * sphere - middle;
-        // A centre that is hardly another, or is nowhere near, is of no use.
-        const double relative = shift.cwiseQuotient(body.half_axes).norm();
-        if (!(relative > 0.2 && relative < 4)) continue;
-        placed.position = sphere;
-        placed.half_axes += shift.cwiseAbs();
-      }
-      for (const auto& [delta, epsilon] : kExponents) {
-        placed.delta = family == Family::Ellipsoid ? 2 : delta;
-        placed.epsilon = family == Family::Ellipsoid ? 2 : epsilon;
-        starts.push_back(placed);
-        if (family == Family::Ellipsoid) break;
+    const std::vector<Body> places = make_places(boxed_by(cloud, body), sphere);
+    const std::size_t exponents = family == Family::Ellipsoid ? 1 : kExponents.size();
+    for (const Body& place : places) {
+      for (std::size_t k = 0; k < exponents; ++k) {
+        starts.push_back(place);
+        std::tie(starts.back().delta, starts.back().epsilon) = kExponents[k];
       }
     }
   }

@@ -69,13 +69,6 @@ Gradient largest_errors(const Body& body) {
   return largest;
 }
 
-/// The indices of the numbers that the family varies.
-std::vector<int> varied(Family family) {
-  std::vector<int> indices;
-  for (int k = 0; k < parameter_count(family); ++k) indices.push_back(k);
-  return indices;
-}
-
 }  // namespace
 
 Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals) {
@@ -87,17 +80,16 @@ Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesse
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     Gradient row = function.gradient(witnesses[i]);
     row.segment<3>(kPosition) *= size;  // all in lengths, so that eigenvalues may be compared
-    normal_matrix.selfadjointView<Eigen::Lower>().rankUpdate(row);
+    normal_matrix += row * row.transpose();
     square += residuals[i] * residuals[i];
   }
-  normal_matrix = SquareMatrix(normal_matrix.selfadjointView<Eigen::Lower>());
   const int parameters = parameter_count(body.family);
   const double freedom = std::max(1.0, static_cast<double>(residuals.size()) - parameters);
   result.sigma = std::max(std::sqrt(square / freedom), kExact * size);
   if (result.sigma > kRounding * size) test_lack_of_fit(body, witnesses, residuals, result);
 
-  const std::vector<int> indices = varied(body.family);
-  const Eigen::MatrixXd reduced = normal_matrix(indices, indices);
+  // A family varies the first of the numbers.
+  const Eigen::MatrixXd reduced = normal_matrix.topLeftCorner(parameters, parameters);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
   constexpr double kNoWeight = 1e-9;  // of the largest eigenvalue; the derivatives are right to about 1e-6
   constexpr double kShare = 1e-2;

@@ -10,8 +10,8 @@
 
 namespace fit {
 
-/// One standard error for each number of a body, in the order of Parameter: position and half-axes in the unit of the data,
-/// rotation in rad about the body's axes, exponents and taper as such.
+/// One standard error for each number of a body, in the order of kPosition to kTaper: position and half-axes in the unit of the
+/// data, rotation in rad about the body's axes, exponents and taper as such.
 struct Uncertainty {
   Gradient standard_error = Gradient::Zero();
   std::array<bool, kParameters> is_determined{};  ///< false: the data say nothing about it, its value is arbitrary

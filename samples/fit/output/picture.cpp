@@ -93,8 +93,7 @@ std::string draw_view(std::span<const DistanceFunction> functions, std::span<con
 }  // namespace
 
 std::string draw(std::span<const Body> bodies, const Cloud& data, double rms, const std::string& title) {
-  std::vector<DistanceFunction> functions;
-  for (const Body& body : bodies) functions.emplace_back(body);
+  const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   std::vector<Dot> dots;
   for (const Eigen::Vector3d& x : thinned(data, kDots).points) {
     double least = std::numeric_limits<double>::infinity();

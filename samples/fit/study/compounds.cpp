@@ -11,7 +11,8 @@
 namespace fit {
 namespace {
 
-Body make_part(Family family, const Vector3& half_axes, double delta, double epsilon, double taper, const Vector3& position, double angle) {
+Body make_part(Family family, const Vector3& half_axes, double delta, double epsilon, double taper, const Vector3& position,
+               double angle) {
   Body body{family, position, Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3::UnitX())), half_axes, delta, epsilon, taper};
   return body;
 }
@@ -19,14 +20,16 @@ Body make_part(Family family, const Vector3& half_axes, double delta, double eps
 std::vector<Body> make_dumbbell() {
   constexpr double kBar = 0.08, kDisc = 0.03;
   const auto disc = [&](double z) { return make_part(Family::Superellipsoid, {0.06, 0.06, kDisc}, 2, 6, 0, {0, 0, z}, 0); };
-  return {make_part(Family::Superellipsoid, {0.014, 0.014, kBar}, 2, 8, 0, Vector3::Zero(), 0), disc(kBar + kDisc), disc(-kBar - kDisc)};
+  return {make_part(Family::Superellipsoid, {0.014, 0.014, kBar}, 2, 8, 0, Vector3::Zero(), 0), disc(kBar + kDisc),
+          disc(-kBar - kDisc)};
 }
 
 std::vector<Body> make_molar() {
   constexpr double kCrown = 0.035, kRoot = 0.06, kSpread = 0.12;
   std::vector<Body> parts = {make_part(Family::Superovoid, {0.055, 0.05, kCrown}, 3.5, 4, 0.15, Vector3::Zero(), 0)};
   for (const double side : {1.0, -1.0}) {
-    Body root = make_part(Family::Superovoid, {0.02, 0.016, kRoot}, 2, 3, 0.5, {0, side * 0.028, -kCrown - 1.05 * kRoot}, side * kSpread);
+    Body root =
+        make_part(Family::Superovoid, {0.02, 0.016, kRoot}, 2, 3, 0.5, {0, side * 0.028, -kCrown - 1.05 * kRoot}, side * kSpread);
     for (int i = 0; i < 50; ++i) {  // raised until it touches the crown
       const auto gap = supernormal::find_proximity(*make_shape(root), root.pose(), *make_shape(parts[0]), parts[0].pose());
       root.position.z() += gap.gap / std::abs(gap.normal.z());

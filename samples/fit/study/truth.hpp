@@ -25,7 +25,7 @@ double mean_half_axis(const Body& body);
 /// places, and where both exponents of the truth are the same, which axis is called z is chance.
 Body aligned(const Body& fitted, const Body& truth, Eigen::Matrix3d& axes);
 
-/// The numbers of `fitted` less those of `truth`, in the order of Parameter; exponents and half-axes as such.
+/// The numbers of `fitted` less those of `truth`, in the order of kPosition to kTaper; exponents and half-axes as such.
 Eigen::Matrix<double, kParameters, 1> deviation(const Body& fitted, const Body& truth);
 
 }  // namespace fit
