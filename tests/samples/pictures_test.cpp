@@ -143,7 +143,7 @@ TEST_CASE("page: what it needs is in it, and names cannot end a script") {
   const std::string text = written.text("view.html");
   CHECK(count_of(text, "<!-- the run -->") == 0);
   CHECK(count_of(text, "src=") == 0);  // nothing beside it
-  const std::string start = "<script type=\"application/json\" id=\"run\">";
+  const std::string start = R"(<script type="application/json" id="run">)";
   const std::size_t at = text.find(start) + start.size();
   const std::string description = text.substr(at, text.find('\n', at) - at - std::string("</script>").size());
   CHECK(description.find('<') == std::string::npos);

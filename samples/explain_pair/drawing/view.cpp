@@ -90,17 +90,23 @@ Frame frame_of_picture(const Pair& pair, const Vector3& normal) {
   const Vector3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
   const Vector3 offset = pair.body2.pose.position - pair.body1.pose.position;
   const Vector3 aside = offset - offset.dot(normal) * normal;
-  const auto area = [](const PlacedBody& body, const Vector3& view) {
-    return supernormal::projected_area(*body.shape, body.pose.rotation.transpose() * view);
+  // A point has none.
+  const auto has_area = [](const PlacedBody& body) { return body.shape->half_extents().minCoeff() > 0; };
+  const auto area = [&](const PlacedBody& body, const Vector3& view) {
+    return has_area(body) ? supernormal::projected_area(*body.shape, body.pose.rotation.transpose() * view) : 0;
   };
-  const double whole = supernormal::surface_area(*pair.body1.shape) + supernormal::surface_area(*pair.body2.shape);
+  double whole = 0;
+  for (const PlacedBody* body : {&pair.body1, &pair.body2}) {
+    if (has_area(*body)) whole += supernormal::surface_area(*body->shape);
+  }
   double best = -std::numeric_limits<double>::infinity();
   Frame frame{normal, e1, e2};
   for (int k = 0; k < kViews; ++k) {
     const double angle = kPi * k / kViews;
     const Vector3 toward = std::cos(angle) * e1 + std::sin(angle) * e2;
     const double hidden = aside.norm() > 0 ? std::abs(aside.dot(toward)) / aside.norm() : 0;
-    const double merit = (area(pair.body1, toward) + area(pair.body2, toward)) / whole - kPreference * hidden;
+    const double seen = whole > 0 ? (area(pair.body1, toward) + area(pair.body2, toward)) / whole : 0;
+    const double merit = seen - kPreference * hidden;
     if (merit > best) {
       best = merit;
       frame = {normal, toward.cross(normal), toward};

@@ -13,7 +13,7 @@ namespace supernormal::fcl_host {
 /// table of its own, is called with the shape's type: fcl::detail::GJKSolver_libccd<double>().shapeDistance(shape, pose, …).
 class SmoothShape : public fcl::ShapeBased {
  public:
-  explicit SmoothShape(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) { computeLocalAABB(); }
+  explicit SmoothShape(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) { SmoothShape::computeLocalAABB(); }
 
   const Shape& shape() const { return *shape_; }
 
@@ -51,6 +51,7 @@ class GJKInitializer<double, supernormal::fcl_host::SmoothShape> {
     Transform3d pose;
   };
 
+  // NOLINTBEGIN(readability-identifier-naming): the names that FCL calls
   static GJKSupportFunction getSupportFunction() {
     return [](const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
       const auto& [shape, pose] = *static_cast<const Placed*>(object);
@@ -67,6 +68,7 @@ class GJKInitializer<double, supernormal::fcl_host::SmoothShape> {
   }
   static void* createGJKObject(const SmoothShape& shape, const Transform3d& pose) { return new Placed{&shape.shape(), pose}; }
   static void deleteGJKObject(void* object) { delete static_cast<Placed*>(object); }
+  // NOLINTEND(readability-identifier-naming)
 };
 
 }  // namespace fcl::detail
