@@ -11,7 +11,7 @@
 #include "model/fit_error.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
-#include "output/tessellation.hpp"
+#include <supernormal/shapes/tessellation.hpp>
 #include "samples/temporary_folder.hpp"
 #include "scene/catalogue.hpp"
 #include "study/truth.hpp"
@@ -42,7 +42,7 @@ Body make_body(Family family, double delta, double epsilon, double taper = 0) {
 
 /// A mesh of the body as an .obj.
 std::string obj_of(const Body& body) {
-  const auto mesh = falling_particles::tessellate(*make_shape(body), 1e-3 * body.half_axes.minCoeff());
+  const auto mesh = supernormal::tessellate(*make_shape(body), 1e-3 * body.half_axes.minCoeff());
   std::ostringstream text;
   text.precision(9);
   for (const Vector3& r : mesh.points) {

@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <supernormal/proximity/solve.hpp>
 #include <supernormal/shapes/sphere.hpp>
-
-#include "output/tessellation.hpp"
+#include <supernormal/shapes/tessellation.hpp>
 
 namespace fit {
 namespace {
@@ -40,7 +39,7 @@ Cloud sample_triangles(std::span<const Eigen::Vector3d> points, std::span<const 
 }
 
 Cloud sample_boundary(const supernormal::Shape& shape, std::size_t count, std::uint64_t seed) {
-  const auto mesh = falling_particles::tessellate(shape, 2e-3 * shape.half_extents().minCoeff());
+  const auto mesh = supernormal::tessellate(shape, 2e-3 * shape.half_extents().minCoeff());
   Cloud cloud = sample_triangles(mesh.points, mesh.triangles, count, seed);
   const supernormal::Sphere point(0);
   supernormal::Settings settings;
