@@ -34,7 +34,7 @@ constexpr std::array kChordErrors = {0.02, 0.1, 0.4};
 template <typename Number>
 std::string packed(const std::vector<Number>& numbers) {
   std::string bytes(numbers.size() * sizeof(Number), '\0');
-  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  if (!numbers.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
   return to_base64(bytes);
 }
 
