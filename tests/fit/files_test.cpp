@@ -6,12 +6,12 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <supernormal/shapes/tessellation.hpp>
 
 #include "input/read_data.hpp"
 #include "model/fit_error.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
-#include <supernormal/shapes/tessellation.hpp>
 #include "samples/temporary_folder.hpp"
 #include "scene/catalogue.hpp"
 #include "study/truth.hpp"
