@@ -100,19 +100,23 @@ struct Descent {
   std::vector<double> offsets;  // of all points
 };
 
-double sigma_of(const Descent& descent, bool is_robust) {
+std::vector<double> residuals_of(const Descent& descent) {
   std::vector<double> residuals;
   for (const std::size_t i : descent.inliers) residuals.push_back(descent.measured.distances[i] - descent.offsets[i]);
-  if (is_robust) return robust_sigma(residuals);
-  const double square = std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
-  return std::sqrt(square / static_cast<double>(residuals.size()));
+  return residuals;
+}
+
+double root_mean_square(std::span<const double> values) {
+  const double square = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  return std::sqrt(square / static_cast<double>(values.size()));
 }
 
 /// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether the latter changed.
 bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, double least_sigma) {
   descent.measured = measure(descent.body, cloud.points);
   if (descent.offsets.empty()) descent.offsets.assign(cloud.points.size(), 0.0);
-  const double sigma = sigma_of(descent, settings.rejects_outliers);
+  const std::vector<double> residuals = residuals_of(descent);
+  const double sigma = settings.rejects_outliers ? robust_sigma(residuals) : root_mean_square(residuals);
   if (settings.noise == Noise::Isotropic && sigma > kRounding) {
     const DistanceFunction function(descent.body);
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -120,10 +124,11 @@ bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, d
     }
   }
   if (!settings.rejects_outliers) return false;
+  // Flat faces may fit exactly, and bring the median down, while the rest is still on its way: the mean square counts too.
+  const double limit = kOutlier * std::max({sigma, least_sigma, root_mean_square(residuals) / 2});
   std::vector<std::size_t> inliers;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (std::abs(descent.measured.distances[i] - descent.offsets[i]) <= kOutlier * std::max(sigma, least_sigma))
-      inliers.push_back(i);
+    if (std::abs(descent.measured.distances[i] - descent.offsets[i]) <= limit) inliers.push_back(i);
   }
   const bool has_changed = inliers != descent.inliers;
   descent.inliers = std::move(inliers);
@@ -155,19 +160,6 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
   }
   descent.measured = measure(descent.body, cloud.points);
   return descent;
-}
-
-void require_points(const Cloud& cloud, std::size_t least) {
-  if (cloud.points.size() < least) {
-    throw std::invalid_argument(std::to_string(cloud.points.size()) + " points; a fit takes at least " + std::to_string(least));
-  }
-  for (const Vector3& x : cloud.points) {
-    if (!x.allFinite()) throw std::invalid_argument("a coordinate is not finite");
-  }
-  const Extent extent = extent_of(cloud.points);
-  if (!(extent.size > 1e-12 * extent.centre.norm()) || !std::isfinite(extent.size)) {
-    throw std::invalid_argument("the points are all in one place, or too large to be told apart");
-  }
 }
 
 /// The result in the frame of the data, which have been normalized by `extent`.
@@ -222,8 +214,8 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, bool
   settings.max_iterations = 6;
   settings.tolerance = 1e-3;
   settings.loss_width = 0.1;
-  std::vector<Candidate> candidates;
-  for (const Body& start : starts) candidates.push_back({start});
+  std::vector<Candidate> candidates(starts.size());
+  std::ranges::transform(starts, candidates.begin(), [](const Body& start) { return Candidate{start}; });
   candidates = descend(candidates, few, settings, 10);
   settings.max_iterations = 25;
   settings.tolerance = 1e-4;
@@ -277,6 +269,19 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
 }  // namespace
 
 std::size_t least_points(Family family) { return static_cast<std::size_t>(parameter_count(family)) + 1; }
+
+void require_points(const Cloud& cloud, std::size_t least) {
+  if (cloud.points.size() < least) {
+    throw std::invalid_argument(std::to_string(cloud.points.size()) + " points; a fit takes at least " + std::to_string(least));
+  }
+  for (const Vector3& x : cloud.points) {
+    if (!x.allFinite()) throw std::invalid_argument("a coordinate is not finite");
+  }
+  const Extent extent = extent_of(cloud.points);
+  if (!(extent.size > 1e-12 * extent.centre.norm()) || !std::isfinite(extent.size)) {
+    throw std::invalid_argument("the points are all in one place, or too large to be told apart");
+  }
+}
 
 Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers) {
   return best_descent(make_starts(thinned(cloud, 800), family), cloud, rejects_outliers);

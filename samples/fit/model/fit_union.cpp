@@ -148,12 +148,26 @@ Model with_family(const Model& model, const Cloud& cloud, Family family) {
   return alternate(bodies, cloud, Distance::Union, 20);
 }
 
-/// Searches one body after the other afresh, on its own points, and keeps what makes the model better: the descent from an
-/// ellipsoid may have ended in a local minimum.
+/// Whether the distances of its points from a body are like noise.
+bool is_well_fitted(const Body& body, const Cloud& part) {
+  const DistanceFunction function(body);
+  std::vector<Witness> witnesses;
+  std::vector<double> distances;
+  for (const Vector3& x : part.points) {
+    const std::optional<Witness> witness = function.find(x);
+    if (!witness) return false;
+    witnesses.push_back(*witness);
+    distances.push_back(witness->distance);
+  }
+  return !find_uncertainty(body, witnesses, distances).is_significant;
+}
+
+/// Searches those bodies afresh, on their own points, that do not fit them, and keeps what makes the model better: the descent from
+/// an ellipsoid may have ended in a local minimum.
 Model searched_again(Model model, const Cloud& cloud, Family family) {
-  if (!std::isfinite(model.mean_square)) return model;
   for (std::size_t k = 0; k < model.bodies.size(); ++k) {
     const Cloud part = owned(cloud, assign(model.bodies, cloud, Distance::Union).owner, k);
+    if (part.points.size() < 2 * least_points(family) || is_well_fitted(model.bodies[k], part)) continue;
     const Extent extent = extent_of(part.points);
     const Candidate found = search_body(normalized(part, extent), family, true);
     if (!std::isfinite(found.mean_square)) continue;
@@ -198,24 +212,26 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
     throw std::invalid_argument("at most " + std::to_string(largest_count) + " bodies; allowed: 1 to " +
                                 std::to_string(kLargestCount));
   }
-  const FittedBody single = fit_body(cloud, settings);
-  if (largest_count == 1) return {single};
+  if (largest_count == 1) return {fit_body(cloud, settings)};
+  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent), few = thinned(data, 2000);
   const Family family = settings.family.value_or(Family::Superellipsoid);
 
-  Model best{{moved(single.body, 1 / extent.size, -extent.centre / extent.size)}, 0};
-  best.mean_square = mean_loss(assign(best.bodies, few, Distance::Union).distances);
-  for (int count = 2; count <= largest_count; ++count) {
+  Model best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int count = 1; count <= largest_count; ++count) {
     Model of_count;
-    for (int seed = 1; seed <= kSeeds; ++seed) {
+    for (int seed = 1; seed <= (count == 1 ? 1 : kSeeds); ++seed) {
       const Model model = with_family(start_from_clusters(few, count, static_cast<std::uint64_t>(seed)), few, family);
       if (model.mean_square < of_count.mean_square) of_count = model;
     }
-    of_count = searched_again(of_count, few, family);
-    if (criterion(of_count, few.points.size()) < criterion(best, few.points.size())) best = of_count;
+    if (!(criterion(of_count, few.points.size()) < least)) continue;
+    best = of_count;
+    least = criterion(best, few.points.size());
   }
-  if (best.bodies.size() == 1) return {single};
+  if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
+  best = searched_again(best, few, family);
   for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
   return finish(best.bodies, cloud, settings);
 }
