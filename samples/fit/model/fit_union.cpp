@@ -112,8 +112,8 @@ Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
     if (!std::isfinite(found.mean_square)) return {};
     bodies.push_back(moved(found.body, extent.size, extent.centre));
   }
-  const Model model = alternate(bodies, cloud, Distance::Surface, 12);
-  return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, Distance::Union, 12) : model;
+  const Model model = alternate(bodies, cloud, Distance::Surface, 8);
+  return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, Distance::Union, 8) : model;
 }
 
 /// Gives an ellipsoid the numbers of another family, on its own points, with the best of its three axes for z.
@@ -186,6 +186,23 @@ double criterion(const Model& model, std::size_t points) {
   return n * std::log(model.mean_square + kRounding * kRounding) + numbers * std::log(n);
 }
 
+/// The best model from several clusterings, those that led to the same ellipsoids counted once.
+Model best_of_clusterings(const Cloud& cloud, int count, Family family) {
+  constexpr int kSeeds = 6;
+  constexpr double kAlike = 0.01;
+  Model best;
+  std::vector<double> known;
+  for (int seed = 1; seed <= (count == 1 ? 1 : kSeeds); ++seed) {
+    const Model start = start_from_clusters(cloud, count, static_cast<std::uint64_t>(seed));
+    const auto is_known = [&](double other) { return std::abs(start.mean_square / other - 1) < kAlike; };
+    if (!std::isfinite(start.mean_square) || std::ranges::any_of(known, is_known)) continue;
+    known.push_back(start.mean_square);
+    const Model model = with_family(start, cloud, family);
+    if (model.mean_square < best.mean_square) best = model;
+  }
+  return best;
+}
+
 /// The last descents, on all points and with error bars.
 std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, const FitSettings& settings) {
   constexpr int kRounds = 4;
@@ -207,7 +224,7 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, con
 }  // namespace
 
 std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings) {
-  constexpr int kLargestCount = 16, kSeeds = 6;
+  constexpr int kLargestCount = 16;
   if (largest_count < 1 || largest_count > kLargestCount) {
     throw std::invalid_argument("at most " + std::to_string(largest_count) + " bodies; allowed: 1 to " +
                                 std::to_string(kLargestCount));
@@ -215,23 +232,19 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
   if (largest_count == 1) return {fit_body(cloud, settings)};
   require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
   const Extent extent = extent_of(cloud.points);
-  const Cloud data = normalized(cloud, extent), few = thinned(data, 2000);
+  const Cloud data = normalized(cloud, extent), few = thinned(data, 1000);
   const Family family = settings.family.value_or(Family::Superellipsoid);
 
   Model best;
   double least = std::numeric_limits<double>::infinity();
   for (int count = 1; count <= largest_count; ++count) {
-    Model of_count;
-    for (int seed = 1; seed <= (count == 1 ? 1 : kSeeds); ++seed) {
-      const Model model = with_family(start_from_clusters(few, count, static_cast<std::uint64_t>(seed)), few, family);
-      if (model.mean_square < of_count.mean_square) of_count = model;
-    }
+    const Model of_count = best_of_clusterings(few, count, family);
     if (!(criterion(of_count, few.points.size()) < least)) continue;
     best = of_count;
     least = criterion(best, few.points.size());
   }
   if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
-  best = searched_again(best, few, family);
+  best = searched_again(best, thinned(data, 3000), family);
   for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
   return finish(best.bodies, cloud, settings);
 }
