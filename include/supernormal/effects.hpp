@@ -1,16 +1,17 @@
-// Effects for ODE worlds: a program lists those that its scene calls for, and effects that are not listed cost nothing.
-//
-//   namespace fx = supernormal::effects;
-//   fx::Effects effects({fx::Gravity{{0, 0, -9.81}}, fx::Friction{.coefficient = 0.4}}, step);   // throws on bad parameters
-//   effects.set_up(world);                                   // once
-//   … in the near callback, with the contacts of one pair:
-//       n = effects.set_up_contacts({contacts, n});           // fills surface and fdir1; attach the first n
-//   … before each step:
-//       effects.apply_forces();                               // visits the added bodies if a listed effect is a force
-//
-// The list is compiled once: each pair of materials gets the surface parameters that all its contacts start from, and the passes
-// that each contact needs besides. Friction limits hold for dWorldQuickStep, which takes them from the normal force of the same
-// step.
+/// @namespace supernormal::effects
+/// Effects for ODE worlds: a program lists those that its scene calls for, and effects that are not listed cost nothing.
+///
+///     namespace fx = supernormal::effects;
+///     fx::Effects effects({fx::Gravity{{0, 0, -9.81}}, fx::Friction{.coefficient = 0.4}}, step);   // throws on bad parameters
+///     effects.set_up(world);                                   // once
+///     … in the near callback, with the contacts of one pair:
+///         n = effects.set_up_contacts({contacts, n});           // fills surface and fdir1; attach the first n
+///     … before each step:
+///         effects.apply_forces();                               // visits the added bodies if a listed effect is a force
+///
+/// The list is compiled once: each pair of materials gets the surface parameters that all its contacts start from, and the passes
+/// that each contact needs besides. Friction limits hold for dWorldQuickStep, which takes them from the normal force of the same
+/// step.
 #pragma once
 
 #include <ode/ode.h>
@@ -30,7 +31,7 @@ namespace supernormal::effects {
 
 /// A number from 0 on that a program gives to each body or wall; all 0 where it does not care.
 using Material = int;
-constexpr Material kLastMaterial = 63;
+constexpr Material kLastMaterial = 63;  ///< the largest number of a material
 
 /// Selects the contacts that an effect applies to. A pair of materials takes the values listed for the pair; if there are none,
 /// the values of both materials, combined; a material without values of its own takes those listed for all. How values combine is
@@ -38,14 +39,16 @@ constexpr Material kLastMaterial = 63;
 class MaterialSelector {
  public:
   constexpr MaterialSelector() = default;  ///< selects all contacts
+  /// Selects the contacts of one material with any other, or with itself.
   static constexpr MaterialSelector of(Material material) { return MaterialSelector(material, kAll); }
+  /// Selects the contacts of two materials with each other; they may be the same one.
   static constexpr MaterialSelector between(Material first, Material second) { return MaterialSelector(first, second); }
 
-  constexpr bool is_all() const { return first_ == kAll; }
-  constexpr bool is_pair() const { return second_ != kAll; }
-  constexpr Material first() const { return first_; }
-  constexpr Material second() const { return second_; }
-  constexpr bool operator==(const MaterialSelector&) const = default;
+  constexpr bool is_all() const { return first_ == kAll; }             ///< whether it selects all contacts
+  constexpr bool is_pair() const { return second_ != kAll; }           ///< whether it selects those of a pair of materials
+  constexpr Material first() const { return first_; }                  ///< the material, or one of the pair; -1 when it selects all
+  constexpr Material second() const { return second_; }                ///< the other one of the pair; -1 when there is none
+  constexpr bool operator==(const MaterialSelector&) const = default;  ///< whether both select the same
 
  private:
   static constexpr Material kAll = -1;
@@ -63,7 +66,7 @@ class MaterialSelector {
 /// the square holds 1/sqrt(2) of it.
 struct Friction {
   double coefficient = 0;  ///< (0, 100]
-  MaterialSelector on;
+  MaterialSelector on;     ///< the contacts that it applies to
 };
 
 /// Friction that depends on the direction of the slip on the body that carries the material: `along` is the coefficient for slip
@@ -76,7 +79,7 @@ struct AnisotropicFriction {
   double along = 0;                      ///< [0, 100]
   double across = 0;                     ///< [0, 100]; not both 0
   Vector3 direction = Vector3::UnitX();  ///< in the frame of the body (of the geom, where it has no body); not 0
-  MaterialSelector on;
+  MaterialSelector on;                   ///< the contacts that it applies to
 };
 
 /// Resistance to rolling and to spinning: torques of at most the given lengths times the normal force, against the relative
@@ -85,7 +88,7 @@ struct AnisotropicFriction {
 struct RollingResistance {
   double rolling = 0;   ///< m, [0, 1e3]
   double spinning = 0;  ///< m, [0, 1e3]; not both 0
-  MaterialSelector on;
+  MaterialSelector on;  ///< the contacts that it applies to
 };
 
 /// Newton's restitution of rigid contacts: separating velocity over approach velocity where that is above `threshold`.
@@ -93,7 +96,7 @@ struct RollingResistance {
 struct Restitution {
   double coefficient = 0;  ///< (0, 1]
   double threshold = 0;    ///< m/s, [0, 100]
-  MaterialSelector on;
+  MaterialSelector on;     ///< the contacts that it applies to
 };
 
 /// A linear spring and damper for each pair that touches, in place of rigid contact: the force is k depth + c approach velocity,
@@ -106,7 +109,7 @@ struct Restitution {
 struct Compliance {
   double stiffness = 0;  ///< k, N/m, (0, 1e15]
   double damping = 0;    ///< c, N s/m, [0, 1e15]
-  MaterialSelector on;
+  MaterialSelector on;   ///< the contacts that it applies to
 };
 
 /// Hertz's elastic contact in place of rigid contact: 4/3 E* sqrt(R) depth^(3/2) for a round contact, with elliptic integrals for
@@ -120,7 +123,7 @@ struct Hertz {
   double youngs_modulus = 0;  ///< E, Pa, (0, 1e15]
   double poisson_ratio = 0;   ///< nu, [0, 0.5]
   double restitution = 1;     ///< [0.05, 1]
-  MaterialSelector on;
+  MaterialSelector on;        ///< the contacts that it applies to
 };
 
 /// An attraction of constant force while in contact: to pull a pair apart takes `pull_off` newtons. Values combine by the
@@ -129,7 +132,7 @@ struct Hertz {
 /// external force.
 struct Adhesion {
   double pull_off = 0;  ///< N, (0, 1e9]
-  MaterialSelector on;
+  MaterialSelector on;  ///< the contacts that it applies to
 };
 
 // --- bodies: forces on those that were added with add_body --------------------------------------------------------------------
@@ -189,6 +192,7 @@ struct SurfaceLayer {
   double depth = 0;  ///< m, (0, 1e3]
 };
 
+/// Any effect.
 using Effect = std::variant<Friction, AnisotropicFriction, RollingResistance, Restitution, Compliance, Hertz, Adhesion, Gravity,
                             QuadraticDrag, StokesDrag, Buoyancy, Damping, AutoDisable, MaxCorrectingVelocity, SurfaceLayer>;
 
@@ -196,6 +200,7 @@ using Effect = std::variant<Friction, AnisotropicFriction, RollingResistance, Re
 /// each other.
 class SUPERNORMAL_API BadEffect : public std::invalid_argument {
  public:
+  /// `effect` and `parameter` are what the members below return, `text` is what().
   BadEffect(std::string effect, std::string parameter, const std::string& text)
       : std::invalid_argument(text), effect_(std::move(effect)), parameter_(std::move(parameter)) {}
   const std::string& effect() const { return effect_; }        ///< its name as in descriptions()
@@ -212,13 +217,14 @@ struct Description {
   const char* parameters;  ///< with units and ranges
   int rows;                ///< constraint rows added to a contact, at most
   const char* passes;      ///< the work that a step does for it
-  const char* source;
+  const char* source;      ///< where the law is from
 };
+/// The descriptions of all effects.
 SUPERNORMAL_API std::span<const Description> descriptions();
 
 /// Counts the work done for an effect so far.
 struct Cost {
-  const char* name;
+  const char* name;                 ///< its name as in descriptions()
   unsigned long long rows = 0;      ///< constraint rows added
   unsigned long long contacts = 0;  ///< contacts that the effect took part in
   unsigned long long coarse = 0;    ///< those among them that are compliant and last fewer than ten steps
@@ -233,8 +239,8 @@ class SUPERNORMAL_API Effects {
   /// value and the range, or the two effects that exclude each other.
   Effects(const std::vector<Effect>& list, double step);
   ~Effects();
-  Effects(Effects&&) noexcept;
-  Effects& operator=(Effects&&) noexcept;
+  Effects(Effects&&) noexcept;             ///< takes over the list, the bodies and the costs
+  Effects& operator=(Effects&&) noexcept;  ///< takes over the list, the bodies and the costs
 
   /// Applies the effects of the world to ODE's parameters; parameters of effects that are not listed keep their values.
   void set_up(dWorldID world) const;
@@ -251,6 +257,7 @@ class SUPERNORMAL_API Effects {
   /// after changing a geom. Nothing happens if no listed effect is a force. std::invalid_argument for a body without a geom of
   /// ours.
   void add_body(dBodyID body);
+  /// Forgets a body. Call it before dBodyDestroy; nothing happens for a body that was not added.
   void remove_body(dBodyID body);
 
   /// Adds the forces of the coming step to all added bodies that are awake.

@@ -1,26 +1,27 @@
-// Supernormal's core: bodies known by their normals, and the questions that one can ask about them. It needs Eigen and no ODE, and
-// is a library of its own (supernormal::core, supernormal-core.pc, libsupernormal-core).
-//
-//   bodies       Ellipsoid, Superellipsoid, Superovoid; Sphere, Box, Capsule, Cylinder, Polytope; Rounded, MinkowskiSum,
-//                LinearImage; a program's own by deriving from Shape, or as a CallbackShape
-//   two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
-//                depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
-//   others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
-//   contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to()
-//   one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
-//
-// Units and frames: lengths in m, or in any other unit that is used throughout; x_world = rotation x_body + position; normals are
-// unit vectors and point from body 1 to body 2; a gap is positive apart, negative when the bodies overlap.
-//
-// Errors: a constructor refuses bad parameters by std::invalid_argument, which names the parameter, its value and the valid range;
-// nothing is clamped. A query throws on settings out of range only. What it found of its own accord is in Proximity::status:
-// numbers that are not finite, a limit reached.
-//
-// Threads and memory: shapes and functions have no state, so that any number of threads may use them at once. Queries allocate
-// nothing, but for the scratch memory that a thread keeps for deep overlaps and that grows with the first of them; MeshContacts
-// owns its own.
-//
-// Warm start: find_proximity() takes the normal of an earlier pose, in body 1's frame: keep pose1.rotation.transpose() * normal.
+/// @namespace supernormal
+/// Supernormal's core: bodies known by their normals, and the questions that one can ask about them. It needs Eigen and no ODE, and
+/// is a library of its own (supernormal::core, supernormal-core.pc, libsupernormal-core).
+///
+///     bodies       Ellipsoid, Superellipsoid, Superovoid; Sphere, Box, Capsule, Cylinder, Polytope; Rounded, MinkowskiSum,
+///                  LinearImage; a program's own by deriving from Shape, or as a CallbackShape
+///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
+///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
+///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
+///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to()
+///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
+///
+/// Units and frames: lengths in m, or in any other unit that is used throughout; x_world = rotation x_body + position; normals are
+/// unit vectors and point from body 1 to body 2; a gap is positive apart, negative when the bodies overlap.
+///
+/// Errors: a constructor refuses bad parameters by std::invalid_argument, which names the parameter, its value and the valid range;
+/// nothing is clamped. A query throws on settings out of range only. What it found of its own accord is in Proximity::status:
+/// numbers that are not finite, a limit reached.
+///
+/// Threads and memory: shapes and functions have no state, so that any number of threads may use them at once. Queries allocate
+/// nothing, but for the scratch memory that a thread keeps for deep overlaps and that grows with the first of them; MeshContacts
+/// owns its own.
+///
+/// Warm start: find_proximity() takes the normal of an earlier pose, in body 1's frame: keep pose1.rotation.transpose() * normal.
 #pragma once
 
 #include "supernormal/contact/body_box.hpp"

@@ -10,12 +10,13 @@ namespace supernormal {
 
 /// All in m, in the body's frame. Shape::half_extents() has no centre: a body need not reach equally far to both sides.
 struct SUPERNORMAL_API BodyBox {
-  Vector3 centre;
-  Vector3 half_lengths;
+  Vector3 centre;        ///< the middle of the box
+  Vector3 half_lengths;  ///< from the middle to its sides
 
   /// The smallest such box, exact but for rounding.
   static BodyBox of(const Shape& shape);
 
+  /// The box widened by `margin` on all sides.
   BodyBox widened(double margin) const { return {centre, half_lengths.array() + margin}; }
 
   /// Whether the point is in the box widened by `margin` on all sides.

@@ -14,8 +14,8 @@ SUPERNORMAL_API Matrix3 find_curvature(const Shape& shape, const Pose& pose, con
 
 /// Principal values of the relative curvature K1 + K2, 1/m: the gap between the bodies grows as (smaller x^2 + larger y^2) / 2.
 struct ContactCurvature {
-  double smaller = 0;
-  double larger = 0;
+  double smaller = 0;  ///< along the direction in which the bodies part most slowly
+  double larger = 0;   ///< across it
 };
 
 /// Returns the principal values of `sum` = K1 + K2, the curvatures of the two bodies at a contact with the unit normal n.

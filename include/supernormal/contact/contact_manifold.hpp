@@ -27,9 +27,10 @@ struct ManifoldCorner {
 /// the bodies are apart by at most `margin` have depth 0: they are one-sided supports, onto which the body can settle.
 /// lib/contact/README.md has the construction, its proofs and measurements.
 struct ContactManifold {
-  static constexpr int kMaxCorners = 4;
+  static constexpr int kMaxCorners = 4;  ///< the most corners that a manifold has
 
   ContactManifold() = default;
+  /// One contact, without corners.
   ContactManifold(const Proximity& proximity) : deepest(proximity) {}  // NOLINT(google-explicit-constructor): one point is one
 
   Proximity deepest;                                  ///< the contact with the depth of the overlap

@@ -12,11 +12,13 @@
 
 namespace supernormal {
 
+/// A triangle of a surface, as the caller has it.
 struct MeshTriangle {
   std::array<Vector3, 3> vertices;  ///< m, world frame; counter-clockwise seen from outside
   int index = 0;                    ///< the caller's name for the triangle
 };
 
+/// A contact of a body with a surface.
 struct MeshContact {
   Proximity proximity;  ///< world frame; body 1 is the body, body 2 the surface
   int triangle = 0;     ///< MeshTriangle::index
@@ -35,8 +37,8 @@ class SUPERNORMAL_API MeshContacts {
  public:
   MeshContacts();
   ~MeshContacts();
-  MeshContacts(MeshContacts&&) noexcept;
-  MeshContacts& operator=(MeshContacts&&) noexcept;
+  MeshContacts(MeshContacts&&) noexcept;             ///< takes over the scratch memory
+  MeshContacts& operator=(MeshContacts&&) noexcept;  ///< takes over the scratch memory
 
   /// The distinct contacts of the body with the surface, deepest first, in the world frame. A contact is a local maximum of the
   /// gap function over the normals of one feature of the surface (lib/proximity/README.md), with a gap that is not positive:

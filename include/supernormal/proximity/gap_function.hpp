@@ -24,6 +24,7 @@ struct SUPERNORMAL_API GapJet {
 /// origin costs no digits. Counts its evaluations. Holds references to the shapes.
 class SUPERNORMAL_API GapFunction {
  public:
+  /// The gap function of two bodies; the poses are in one frame, whatever that is.
   GapFunction(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2);
 
   /// Evaluates at the unit normal n (body 1's frame) and counts one evaluation.
@@ -32,12 +33,13 @@ class SUPERNORMAL_API GapFunction {
   /// H1 + H2, the negative Hessian of s, m; `jet` must have been evaluated with Order::Hessian.
   Matrix3 curvature(const GapJet& jet) const { return jet.jet1.H + rotation_ * jet.jet2.H * rotation_.transpose(); }
 
-  int evaluations() const { return evaluations_; }
-  const Shape& shape1() const { return *shape1_; }
-  const Shape& shape2() const { return *shape2_; }
+  int evaluations() const { return evaluations_; }  ///< how often evaluate() was called
+  const Shape& shape1() const { return *shape1_; }  ///< body 1
+  const Shape& shape2() const { return *shape2_; }  ///< body 2
 
-  /// Centre 2 - centre 1 and the attitude of body 2, in body 1's frame.
+  /// Centre 2 - centre 1, m, in body 1's frame.
   const Vector3& offset() const { return offset_; }
+  /// The attitude of body 2 in body 1's frame.
   const Matrix3& rotation() const { return rotation_; }
 
   /// The unit of length that tolerances refer to: the smallest half-extent of the bodies that are not points, m.
@@ -50,8 +52,8 @@ class SUPERNORMAL_API GapFunction {
   /// The unavoidable rounding error of s, m.
   double rounding() const { return rounding_; }
 
-  bool has_hessian() const { return has_hessian_; }
-  bool is_finite() const;
+  bool has_hessian() const { return has_hessian_; }  ///< whether both shapes deliver Order::Hessian
+  bool is_finite() const;                            ///< whether the poses and the sizes of the shapes are
 
  private:
   const Shape* shape1_;

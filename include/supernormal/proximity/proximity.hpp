@@ -27,11 +27,11 @@ enum class Status {
 ///     error <= tolerance * min(smallest half-extent of body 1, of body 2)
 /// (of the other body alone, when one is a point), but never asks for less than a few units of rounding of the terms of s.
 struct Settings {
-  Solver solver = Solver::Hybrid;
-  double tolerance = 1e-9;       ///< in [1e-15, 1]
-  int max_evaluations = 1000;    ///< in [1, 1000000]
-  bool stop_when_apart = false;  ///< end with Status::Apart at the first normal that proves separation
-  bool certify_depth = false;    ///< search on until the depth of overlapping bodies is proved the smallest: Proximity::is_global
+  Solver solver = Solver::Hybrid;  ///< the method that finds the common normal
+  double tolerance = 1e-9;         ///< in [1e-15, 1]
+  int max_evaluations = 1000;      ///< in [1, 1000000]
+  bool stop_when_apart = false;    ///< end with Status::Apart at the first normal that proves separation
+  bool certify_depth = false;      ///< search on until the depth of overlapping bodies is proved the smallest: Proximity::is_global
 };
 
 /// The common normal of two bodies. Points and the normal are in the frame that the query was asked in.
@@ -43,9 +43,9 @@ struct Proximity {
   Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
   Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
   Eigen::Vector3d contact =
-      Eigen::Vector3d::Zero();  ///< m; where a contact force acts: between the two points, nearer to the sharper body's
-  int evaluations = 0;          ///< evaluations of the gap function
-  Status status = Status::InvalidInput;
+      Eigen::Vector3d::Zero();           ///< m; where a contact force acts: between the two points, nearer to the sharper body's
+  int evaluations = 0;                   ///< evaluations of the gap function
+  Status status = Status::InvalidInput;  ///< how the query ended
   /// Whether it is proved that no other normal has a larger gap: `gap` is then the largest value of the gap function, to within
   /// `error` or the tolerance, whichever is larger, and for overlapping bodies `-gap` is the minimum translation distance (MTD),
   /// the length of the shortest translation that separates them. It is always true for bodies apart or touching (overlapping by

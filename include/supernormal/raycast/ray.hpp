@@ -9,15 +9,15 @@ namespace supernormal {
 
 /// The point where a ray meets the boundary of a body. Point and normal are in the frame that the query was asked in.
 struct RayHit {
-  bool hit = false;                   ///< whether the ray meets the boundary within its length
-  bool from_inside = false;           ///< the origin is inside the body, and the hit is where the ray leaves it
-  double distance = 0;                ///< m; from the origin to the hit, along the ray
-  double distance_error = 0;          ///< m; estimate of the error of `distance`
-  double boundary_error = 0;          ///< m; bound on the distance of `point` from the boundary, to rounding
-  Vector3 point = Vector3::Zero();    ///< m
-  Vector3 normal = Vector3::UnitX();  ///< unit; the outward normal at the hit, also from inside
-  int evaluations = 0;                ///< evaluations of the support function
-  Status status = Status::InvalidInput;
+  bool hit = false;                      ///< whether the ray meets the boundary within its length
+  bool from_inside = false;              ///< the origin is inside the body, and the hit is where the ray leaves it
+  double distance = 0;                   ///< m; from the origin to the hit, along the ray
+  double distance_error = 0;             ///< m; estimate of the error of `distance`
+  double boundary_error = 0;             ///< m; bound on the distance of `point` from the boundary, to rounding
+  Vector3 point = Vector3::Zero();       ///< m
+  Vector3 normal = Vector3::UnitX();     ///< unit; the outward normal at the hit, also from inside
+  int evaluations = 0;                   ///< evaluations of the support function
+  Status status = Status::InvalidInput;  ///< how the query ended
 };
 
 /// Finds the first point of the boundary on the ray from `origin` along `direction`: where the ray enters the body or, when the

@@ -19,7 +19,7 @@ class SUPERNORMAL_API Box final : public Shape {
   double min_curvature_radius_estimate() const override;
   MassProperties mass_properties() const override;
 
-  const Vector3& half_lengths() const { return half_lengths_; }
+  const Vector3& half_lengths() const { return half_lengths_; }  ///< m; along the axes of its frame
 
  private:
   Vector3 half_lengths_;

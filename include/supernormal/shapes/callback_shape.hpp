@@ -11,9 +11,9 @@ namespace supernormal {
 /// Shape does the same; this is for functions that come from elsewhere, such as the C interface.)
 class SUPERNORMAL_API CallbackShape final : public Shape {
  public:
-  using Support = std::function<double(const Vector3& n)>;
-  using Point = std::function<Vector3(const Vector3& n)>;
-  using Hessian = std::function<Matrix3(const Vector3& n)>;
+  using Support = std::function<double(const Vector3& n)>;   ///< h(n), m
+  using Point = std::function<Vector3(const Vector3& n)>;    ///< r(n), m
+  using Hessian = std::function<Matrix3(const Vector3& n)>;  ///< H(n), m
 
   /// `hessian` may be empty. The functions are tried in 26 directions (to the faces, edges and corners of a cube): finite
   /// results, a size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) >= 2e-30 m, no point farther than 1e-6 of

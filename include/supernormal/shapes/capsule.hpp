@@ -21,8 +21,8 @@ class SUPERNORMAL_API Capsule final : public Shape {
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;
 
-  double radius() const { return radius_; }
-  double half_length() const { return half_length_; }
+  double radius() const { return radius_; }            ///< m
+  double half_length() const { return half_length_; }  ///< m; from the centre to the centre of a cap
 
  private:
   double radius_, half_length_;

@@ -21,8 +21,8 @@ class SUPERNORMAL_API Cylinder final : public Shape {
   double min_curvature_radius_estimate() const override;
   MassProperties mass_properties() const override;
 
-  double radius() const { return radius_; }
-  double half_length() const { return half_length_; }
+  double radius() const { return radius_; }            ///< m
+  double half_length() const { return half_length_; }  ///< m; from the centre to a face
 
  private:
   double radius_, half_length_;

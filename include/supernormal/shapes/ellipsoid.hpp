@@ -20,7 +20,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   double rolling_radius() const override;
   MassProperties mass_properties() const override;
 
-  const Vector3& half_axes() const { return half_axes_; }
+  const Vector3& half_axes() const { return half_axes_; }  ///< m; along the axes of its frame
 
  private:
   Vector3 half_axes_;

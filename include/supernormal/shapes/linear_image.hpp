@@ -32,8 +32,8 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   /// These are as exact as the mass properties of the shape.
   MassProperties mass_properties() const override;
 
-  const Shape& shape() const { return *shape_; }
-  const Matrix3& matrix() const { return matrix_; }
+  const Shape& shape() const { return *shape_; }     ///< the shape whose image this is
+  const Matrix3& matrix() const { return matrix_; }  ///< M
 
  private:
   std::shared_ptr<const Shape> shape_;

@@ -28,8 +28,8 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
   double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return first_->rolling_radius() + second_->rolling_radius(); }
 
-  const Shape& first() const { return *first_; }
-  const Shape& second() const { return *second_; }
+  const Shape& first() const { return *first_; }    ///< one of the two shapes
+  const Shape& second() const { return *second_; }  ///< the other
 
  private:
   std::shared_ptr<const Shape> first_, second_;

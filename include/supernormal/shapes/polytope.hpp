@@ -25,7 +25,7 @@ class SUPERNORMAL_API Polytope final : public Shape {
   /// be missing, and relative_error accounts for it.
   MassProperties mass_properties() const override;
 
-  std::span<const Vector3> points() const { return points_; }
+  std::span<const Vector3> points() const { return points_; }  ///< m; those that it was made of
 
  private:
   std::span<const Vector3> points_;

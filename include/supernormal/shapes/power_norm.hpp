@@ -11,26 +11,30 @@ enum class Order;
 /// Value and derivatives of a PowerNorm at (x, y). The second derivatives and dx_over_x carry the factor `value`, which keeps them
 /// finite at the origin: d2/dx2 = xx / value and so on.
 struct PowerNormJet {
-  double value = 0;
-  double dx = 0, dy = 0;          ///< first derivatives, (x/value)^(p-1) and (y/value)^(p-1)
-  double dx_over_x = 0;           ///< value * dx / x, large but finite where p < 2 and x vanishes
-  double xx = 0, xy = 0, yy = 0;  ///< value times the second derivatives
+  double value = 0;      ///< the norm
+  double dx = 0;         ///< first derivative, (x/value)^(p-1)
+  double dy = 0;         ///< (y/value)^(p-1)
+  double dx_over_x = 0;  ///< value * dx / x, large but finite where p < 2 and x vanishes
+  double xx = 0;         ///< value times the second derivative with respect to x
+  double xy = 0;         ///< value times the mixed one
+  double yy = 0;         ///< value times that with respect to y
 };
 
 class PowerNorm;
 
 /// A request: a norm, the point at which it is evaluated, and the result.
 struct PowerNormRequest {
-  const PowerNorm* norm;
-  double x, y;  ///< not negative
-  PowerNormJet jet;
+  const PowerNorm* norm;  ///< the norm
+  double x;               ///< not negative
+  double y;               ///< not negative
+  PowerNormJet jet;       ///< the result
 };
 
 /// A request for a norm of three numbers, and the result.
 struct PowerNorm3Request {
-  const PowerNorm* norm;
-  std::array<double, 3> x;  ///< not negative
-  double value = 0;
+  const PowerNorm* norm;          ///< the norm
+  std::array<double, 3> x;        ///< not negative
+  double value = 0;               ///< the norm of x
   std::array<double, 3> slope{};  ///< first derivatives
   std::array<double, 3> bend{};   ///< value times the second derivatives; the mixed ones are -(p - 1) slope[i] slope[j] / value
 };
@@ -45,6 +49,7 @@ class PowerNorm {
   /// The dual norm of `exponent`: p = exponent/(exponent - 1), with p - 1 and 1/p free of cancellation.
   static PowerNorm dual_to_exponent(double exponent);
 
+  /// The norm of x and y, which are not negative.
   double value(double x, double y) const;
 
   /// Value and first derivatives. At the origin, where the direction is undefined, they are those for x = y.
@@ -68,7 +73,7 @@ class PowerNorm {
   /// Whether none of three numbers vanishes beside the others, so that no derivative has to be kept finite.
   static bool is_plain(double x, double y, double z);
 
-  double p_minus_1() const { return p_minus_1_; }
+  double p_minus_1() const { return p_minus_1_; }  ///< p - 1, without cancellation
 
  private:
   PowerNorm(double p, double p_minus_1, double inverse_p);

@@ -30,8 +30,8 @@ class SUPERNORMAL_API Rounded final : public Shape {
   /// use Shape::mass_properties(), which does not see flat faces: see relative_error there.
   MassProperties mass_properties() const override;
 
-  const Shape& core() const { return *core_; }
-  double radius() const { return radius_; }
+  const Shape& core() const { return *core_; }  ///< the shape without the rounding
+  double radius() const { return radius_; }     ///< m
 
  private:
   std::shared_ptr<const Shape> core_;

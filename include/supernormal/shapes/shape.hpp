@@ -9,8 +9,8 @@
 
 namespace supernormal {
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
+using Vector3 = Eigen::Vector3d;  ///< a point, a direction or three lengths
+using Matrix3 = Eigen::Matrix3d;  ///< a rotation, a Hessian or an inertia tensor
 
 /// How much an evaluation has to deliver; each level includes those before it.
 enum class Order {
@@ -44,16 +44,16 @@ struct MassProperties {
 /// Some points of a body that has faces or straight edges, in its own frame: see Shape::add_active_vertices.
 class ActiveVertices {
  public:
-  static constexpr int kCapacity = 8;
+  static constexpr int kCapacity = 8;  ///< the most points that a list holds
 
-  void clear() { *this = ActiveVertices(); }
-  void add(const Vector3& point) { points_[static_cast<std::size_t>(count_++)] = point; }
-  int size() const { return count_; }
-  const Vector3& operator[](int k) const { return points_[static_cast<std::size_t>(k)]; }
+  void clear() { *this = ActiveVertices(); }                                               ///< empties the list
+  void add(const Vector3& point) { points_[static_cast<std::size_t>(count_++)] = point; }  ///< m; at most kCapacity
+  int size() const { return count_; }                                                      ///< how many points there are
+  const Vector3& operator[](int k) const { return points_[static_cast<std::size_t>(k)]; }  ///< m; point k, from 0 to size() - 1
 
   /// Whether the body has more corners than the list names. They must then be the same points for every normal.
   bool is_partial() const { return is_partial_; }
-  void set_partial() { is_partial_ = true; }
+  void set_partial() { is_partial_ = true; }  ///< says that the body has more corners
 
  private:
   std::array<Vector3, kCapacity> points_;

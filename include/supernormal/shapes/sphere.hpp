@@ -19,7 +19,7 @@ class SUPERNORMAL_API Sphere final : public Shape {
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;
 
-  double radius() const { return radius_; }
+  double radius() const { return radius_; }  ///< m
 
  private:
   double radius_;

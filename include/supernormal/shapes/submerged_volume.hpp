@@ -8,6 +8,7 @@
 
 namespace supernormal {
 
+/// The part of a body that is under water.
 struct Submerged {
   double volume = 0;                 ///< m^3
   Vector3 centre = Vector3::Zero();  ///< m; centre of the submerged volume, in the body's frame
@@ -20,7 +21,7 @@ class SUPERNORMAL_API SubmergedVolume {
   /// Builds the mesh; the shape is not kept.
   explicit SubmergedVolume(const Shape& shape);
 
-  double volume() const { return whole_.volume; }
+  double volume() const { return whole_.volume; }  ///< m^3; of the whole body
 
   /// The part with up.x <= level; `up` is a unit vector in the body's frame, level in m.
   Submerged below(const Vector3& up, double level) const;

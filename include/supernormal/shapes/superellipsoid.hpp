@@ -18,8 +18,8 @@ namespace supernormal {
 /// of Roemer's paper has a misprinted exponent; this one satisfies the implicit equation.
 class SUPERNORMAL_API Superellipsoid final : public Shape {
  public:
-  static constexpr double kMinExponent = 1.01;
-  static constexpr double kMaxExponent = 1000;
+  static constexpr double kMinExponent = 1.01;  ///< the smallest exponent
+  static constexpr double kMaxExponent = 1000;  ///< the largest
 
   /// Half-axes in m, finite and in [1e-30, 1e30]; exponents in [kMinExponent, kMaxExponent]; std::invalid_argument otherwise.
   Superellipsoid(const Vector3& half_axes, double delta, double epsilon);
@@ -28,9 +28,9 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   /// A request: a body, a unit normal, and where its jet goes.
   struct EvalRequest {
-    const Superellipsoid* body;
-    const Vector3* n;
-    Jet* jet;
+    const Superellipsoid* body;  ///< the body
+    const Vector3* n;            ///< unit, in its frame
+    Jet* jet;                    ///< the result
   };
 
   /// Evaluates two bodies in two thirds of the time that two calls of evaluate() take, with the same digits.
@@ -53,9 +53,9 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   double rolling_radius() const override { return rolling_radius_; }
   MassProperties mass_properties() const override;
 
-  const Vector3& half_axes() const { return half_axes_; }
-  double delta() const { return delta_; }
-  double epsilon() const { return epsilon_; }
+  const Vector3& half_axes() const { return half_axes_; }  ///< m; a, b and c
+  double delta() const { return delta_; }                  ///< exponent of the section
+  double epsilon() const { return epsilon_; }              ///< exponent of the meridian
 
  private:
   // The caps of a superellipsoid with exponents up to this are wider than an ellipsoid's by at most 0.21 of the body's width.

@@ -22,8 +22,8 @@ namespace supernormal {
 /// then follow by implicit differentiation. At the limit of convexity the largest radius of curvature is infinite.
 class SUPERNORMAL_API Superovoid final : public Shape {
  public:
-  static constexpr double kMinExponent = 1.01;
-  static constexpr double kMaxExponent = 1000;
+  static constexpr double kMinExponent = 1.01;  ///< the smallest exponent
+  static constexpr double kMaxExponent = 1000;  ///< the largest
 
   /// Half-axes in m, finite and in [1e-30, 1e30]; exponents in [kMinExponent, kMaxExponent]; tapers such that the body is convex,
   /// see above. std::invalid_argument otherwise, with the condition that fails.
@@ -48,10 +48,10 @@ class SUPERNORMAL_API Superovoid final : public Shape {
 
   /// The half-axes a, b, c of the superellipsoid that is tapered.
   const Vector3& half_axes() const { return half_axes_; }
-  double delta() const { return delta_; }
-  double epsilon() const { return epsilon_; }
-  double taper_x() const { return taper_x_; }
-  double taper_y() const { return taper_y_; }
+  double delta() const { return delta_; }      ///< exponent of the section
+  double epsilon() const { return epsilon_; }  ///< exponent of the meridian
+  double taper_x() const { return taper_x_; }  ///< of the half-axis a: (1 + taper_x z/c) a
+  double taper_y() const { return taper_y_; }  ///< of the half-axis b
 
  private:
   Vector3 half_axes_;

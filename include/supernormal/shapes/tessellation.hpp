@@ -12,9 +12,9 @@ namespace supernormal {
 
 /// Triangles whose corners are boundary points of a body, anticlockwise as seen from outside.
 struct Tessellation {
-  std::vector<Vector3> points;   ///< m, in the body's frame
-  std::vector<Vector3> normals;  ///< unit, outward; of the points
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vector3> points;                          ///< m, in the body's frame
+  std::vector<Vector3> normals;                         ///< unit, outward; of the points
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners of each, numbers of points
 };
 
 /// A mesh of `shape` whose edges are no farther than `chord_error` (m) from the boundary; its corners are on the boundary, and it
@@ -30,6 +30,7 @@ struct Tessellation {
 /// then has four million triangles.
 SUPERNORMAL_API Tessellation tessellate(const Shape& shape, double chord_error);
 
+/// The smallest chord error, in units of the largest half-extent.
 inline constexpr double kLeastChordError = 1e-6;
 
 }  // namespace supernormal
