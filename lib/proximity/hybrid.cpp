@@ -88,7 +88,7 @@ Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3
   const CertifiedNewton::End end = newton.run(start, branch);
   if (end == CertifiedNewton::End::Open) return climb_and_search(gap, settings, cuts, newton.best(), branch);
   const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
-  Proximity out = answer(gap, settings, newton.best(), std::numeric_limits<double>::infinity(), status);
+  Proximity out = answer(gap, settings, newton.best(), newton.error(), status);
   out.contact = contact_point(gap, newton.best());
   return out;
 }

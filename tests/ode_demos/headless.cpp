@@ -1,83 +1,98 @@
-// Replaces the drawing functions and dCreateBox of ODE's demos, without a window: runs the demo's loop for DEMO_FRAMES frames,
-// and creates each box as a dBox, or with DEMO_EXPONENT as a superellipsoid of that exponent. Prints for every box where its
-// centre was at first, where it is in the end, and its lowest position, in m.
-
+// Replaces the drawing functions of ODE's demos, without a window: runs the demo's loop for DEMO_FRAMES frames, in which the keys
+// DEMO_KEYS are pressed, one every DEMO_KEY_FRAMES frames. Prints for every sphere and box that a body carries where its centre was at
+// first, where it is in the end, and its lowest position, in m; and the processor time, counts of collisions and the messages of ODE.
 #include <drawstuff/drawstuff.h>
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
 
 #include <algorithm>
-#include <array>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
+#include <ctime>
+#include <string>
+
+#include "replaced.hpp"
 
 namespace {
 
 // Simulated time of a frame, for demos that ask; s.
 constexpr double kFrame = 0.02;
 
-struct Box {
-  dGeomID geom;
-  std::array<double, 3> start{};
-  double lowest = 0;
-};
+// ODE draws the demo's objects and shuffles the rows of quickstep by this seed. Before main(), since demos draw there.
+[[gnu::constructor]] void set_seed() { dRandSetSeed(static_cast<unsigned long>(number_from("DEMO_SEED"))); }
 
-std::vector<Box>& boxes() {
-  static std::vector<Box> all;
-  return all;
+void print_message(int number, const char* format, va_list arguments) {
+  std::printf("message %d ", number);
+  std::vprintf(format, arguments);
+  std::printf("\n");
 }
 
-double number_from(const char* name) {
-  const char* const text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): there is one thread
-  return text == nullptr ? 0 : std::strtod(text, nullptr);
+void follow(Replaceable& known) {
+  const dReal* const place = dGeomGetPosition(known.geom);
+  if (!known.has_started) {
+    known.has_started = true;
+    known.start = {double{place[0]}, double{place[1]}, double{place[2]}};
+    known.lowest = known.start[2];
+  }
+  known.lowest = std::min(known.lowest, double{place[2]});
 }
 
-void remember_start(Box& box) {
-  const dReal* const place = dGeomGetPosition(box.geom);
-  box.start = {double{place[0]}, double{place[1]}, double{place[2]}};
-  box.lowest = box.start[2];
+void print(const Replaceable& known) {
+  const dReal* const place = dGeomGetPosition(known.geom);
+  const char* const kind = demo_geom_get_class(known.geom) == dBoxClass ? "box" : "sphere";
+  std::printf("%s %.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", kind, known.start[0], known.start[1], known.start[2], double{place[0]},
+              double{place[1]}, double{place[2]}, known.lowest);
 }
 
-void print(const Box& box) {
-  const dReal* const place = dGeomGetPosition(box.geom);
-  std::printf("box %.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", box.start[0], box.start[1], box.start[2], double{place[0]},
-              double{place[1]}, double{place[2]}, box.lowest);
+/// Presses the keys that are due in this frame.
+void press_keys(const dsFunctions& demo, const std::string& keys, int frame) {
+  const int every = std::max(1, static_cast<int>(number_from("DEMO_KEY_FRAMES")));
+  const auto due = static_cast<std::size_t>(frame / every);
+  if (frame % every == 0 && due < keys.size()) demo.command(keys[due]);
 }
 
 }  // namespace
 
 extern "C" {
 
-// The name that the demos are compiled with in place of dCreateBox.
-dGeomID demo_create_box(dSpaceID space, dReal lx, dReal ly, dReal lz) {
-  const auto exponent = static_cast<dReal>(number_from("DEMO_EXPONENT"));
-  const dGeomID geom =
-      exponent > 0 ? snCreateSuperellipsoid(space, lx / 2, ly / 2, lz / 2, exponent, exponent) : dCreateBox(space, lx, ly, lz);
-  if (geom == nullptr) {
-    std::fprintf(stderr, "%s\n", snLastError());
-    std::abort();
-  }
-  boxes().push_back({geom});
-  return geom;
-}
-
 void dsSimulationLoop(int, char**, int, int, dsFunctions* demo) {
-  dRandSetSeed(static_cast<unsigned long>(number_from("DEMO_SEED")));  // quickstep shuffles its rows
+  dSetMessageHandler(print_message);
+  const char* const keys = std::getenv("DEMO_KEYS");  // NOLINT(concurrency-mt-unsafe): there is one thread
   if (demo->start != nullptr) demo->start();
-  for (Box& box : boxes()) remember_start(box);
+  for (Replaceable& known : replaceables()) follow(known);
+  const std::clock_t begin = std::clock();
   for (int frame = 0; frame < number_from("DEMO_FRAMES"); ++frame) {
+    press_keys(*demo, keys == nullptr ? "" : keys, frame);
     demo->step(0);
-    for (Box& box : boxes()) box.lowest = std::min(box.lowest, double{dGeomGetPosition(box.geom)[2]});
+    for (Replaceable& known : replaceables()) follow(known);
+  }
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  for (const Replaceable& known : replaceables()) {
+    if (dGeomGetBody(known.geom) != nullptr) print(known);
   }
   if (demo->stop != nullptr) demo->stop();
-  for (const Box& box : boxes()) print(box);
+  std::printf("seconds %.4f\ncalls %llu\ncontacts %llu\nerror %s\n", seconds, collision_counts().calls_with_ours,
+              collision_counts().contacts, snLastError());
 }
 
 double dsElapsedTime() { return kFrame; }
 void dsSetViewpoint(float*, float*) {}
 void dsSetColor(float, float, float) {}
+void dsSetColorAlpha(float, float, float, float) {}
+void dsSetTexture(int) {}
+void dsSetSphereQuality(int) {}
+void dsSetCapsuleQuality(int) {}
+void dsDrawBox(const float*, const float*, const float*) {}
+void dsDrawSphere(const float*, const float*, float) {}
+void dsDrawTriangle(const float*, const float*, const float*, const float*, const float*, int) {}
+void dsDrawCylinder(const float*, const float*, float, float) {}
 void dsDrawBoxD(const double*, const double*, const double*) {}
+void dsDrawSphereD(const double*, const double*, float) {}
+void dsDrawTriangleD(const double*, const double*, const double*, const double*, const double*, int) {}
 void dsDrawCylinderD(const double*, const double*, float, float) {}
+void dsDrawCapsuleD(const double*, const double*, float, float) {}
+void dsDrawLineD(const double*, const double*) {}
+void dsDrawConvexD(const double*, const double*, const double*, unsigned, const double*, unsigned, const unsigned*) {}
 
 }  // extern "C"

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "proximity/answer.hpp"
+#include "proximity/bounds/minimum_norm_point.hpp"
 #include "proximity/tuning.hpp"
 
 namespace supernormal {
@@ -15,6 +17,9 @@ constexpr double kFlattest = 1e8;
 
 // A normal that is this near to being across another has no useful gnomonic coordinates (cosine).
 constexpr double kGrazing = 1e-6;
+
+// Two tilts find the other sides of the line where a triangle meets it; one more mends what rounding leaves.
+constexpr int kMostTilts = 3;
 
 }  // namespace
 
@@ -34,11 +39,15 @@ CertifiedNewton::End CertifiedNewton::run(const Vector3& start, Branch branch) {
     if (settings_.stop_when_apart && best().s > 0) return End::Apart;
     if (is_proved()) return End::Proved;
     Vector3 step;
-    if (!propose(step) || !climb(step)) return End::Open;
+    if (propose(step) && climb(step)) continue;
+    return has_flat_faces_ && prove_by_tilts() ? End::Proved : End::Open;
   }
 }
 
-bool CertifiedNewton::is_proved() const { return is_within_reach() && optimality_gap_bound(best(), rolling_radius_) <= tolerance_; }
+bool CertifiedNewton::is_proved() {
+  error_ = optimality_gap_bound(best(), rolling_radius_);
+  return is_within_reach() && error_ <= tolerance_;
+}
 
 bool CertifiedNewton::evaluate(const Vector3& n) {
   gap_.evaluate(n, Order::Hessian, next());
@@ -102,9 +111,31 @@ bool CertifiedNewton::climb(Vector3 step) {
       best_ = 1 - best_;
       return true;
     }
+    // A face is level: no shorter step leads higher.
+    if (has_flat_faces_ && next().s >= best().s - gap_.rounding()) return false;
     step *= kTuning.backtrack;
   }
   return false;
+}
+
+// On a flat face the boundary point crosses the face within a turn of the normal that is below rounding, and d(n) does not come near
+// the line of n. But n tilted by so little that s cannot change by the tolerance has a boundary point on the other side of that line:
+// hulls of few such points meet it.
+bool CertifiedNewton::prove_by_tilts() {
+  if (!is_within_reach()) return false;
+  const Vector3 n = best().n;
+  const double height = best().s + rolling_radius_;
+  const int most = std::min(settings_.max_evaluations, gap_.evaluations() + kMostTilts);
+  while (true) {
+    const MinimumNormPoint nearest = minimum_norm_point(cuts_.points());
+    error_ = std::max(nearest.norm - height, 0.0);
+    if (error_ <= tolerance_) return true;
+    if (gap_.evaluations() >= most) return false;
+    const Vector3 beside = nearest.point - nearest.point.dot(n) * n;
+    const double distance = beside.norm();
+    const double tilt = tolerance_ / std::max(distance, gap_.length_unit());
+    if (!(distance > 0) || !evaluate((n + tilt / distance * beside).normalized())) return false;
+  }
 }
 
 }  // namespace supernormal

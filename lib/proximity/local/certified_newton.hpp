@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "proximity/bounds/cutting_planes.hpp"
 #include "proximity/local/regular_hessian.hpp"
@@ -45,10 +46,13 @@ class CertifiedNewton {
   /// The highest normal evaluated, with its Hessians.
   const GapJet& best() const { return jets_[best_]; }
 
+  /// m; after Proved, what is left to the maximum at most.
+  double error() const { return error_; }
+
  private:
   GapJet& next() { return jets_[1 - best_]; }
   bool is_within_reach() const { return best().s + rolling_radius_ > 0; }
-  bool is_proved() const;
+  bool is_proved();
   /// Evaluates; whether that gave numbers.
   bool evaluate(const Vector3& n);
   /// A step across the best normal, gnomonic, that leads up; false if there is none to be trusted.
@@ -57,6 +61,8 @@ class CertifiedNewton {
   bool through_boundary_points(const RegularHessian& hessian, const Matrix3& H2, Vector3& step) const;
   /// Evaluates at the end of the step, or of a shorter one, until the normal there is higher than the best, and takes its place.
   bool climb(Vector3 step);
+  /// Whether the best normal is proved by the hull of what was evaluated and a few normals beside it.
+  bool prove_by_tilts();
 
   GapFunction& gap_;
   CuttingPlanes& cuts_;
@@ -66,6 +72,7 @@ class CertifiedNewton {
   const bool has_flat_faces_;
   std::array<GapJet, 2> jets_;  // the best and the next, which change places
   std::size_t best_ = 0;
+  double error_ = std::numeric_limits<double>::infinity();  // m
 };
 
 }  // namespace supernormal

@@ -1,0 +1,23 @@
+# Sourced from the root of the repository: builds ODE's demos as they are, without a window, into build/ode_demos/NAME, with our class
+# at hand in place of spheres and boxes (replaced.h). Their source is that of the installed package (tests/ode_source.bash).
+. tests/ode_source.bash
+demos=$PWD/build/ode_demos
+
+# build_demos NAME...
+build_demos() {
+  local ours=(-Iinclude -Ibuild/release/include) compiler=${CXX:-c++} demo source ode libraries unit
+  [[ -d $demos/fetched ]] || { rm -rf "$demos" && fetch_ode_source "$demos" && mkdir "$demos/fetched"; }
+  source=$(echo "$demos"/source/ode-*/)
+  cmake --preset release >/dev/null
+  cmake --build --preset release --target supernormal >/dev/null
+  read -ra ode <<<"$(pkg-config --cflags ode)"
+  read -ra libraries <<<"$(pkg-config --libs ode)"
+  for unit in headless replaced; do
+    "$compiler" -std=c++20 -O2 "${ours[@]}" "${ode[@]}" -idirafter "$source/include" -c "tests/ode_demos/$unit.cpp" -o "$demos/$unit.o"
+  done
+  for demo in "$@"; do
+    "$compiler" -O2 -w "${ode[@]}" -include tests/ode_demos/replaced.h -idirafter "$source/include" "$source/ode/demo/demo_$demo.cpp" \
+      "$demos/headless.o" "$demos/replaced.o" -o "$demos/$demo" -Lbuild/release/lib -lsupernormal "${libraries[@]}" \
+      "-Wl,-rpath,$PWD/build/release/lib"
+  done
+}
