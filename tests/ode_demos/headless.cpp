@@ -72,8 +72,11 @@ void dsSimulationLoop(int, char**, int, int, dsFunctions* demo) {
     if (dGeomGetBody(known.geom) != nullptr) print(known);
   }
   if (demo->stop != nullptr) demo->stop();
-  std::printf("seconds %.4f\ncalls %llu\ncontacts %llu\nerror %s\n", seconds, collision_counts().calls_with_ours,
-              collision_counts().contacts, snLastError());
+  snStatistics ours;
+  snGetStatistics(&ours);
+  std::printf("seconds %.4f\ncalls %llu\ncontacts %llu\nour_calls %llu\n", seconds, collision_counts().calls,
+              collision_counts().contacts, ours.queries_cold + ours.queries_warm + ours.closed_forms);
+  if (*snLastError() != '\0') std::printf("message %s\n", snLastError());
 }
 
 double dsElapsedTime() { return kFrame; }

@@ -101,12 +101,14 @@ void demo_box_get_lengths(dGeomID geom, dReal* lengths) {
 
 int demo_collide(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
   const int found = dCollide(g1, g2, flags, contacts, skip);
-  counts().calls_with_ours += is_ours(g1) || is_ours(g2) ? 1U : 0U;
+  counts().calls += 1;
   counts().contacts += static_cast<unsigned>(found);
   return found;
 }
 
-// Without threads a run has the same digits every time, and its processor time is that of its work.
-void demo_set_threading(dWorldID, const dThreadingFunctionsInfo*, dThreadingImplementationID) {}
+// Without the demo's threads a run has the same digits every time, and its processor time is that of its work.
+void demo_set_threading(dWorldID world, const dThreadingFunctionsInfo* functions, dThreadingImplementationID threading) {
+  if (number_from("DEMO_THREADS") > 0) dWorldSetStepThreadingImplementation(world, functions, threading);
+}
 
 }  // extern "C"

@@ -21,8 +21,8 @@ struct Replaceable {
 std::vector<Replaceable>& replaceables();
 
 struct CollisionCounts {
-  unsigned long long calls_with_ours = 0;  // calls of dCollide with a geom of our class
-  unsigned long long contacts = 0;         // what all calls of dCollide returned
+  unsigned long long calls = 0;     // of dCollide
+  unsigned long long contacts = 0;  // that these returned
 };
 
 const CollisionCounts& collision_counts();

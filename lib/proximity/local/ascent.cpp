@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "proximity/answer.hpp"
-#include "proximity/bounds/minimum_norm_point.hpp"
 #include "proximity/tuning.hpp"
 
 namespace supernormal {
@@ -123,7 +122,7 @@ Step Ascent::choose_step() {
 // Every p in the hull of the cuts has s + rho <= m.p <= |p| for every unit m.
 void Ascent::ask_hull(bool must_replace, Step& step) {
   keep_own_cut();
-  const auto [point, upper, normal] = minimum_norm_point(cuts_.points());
+  const auto [point, upper, normal] = hull_.update(cuts_.points());
   is_overlap_proved_ = !is_concave() && upper <= gap_.rounding();
   if (is_overlap_proved_) return;
   error_ = is_concave() ? std::max(upper - height(), 0.0) : std::numeric_limits<double>::infinity();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "proximity/bounds/cutting_planes.hpp"
+#include "proximity/bounds/minimum_norm_point.hpp"
 #include "proximity/local/bfgs_hessian.hpp"
 #include "proximity/local/model_step.hpp"
 #include "proximity/local/vertex_cache.hpp"
@@ -81,6 +82,7 @@ class Ascent {
   const double tolerance_;       // m
   const double rolling_radius_;  // m; rho, of the difference of the bodies
   const bool has_kinks_;
+  MinimumNormSearch hull_;  // of all cuts
   VertexCache vertices_;
   BfgsHessian bfgs_;
   ModelStep model_;

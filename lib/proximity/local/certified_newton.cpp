@@ -118,9 +118,9 @@ bool CertifiedNewton::climb(Vector3 step) {
   return false;
 }
 
-// On a flat face the boundary point crosses the face within a turn of the normal that is below rounding, and d(n) does not come near
-// the line of n. But n tilted by so little that s cannot change by the tolerance has a boundary point on the other side of that line:
-// hulls of few such points meet it.
+// On a flat face the boundary point crosses the face within a turn of the normal that is below rounding, and d(n) does not come
+// near the line of n. But n tilted by so little that s cannot change by the tolerance has a boundary point on the other side of
+// that line: hulls of few such points meet it.
 bool CertifiedNewton::prove_by_tilts() {
   if (!is_within_reach()) return false;
   const Vector3 n = best().n;
