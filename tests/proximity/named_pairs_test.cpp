@@ -119,3 +119,28 @@ TEST_CASE("homothetic aligned bodies touch where their common boundary says so")
     }
   }
 }
+
+// The boundary points of two faces are known to no digit, so that one evaluation proves nothing; three or four do, where the faces
+// are level to rounding all the way to the middle of what they have in common.
+TEST_CASE("bricks that lie on one another, beside one another's middle: the same pose again takes some four evaluations") {
+  int evaluations = 0, queries = 0;
+  for (const double exponent : {40.0, 60.0, 200.0}) {
+    const Superellipsoid brick(Vector3(0.5, 0.4, 0.3), exponent, exponent);
+    for (const double gap : {1e-6, 0.0, -1e-6, -1e-4}) {
+      for (const Vector3& normal : random_normals(100, 22)) {
+        const Eigen::Quaterniond attitude(Eigen::AngleAxisd(1e-5 * normal.x(), normal));
+        const Pose above = at({0.45 * normal.x(), 0.35 * normal.y(), 0.6 + gap}, attitude);
+        const Proximity first = find_proximity(brick, {}, brick, above);
+        const Proximity again = find_proximity(brick, {}, brick, above, {}, &first.normal);
+        CHECK(again.status == Status::Converged);
+        CHECK(again.is_global);
+        CHECK(std::abs(again.gap - first.gap) <= first.error + again.error);
+        evaluations += again.evaluations;
+        ++queries;
+      }
+    }
+  }
+  const double mean = 1.0 * evaluations / queries;
+  MESSAGE(mean, " evaluations on average");
+  CHECK(mean <= 4.5);
+}

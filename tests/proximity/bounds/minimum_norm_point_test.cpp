@@ -158,6 +158,24 @@ TEST_CASE("random points: the nearest point of the hull is that of the brute for
   CHECK(outside > 500);
 }
 
+TEST_CASE("a search that goes on with more points finds the nearest point of all, also of those that are not named again") {
+  Draw draw(76);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vector3 centre = draw.uniform(0, 2) * draw.vector();
+    Points points;
+    MinimumNormSearch search;
+    for (int count = 0; count < 9; ++count) {
+      points.emplace_back(centre + draw.vector());
+      const Points named(points.begin() + (count > 5 ? count - 5 : 0), points.end());
+      const double norm = search.update(named).norm;
+      // What is named no more may have been a vertex of the simplex, or not.
+      CHECK(norm >= BruteForce(points).distance() - 1e-14 * largest_of(points));
+      CHECK(norm <= BruteForce(named).distance() + 1e-14 * largest_of(points));
+    }
+    CHECK(search.around().has_value() == (search.update(points).norm == 0));
+  }
+}
+
 TEST_CASE("one point is its own hull") {
   const Vector3 point(0.3, -0.7, 1e-5);
   CHECK(nearest_of({point}) == point);
