@@ -70,7 +70,7 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPl
   }
   out.contact = contact_point(gap, best);
   if (gap.shape2().has_kinks() && status != Status::InvalidInput) {
-    const Vector3 held = VertexCache(gap).held_normal(best);
+    const Vector3 held = ascent.best().n == best.n ? ascent.held_normal() : VertexCache(gap).held_normal(best);
     if ((held - best.n).norm() <= kSameNormal) out.normal = held;
   }
   return out;

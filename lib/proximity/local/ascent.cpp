@@ -28,7 +28,7 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, 
 
 Status Ascent::climb(const Vector3& start, double cutoff) {
   restart();
-  evaluate(start, current(), active_[now_]);
+  evaluate(start, now_);
   if (!gap_.has_hessian()) bfgs_.restart(current());
   return climb_on(cutoff);
 }
@@ -61,7 +61,7 @@ Status Ascent::climb_on(double cutoff) {
       if (has_kinks_ && is_from_bounds_) go_to_stratum();
       return status;
     }
-    evaluate(step.normal.normalized(), trial(), active_[1 - now_]);
+    evaluate(step.normal.normalized(), 1 - now_);
     if (!gap_.has_hessian()) learn_hessian();
     const double actual_gain = trial().s - current().s;
     if (!is_from_hull_) adapt_radius(step, actual_gain);
@@ -81,7 +81,7 @@ Status Ascent::climb_on(double cutoff) {
 void Ascent::go_to_stratum() {
   const Step step = model_.propose(current(), active_[now_], bfgs_, kTuning.longest_step);
   if (model_.leaves_face() || gap_.evaluations() >= settings_.max_evaluations) return;
-  evaluate(step.normal.normalized(), trial(), active_[1 - now_]);
+  evaluate(step.normal.normalized(), 1 - now_);
   // What a bound has proved of the normal must hold for the other one, too.
   const bool is_as_good = error_ <= tolerance_ || optimality_gap_bound(trial(), rolling_radius_) <= tolerance_;
   if (is_as_good && trial().s >= current().s - gap_.rounding()) now_ = 1 - now_;
@@ -173,9 +173,10 @@ bool Ascent::is_level_but_flatter(double actual_gain) const {
   return std::abs(actual_gain) <= gap_.rounding() && slope(trial()) < slope(current());
 }
 
-void Ascent::evaluate(const Vector3& normal, GapJet& jet, ActiveVertices& active) {
+void Ascent::evaluate(const Vector3& normal, std::size_t place) {
+  GapJet& jet = jets_[place];
   gap_.evaluate(normal, gap_.has_hessian() ? Order::Hessian : Order::Point, jet);
-  if (has_kinks_) vertices_.project_witness(jet, active);
+  if (has_kinks_) held_[place] = vertices_.shared_normal(vertices_.project_witness(jet, active_[place]), jet.n).normalized();
   cuts_.add(jet.d + rolling_radius_ * jet.n);
 }
 

@@ -45,6 +45,9 @@ class Ascent {
   /// The highest normal of the last climb, with its Hessians.
   const GapJet& best() const { return current(); }
 
+  /// Where body 2 has kinks: the normal of the face or edge that holds that of best() (VertexCache::held_normal).
+  const Vector3& held_normal() const { return held_[now_]; }
+
   /// m; what is left to the maximum: proved where s + rho is concave, an estimate for the local maximum elsewhere.
   double error() const { return error_; }
 
@@ -72,7 +75,8 @@ class Ascent {
   void keep_own_cut();
   bool is_ruled_out(const Step& step) const;
   bool is_level_but_flatter(double actual_gain) const;
-  void evaluate(const Vector3& normal, GapJet& jet, ActiveVertices& active);
+  /// Into the current place or the other one.
+  void evaluate(const Vector3& normal, std::size_t place);
   void learn_hessian();
   void adapt_radius(const Step& step, double actual_gain);
 
@@ -88,6 +92,7 @@ class Ascent {
   ModelStep model_;
   std::array<GapJet, 2> jets_;            // current and trial, which change places
   std::array<ActiveVertices, 2> active_;  // theirs
+  std::array<Vector3, 2> held_;           // theirs
   std::size_t now_ = 0;
   bool is_overlap_proved_ = false;
   LocalCandidate candidate_;
