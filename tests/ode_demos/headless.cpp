@@ -1,6 +1,7 @@
 // Replaces the drawing functions of ODE's demos, without a window: runs the demo's loop for DEMO_FRAMES frames, in which the keys
-// DEMO_KEYS are pressed, one every DEMO_KEY_FRAMES frames. Prints for every sphere and box that a body carries where its centre was at
-// first, where it is in the end, and its lowest position, in m; and the processor time, counts of collisions and the messages of ODE.
+// DEMO_KEYS are pressed, one every DEMO_KEY_FRAMES frames. Prints for every sphere and box that a body carries where its centre was
+// at first, where it is in the end, and its lowest position, in m; and the processor time, counts of collisions and the messages of
+// ODE.
 #include <drawstuff/drawstuff.h>
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>

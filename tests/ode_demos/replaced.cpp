@@ -1,6 +1,6 @@
-// ODE's functions for spheres and boxes as the demos call them (replaced.h). With DEMO_SPHERES=1 a sphere is an ellipsoid of ours, with
-// DEMO_EXPONENT a box is a superellipsoid of that exponent; otherwise they are ODE's own. Classes and sizes are answered as of the
-// geom that the demo asked for, since the demo chooses friction and drawing by them.
+// ODE's functions for spheres and boxes as the demos call them (replaced.h). With DEMO_SPHERES=1 a sphere is an ellipsoid of ours,
+// with DEMO_EXPONENT a box is a superellipsoid of that exponent; otherwise they are ODE's own. Classes and sizes are answered as of
+// the geom that the demo asked for, since the demo chooses friction and drawing by them.
 #include "replaced.hpp"
 
 #include <supernormal/supernormal.h>
@@ -85,9 +85,7 @@ void demo_sphere_set_radius(dGeomID geom, dReal radius) {
   if (snGeomSuperellipsoidSetParams(geom, radius, radius, radius, kRound, kRound) == 0) std::abort();
 }
 
-dReal demo_sphere_get_radius(dGeomID geom) {
-  return is_ours(geom) ? size_of(geom).half_axes[0] : dGeomSphereGetRadius(geom);
-}
+dReal demo_sphere_get_radius(dGeomID geom) { return is_ours(geom) ? size_of(geom).half_axes[0] : dGeomSphereGetRadius(geom); }
 
 dReal demo_sphere_point_depth(dGeomID geom, dReal x, dReal y, dReal z) {
   return is_ours(geom) ? snGeomPointDepth(geom, x, y, z) : dGeomSpherePointDepth(geom, x, y, z);
