@@ -5,7 +5,7 @@ demos=$PWD/build/ode_demos
 
 # build_demos NAME...
 build_demos() {
-  local ours=(-Iinclude -Ibuild/release/include) compiler=${CXX:-c++} demo source ode libraries unit
+  local headers=(-Iinclude -Ibuild/release/include) compiler=${CXX:-c++} demo source ode libraries unit
   [[ -d $demos/fetched ]] || { rm -rf "$demos" && fetch_ode_source "$demos" && mkdir "$demos/fetched"; }
   source=$(echo "$demos"/source/ode-*/)
   cmake --preset release >/dev/null
@@ -13,7 +13,7 @@ build_demos() {
   read -ra ode <<<"$(pkg-config --cflags ode)"
   read -ra libraries <<<"$(pkg-config --libs ode)"
   for unit in headless replaced; do
-    "$compiler" -std=c++20 -O2 "${ours[@]}" "${ode[@]}" -idirafter "$source/include" -c "tests/ode_demos/$unit.cpp" -o "$demos/$unit.o"
+    "$compiler" -std=c++20 -O2 "${headers[@]}" "${ode[@]}" -idirafter "$source/include" -c "tests/ode_demos/$unit.cpp" -o "$demos/$unit.o"
   done
   for demo in "$@"; do
     "$compiler" -O2 -w "${ode[@]}" -include tests/ode_demos/replaced.h -idirafter "$source/include" "$source/ode/demo/demo_$demo.cpp" \

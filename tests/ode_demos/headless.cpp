@@ -20,13 +20,16 @@ namespace {
 // Simulated time of a frame, for demos that ask; s.
 constexpr double kFrame = 0.02;
 
-// ODE draws the demo's objects and shuffles the rows of quickstep by this seed. Before main(), since demos draw there.
-[[gnu::constructor]] void set_seed() { dRandSetSeed(static_cast<unsigned long>(number_from("DEMO_SEED"))); }
-
 void print_message(int number, const char* format, va_list arguments) {
   std::printf("message %d ", number);
   std::vprintf(format, arguments);
   std::printf("\n");
+}
+
+// Before main(), since demos draw random objects and have messages there. Quickstep shuffles its rows by the same seed.
+[[gnu::constructor]] void prepare() {
+  dRandSetSeed(static_cast<unsigned long>(number_from("DEMO_SEED")));
+  dSetMessageHandler(print_message);
 }
 
 void follow(Replaceable& known) {
@@ -58,7 +61,6 @@ void press_keys(const dsFunctions& demo, const std::string& keys, int frame) {
 extern "C" {
 
 void dsSimulationLoop(int, char**, int, int, dsFunctions* demo) {
-  dSetMessageHandler(print_message);
   const char* const keys = std::getenv("DEMO_KEYS");  // NOLINT(concurrency-mt-unsafe): there is one thread
   if (demo->start != nullptr) demo->start();
   for (Replaceable& known : replaceables()) follow(known);
