@@ -19,6 +19,17 @@ Vector3 unit(const Vector3& v) {
 }  // namespace
 
 const MinimumNormPoint& MinimumNormSearch::update(std::span<const Vector3> points) {
+  const double before = best_.norm;
+  search(points);
+  // The last simplex may be thin, and at its end in rounding, where another one is not.
+  if (!(best_.norm < before) && best_.norm > 0) {
+    *this = {};
+    search(points);
+  }
+  return best_;
+}
+
+void MinimumNormSearch::search(std::span<const Vector3> points) {
   const auto is_shorter = [](const Vector3& a, const Vector3& b) { return a.squaredNorm() < b.squaredNorm(); };
   const double largest = std::max_element(points.begin(), points.end(), is_shorter)->norm();
   if (count_ == 0) offer(*std::min_element(points.begin(), points.end(), is_shorter));
@@ -28,7 +39,6 @@ const MinimumNormPoint& MinimumNormSearch::update(std::span<const Vector3> point
     const Vector3& lowest = *std::min_element(points.begin(), points.end(), is_lower);
     if (!(lowest.dot(normal) < best_.norm - kRounding * largest) || !add(lowest)) break;
   }
-  return best_;
 }
 
 bool MinimumNormSearch::add(const Vector3& vertex) {

@@ -24,14 +24,15 @@ struct MinimumNormPoint {
 /// However near the origin is to a facet, `normal` is the facet's: taken from its edges, not from the point, whose digits cancel.
 class MinimumNormSearch {
  public:
-  /// The nearest point of the hull of `points` (at least one) and of the simplex of the searches before, whose vertices need not be
-  /// among them any more.
+  /// The nearest point of the hull of `points` (at least one) and of the last simplex, whose vertices need not be among them any
+  /// more. Where that simplex is of no use it is forgotten.
   const MinimumNormPoint& update(std::span<const Vector3> points);
 
   /// The tetrahedron that holds the origin inside, if one was found.
   const std::optional<std::array<Vector3, 4>>& around() const { return around_; }
 
  private:
+  void search(std::span<const Vector3> points);
   /// Moves to the nearest point of the hull of the simplex and `vertex`: in one of the faces of that hull which have the new
   /// vertex, or at the origin if that is inside. Returns whether this is nearer than before.
   bool add(const Vector3& vertex);
