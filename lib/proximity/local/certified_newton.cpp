@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "proximity/answer.hpp"
 #include "proximity/bounds/minimum_norm_point.hpp"
