@@ -24,9 +24,9 @@ namespace supernormal {
 /// Hence the loop: propose a normal, evaluate, stop when the two sides are within the tolerance. Where s + rho > 0 the Hessian
 /// M = H1 + H2 + s I (Roemer, Algorithm I) is positive definite across n, so that Newton's step M^-1 d_t leads up, and near the
 /// maximum it squares d_t: the bound closes with it. No proposal needs to be good for the answer to be right. Where none gets
-/// higher, on flat faces, the nearest point p of the hull of several such d + rho n takes the place of one: max s <= |p| - rho. Where
-/// that is not enough, or the overlap is deeper than rho, or a handful of evaluations is spent, the loop ends without an answer: the
-/// best normal and the cuts are what a more careful search starts from.
+/// higher, on flat faces, the nearest point p of the hull of several such d + rho n takes the place of one: max s <= |p| - rho.
+/// Where that is not enough, or the overlap is deeper than rho, or a handful of evaluations is spent, the loop ends without an
+/// answer: the best normal and the cuts are what a more careful search starts from.
 class CertifiedNewton {
  public:
   /// Whether the method is for this pair: Hessians and no kinks.
