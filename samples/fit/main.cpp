@@ -66,8 +66,8 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!file) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-void write_results(const Options& options, const std::vector<fit::FittedBody>& fitted, const fit::Data& data,
-                   const fit::FitError& error) {
+void write_results(const Options& options, const std::vector<fit::FittedBody>& fitted, const std::vector<fit::Body>& bodies,
+                   const fit::Data& data, const fit::FitError& error) {
   const std::string file = std::filesystem::path(options.path).filename().string();
   const std::string name =
       options.name.empty() ? fit::identifier(std::filesystem::path(options.path).stem().string()) : options.name;
@@ -75,8 +75,6 @@ void write_results(const Options& options, const std::vector<fit::FittedBody>& f
   const std::string toml = fit::toml_lines(fitted, name, options.density, source);
   const std::string c = fit::c_lines(fitted, name, source);
   std::printf("\n%s\n%s", toml.c_str(), c.c_str());
-  std::vector<fit::Body> bodies;
-  for (const fit::FittedBody& each : fitted) bodies.push_back(each.body);
   const std::filesystem::path folder = options.out;
   std::filesystem::create_directories(folder);
   write(folder / (name + ".toml"), toml);
@@ -98,14 +96,14 @@ void run(const Options& options) {
   const bool is_mesh = !data.triangles.empty();
   std::printf("%s: %zu points, %zu triangles\n", options.path.c_str(), data.vertices.points.size(), data.triangles.size());
   const fit::Cloud points = points_of(data, options.uses_vertices);
-  const std::vector<fit::FittedBody> fitted = {fit_points(points, options, is_mesh)};
+  const std::vector<fit::FittedBody> fitted = fit_points(points, options, is_mesh);
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
   if (options.is_quick) return;
-  std::vector<fit::Body> bodies;
-  for (const fit::FittedBody& each : fitted) bodies.push_back(each.body);
+  std::vector<fit::Body> bodies(fitted.size());
+  std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
   const fit::FitError error = fit::find_error(bodies, data);
   std::fputs(fit::describe(error).c_str(), stdout);
-  write_results(options, fitted, data, error);
+  write_results(options, fitted, bodies, data, error);
 }
 
 int run_program(int argc, char** argv) {

@@ -86,7 +86,7 @@ TEST_CASE("outliers are left out") {
   const Body truth = make_body(Family::Superellipsoid, 2.5, 4);
   Cloud cloud = scatter(truth, {.points = 1000, .noise = 0.005});
   for (int i = 0; i < 50; ++i)
-    cloud.points.push_back(truth.position + Vector3(std::cos(i), std::sin(2 * i), std::cos(3 * i)) * 2.2);
+    cloud.points.emplace_back(truth.position + Vector3(std::cos(i), std::sin(2 * i), std::cos(3 * i)) * 2.2);
   const FittedBody fitted = fit_body(cloud, {.family = truth.family});
   CHECK(fitted.outliers.size() >= 40);
   CHECK(largest_deviation(fitted.body, truth) < 0.1);

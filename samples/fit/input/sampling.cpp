@@ -32,7 +32,7 @@ Cloud sample_triangles(std::span<const Eigen::Vector3d> points, std::span<const 
     const auto found = std::ranges::upper_bound(sums, sum * uniform(random));
     const Triangle& t = triangles[std::min(static_cast<std::size_t>(found - sums.begin()), triangles.size() - 1)];
     const double root = std::sqrt(uniform(random)), v = uniform(random);
-    cloud.points.push_back((1 - root) * points[t[0]] + root * (1 - v) * points[t[1]] + root * v * points[t[2]]);
+    cloud.points.emplace_back((1 - root) * points[t[0]] + root * (1 - v) * points[t[1]] + root * v * points[t[2]]);
     cloud.normals.push_back(normal_of(t).normalized());
   }
   return cloud;

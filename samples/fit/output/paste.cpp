@@ -24,7 +24,10 @@ std::string literal(double value) {
 
 std::string list(std::initializer_list<double> values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + literal(value);
+  for (const double value : values) {
+    if (!text.empty()) text += ", ";
+    text += literal(value);
+  }
   return text;
 }
 
@@ -89,10 +92,12 @@ std::string c_lines(std::span<const FittedBody> bodies, const std::string& name,
     const Body& body = bodies[i].body;
     const std::string part = name_of_part(name, bodies.size(), i);
     const Eigen::Quaterniond& q = body.attitude;
-    text += "const dQuaternion " + part + "_attitude = {" + list({q.w(), q.x(), q.y(), q.z()}) + "};\n";
-    text += "dGeomID " + part + " = " + create_call(body) + ";\n";
-    text += "dGeomSetPosition(" + part + ", " + list({body.position.x(), body.position.y(), body.position.z()}) + ");\n";
-    text += "dGeomSetQuaternion(" + part + ", " + part + "_attitude);\n";
+    const std::string attitude = part + "_attitude";
+    const std::string place = list({body.position.x(), body.position.y(), body.position.z()});
+    text.append("const dQuaternion ").append(attitude).append(" = {").append(list({q.w(), q.x(), q.y(), q.z()})).append("};\n");
+    text.append("dGeomID ").append(part).append(" = ").append(create_call(body)).append(";\n");
+    text.append("dGeomSetPosition(").append(part).append(", ").append(place).append(");\n");
+    text.append("dGeomSetQuaternion(").append(part).append(", ").append(attitude).append(");\n");
   }
   return text;
 }

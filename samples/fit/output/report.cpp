@@ -29,11 +29,12 @@ std::string row(const char* name, double value, const FittedBody& fitted, int pa
 std::string attitude_rows(const FittedBody& fitted) {
   const Eigen::Quaterniond& q = fitted.body.attitude;
   std::string text = format("  attitude (w, x, y, z)  %.7g %.7g %.7g %.7g\n", q.w(), q.x(), q.y(), q.z());
-  for (int i = 0; i < 3; ++i) {
-    const double error = fitted.uncertainty.standard_error[kRotation + i] * 180 / std::numbers::pi;
-    const bool is_determined = fitted.uncertainty.is_determined[static_cast<std::size_t>(kRotation + i)];
-    text += is_determined ? format("    turn about its %c-axis ± %.2g degrees\n", "xyz"[i], error)
-                          : format("    turn about its %c-axis not determined by the data\n", "xyz"[i]);
+  for (int i = kRotation; i < kRotation + 3; ++i) {
+    const char axis = "xyz"[i - kRotation];
+    const double error = fitted.uncertainty.standard_error[i] * 180 / std::numbers::pi;
+    const bool is_determined = fitted.uncertainty.is_determined[static_cast<std::size_t>(i)];
+    text += is_determined ? format("    turn about its %c-axis ± %.2g degrees\n", axis, error)
+                          : format("    turn about its %c-axis not determined by the data\n", axis);
   }
   return text;
 }
@@ -59,7 +60,7 @@ std::string remarks(const FittedBody& fitted) {
 
 std::string inertia_row(const Solid& solid) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(solid.inertia, Eigen::EigenvaluesOnly);
-  const Vector3 moments = eigen.eigenvalues();
+  const Vector3& moments = eigen.eigenvalues();
   return format("%.6g %.6g %.6g", moments[0], moments[1], moments[2]);
 }
 

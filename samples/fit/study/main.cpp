@@ -50,10 +50,10 @@ Compared compare(const FittedBody& fitted, const Body& truth) {
   result.is_determined = fitted.uncertainty.is_determined;
   for (const int first : {fit::kRotation, fit::kLogAxes}) {
     result.standard_error.segment<3>(first) = from * fitted.uncertainty.standard_error.segment<3>(first);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = first; i < first + 3; ++i) {
       Eigen::Index source = 0;
-      from.row(i).maxCoeff(&source);
-      result.is_determined[static_cast<std::size_t>(first + i)] =
+      from.row(i - first).maxCoeff(&source);
+      result.is_determined[static_cast<std::size_t>(i)] =
           fitted.uncertainty.is_determined[static_cast<std::size_t>(first + source)];
     }
   }
@@ -175,9 +175,7 @@ void write_points(const std::string& path, const std::vector<Vector3>& points) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   CLI::App app("Fits bodies that are known.", "fit_study");
   app.require_subcommand(1);
   CLI::App* const recovery = app.add_subcommand("recovery", "true and recovered numbers, whole and half bodies, with noise");
@@ -197,14 +195,20 @@ int main(int argc, char** argv) {
   compound->add_option("--sigma", sigma, "m, noise in every direction")->check(CLI::NonNegativeNumber)->capture_default_str();
   compound->add_option("--points", each, "of each of its parts")->check(CLI::Range(100, 1000000))->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  if (*recovery) print_recovery();
+  if (*coverage) print_coverage(fits, noise, points);
+  if (*time) print_time();
+  if (*compound) write_points(path, fit::scatter_union(fit::make_compound(name), each, sigma, 1).points);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    if (*recovery) print_recovery();
-    if (*coverage) print_coverage(fits, noise, points);
-    if (*time) print_time();
-    if (*compound) write_points(path, fit::scatter_union(fit::make_compound(name), each, sigma, 1).points);
+    return run_program(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "fit_study: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

@@ -41,8 +41,8 @@ Cloud scatter(const Body& truth, const Scatter& settings) {
   for (std::size_t i = 0; i < surface.points.size() && cloud.points.size() < wanted; ++i) {
     if (settings.is_half_missing && side.dot(surface.points[i]) < 0) continue;
     const double x = normal(), y = normal(), z = normal();
-    cloud.points.push_back(truth.position + R * surface.points[i] + sigma * Vector3(x, y, z));
-    if (settings.has_normals) cloud.normals.push_back(R * surface.normals[i]);
+    cloud.points.emplace_back(truth.position + R * surface.points[i] + sigma * Vector3(x, y, z));
+    if (settings.has_normals) cloud.normals.emplace_back(R * surface.normals[i]);
   }
   return cloud;
 }
