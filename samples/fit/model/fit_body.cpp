@@ -111,26 +111,32 @@ double root_mean_square(std::span<const double> values) {
   return std::sqrt(square / static_cast<double>(values.size()));
 }
 
-/// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether the latter changed.
+/// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether another descent would end
+/// elsewhere.
 bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, double least_sigma) {
   descent.measured = measure(descent.body, cloud.points);
   if (descent.offsets.empty()) descent.offsets.assign(cloud.points.size(), 0.0);
   const std::vector<double> residuals = residuals_of(descent);
   const double sigma = settings.rejects_outliers ? robust_sigma(residuals) : root_mean_square(residuals);
+  double square = 0;  // of the changes
   if (settings.noise == Noise::Isotropic && sigma > kRounding) {
     const DistanceFunction function(descent.body);
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-      descent.offsets[i] = noise_offset(function, descent.measured.witnesses[i], sigma);
+      const double offset = noise_offset(function, descent.measured.witnesses[i], sigma);
+      square += (offset - descent.offsets[i]) * (offset - descent.offsets[i]);
+      descent.offsets[i] = offset;
     }
   }
-  if (!settings.rejects_outliers) return false;
+  // Data that change by a vector of length l move no number by more than l / sigma of its standard error.
+  const bool has_moved = square > 0.1 * 0.1 * sigma * sigma;
+  if (!settings.rejects_outliers) return has_moved;
   // Flat faces may fit exactly, and bring the median down, while the rest is still on its way: the mean square counts too.
   const double limit = kOutlier * std::max({sigma, least_sigma, root_mean_square(residuals) / 2});
   std::vector<std::size_t> inliers;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (std::abs(descent.measured.distances[i] - descent.offsets[i]) <= limit) inliers.push_back(i);
   }
-  const bool has_changed = inliers != descent.inliers;
+  const bool has_changed = has_moved || inliers != descent.inliers;
   descent.inliers = std::move(inliers);
   return has_changed;
 }
@@ -155,7 +161,7 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
   least_squares.max_iterations = 12;
   for (int round = 0; round < rounds; ++round) {
     const bool has_changed = update(descent, cloud, settings, round == 0 ? kUnsettled : 0);
-    if (round > 0 && !has_changed && settings.noise == Noise::AlongNormal) break;
+    if (round > 0 && !has_changed) return descent;
     solve(descent, cloud, least_squares);
   }
   descent.measured = measure(descent.body, cloud.points);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <supernormal/shapes/superellipsoid.hpp>
+#include <utility>
 
 #include "distance.hpp"
 
@@ -76,18 +77,34 @@ class Distances final : public ceres::CostFunction {
 
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const DistanceFunction function(body_of(family_, blocks));
+    if (!remember_witnesses(function, blocks)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const std::optional<Witness> witness = function.find(points_[i]);
-      if (!witness) return false;
-      const double excess = witness->distance - (offsets_.empty() ? 0 : offsets_[i]);
+      const double excess = witnesses_[i].distance - (offsets_.empty() ? 0 : offsets_[i]);
       double slope = 1;
       residuals[i] = with_loss(excess, slope);
-      if (jacobians != nullptr) write_row(i, function, slope * function.gradient(*witness), blocks, jacobians);
+      if (jacobians != nullptr) write_row(i, function, slope * function.gradient(witnesses_[i]), blocks, jacobians);
     }
     return true;
   }
 
  private:
+  /// Finds the witnesses, unless they are those of the last call: Ceres asks for the distances of a step and, when it takes the
+  /// step, for the derivatives at the same place. Only one thread at a time evaluates a residual block.
+  bool remember_witnesses(const DistanceFunction& function, const double* const* blocks) const {
+    std::vector<double> place;
+    for (std::size_t k = 0; k < kBlockSizes.size(); ++k) place.insert(place.end(), blocks[k], blocks[k] + kBlockSizes[k]);
+    if (place == place_) return true;
+    place_.clear();
+    witnesses_.clear();
+    for (const Vector3& x : points_) {
+      const std::optional<Witness> witness = function.find(x);
+      if (!witness) return false;
+      witnesses_.push_back(*witness);
+    }
+    place_ = std::move(place);
+    return true;
+  }
+
   double with_loss(double excess, double& slope) const {
     const double size = std::abs(excess);
     if (!(size > width_)) return excess;
@@ -131,6 +148,8 @@ class Distances final : public ceres::CostFunction {
   std::span<const Vector3> points_;
   std::span<const double> offsets_;
   double width_;
+  mutable std::vector<double> place_;       // the unknowns that the witnesses are of
+  mutable std::vector<Witness> witnesses_;  // one for each point
 };
 
 void set_bounds(ceres::Problem& problem, Unknowns& unknowns, const LeastSquaresSettings& settings) {
