@@ -1,5 +1,6 @@
 #include "cloud.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -14,6 +15,15 @@ Extent extent_of(std::span<const Eigen::Vector3d> points) {
   for (const Eigen::Vector3d& x : points) square += (x - extent.centre).squaredNorm() / count;
   extent.size = std::sqrt(square);
   return extent;
+}
+
+double radius_of(std::span<const Eigen::Vector3d> points) {
+  const Eigen::Vector3d centre = extent_of(points).centre;
+  std::vector<double> radii(points.size());
+  std::ranges::transform(points, radii.begin(), [&](const Eigen::Vector3d& x) { return (x - centre).norm(); });
+  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(radii.size() - 1));
+  std::nth_element(radii.begin(), at, radii.end());
+  return *at;
 }
 
 Cloud normalized(const Cloud& cloud, const Extent& extent) {

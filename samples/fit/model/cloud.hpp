@@ -21,6 +21,9 @@ struct Extent {
 
 Extent extent_of(std::span<const Eigen::Vector3d> points);
 
+/// The distance from the centroid that 99 % of the points do not exceed.
+double radius_of(std::span<const Eigen::Vector3d> points);
+
 /// The cloud with its extent moved to the origin and to 1.
 Cloud normalized(const Cloud& cloud, const Extent& extent);
 

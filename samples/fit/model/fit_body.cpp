@@ -15,10 +15,9 @@ namespace fit {
 namespace {
 
 // Lengths below are of data of extent 1.
-constexpr double kLargestOverRadius = 3;  // the largest half-axis, over the radius of the data
-constexpr double kRounding = 1e-9;        // distances below it are taken for rounding
-constexpr double kUnsettled = 2e-3;       // as much noise is allowed for until a descent has ended: flat faces may fit long before
-constexpr double kHuber = 1.345;          // standard deviations: 95 % efficiency for normal noise
+constexpr double kRounding = 1e-9;   // distances below it are taken for rounding
+constexpr double kUnsettled = 2e-3;  // as much noise is allowed for until a descent has ended: flat faces may fit long before
+constexpr double kHuber = 1.345;     // standard deviations: 95 % efficiency for normal noise
 
 double median_size(std::span<const double> values) {
   std::vector<double> sizes(values.size());
@@ -30,14 +29,6 @@ double median_size(std::span<const double> values) {
 
 /// The standard deviation of normal noise whose absolute values have this median.
 double robust_sigma(std::span<const double> residuals) { return std::max(1.4826 * median_size(residuals), kRounding); }
-
-double largest_half_axis(const Cloud& cloud) {
-  std::vector<double> radii;
-  for (const Vector3& x : cloud.points) radii.push_back(x.norm());
-  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(radii.size() - 1));
-  std::nth_element(radii.begin(), at, radii.end());
-  return kLargestOverRadius * *at;
-}
 
 struct Measured {
   std::vector<Witness> witnesses;
@@ -154,7 +145,7 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
   descent.inliers.resize(cloud.points.size());
   std::iota(descent.inliers.begin(), descent.inliers.end(), std::size_t{0});
   LeastSquaresSettings least_squares;
-  least_squares.largest_half_axis = largest_half_axis(cloud);
+  least_squares.largest_half_axis = settings.largest_over_radius * radius_of(cloud.points);
   // A step that lowers the cost by less moves no number by more than a tenth of its standard error.
   least_squares.tolerance = 1e-2 / static_cast<double>(cloud.points.size());
   least_squares.threads = settings.threads;
@@ -169,7 +160,7 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
 }
 
 /// The result in the frame of the data, which have been normalized by `extent`.
-FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud, Noise noise) {
+FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud, const FitSettings& settings) {
   FittedBody fitted;
   std::vector<Witness> witnesses;
   std::vector<double> residuals;
@@ -186,11 +177,11 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
   fitted.uncertainty = find_uncertainty(descent.body, witnesses, residuals);
   const double sharpest = make_shape(descent.body)->min_curvature_radius_estimate();
   fitted.is_edge_below_noise =
-      noise == Noise::Isotropic && fitted.uncertainty.sigma > kRounding && sharpest < 2 * fitted.uncertainty.sigma;
+      settings.noise == Noise::Isotropic && fitted.uncertainty.sigma > kRounding && sharpest < 2 * fitted.uncertainty.sigma;
   fitted.uncertainty.sigma *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kPosition) *= extent.size;
   fitted.uncertainty.standard_error.segment<3>(kLogAxes) *= extent.size;
-  fitted.is_at_largest_size = descent.body.half_axes.maxCoeff() > 0.999 * largest_half_axis(cloud);
+  fitted.is_at_largest_size = descent.body.half_axes.maxCoeff() > 0.999 * settings.largest_over_radius * radius_of(cloud.points);
   fitted.body = moved(descent.body, extent.size, extent.centre);
   return fitted;
 }
@@ -212,11 +203,11 @@ void polish(Candidate& candidate, const Cloud& many, LeastSquaresSettings settin
 }
 
 /// Descends from the starts on ever more points, with ever fewer bodies.
-Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, bool rejects_outliers) {
+Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, const FitSettings& search) {
   constexpr double kHopeless = 4;  // times the least mean square
   const Cloud few = thinned(cloud, 200), some = thinned(cloud, 800), many = thinned(cloud, 3000);
   LeastSquaresSettings settings;
-  settings.largest_half_axis = largest_half_axis(many);
+  settings.largest_half_axis = search.largest_over_radius * radius_of(many.points);
   settings.max_iterations = 6;
   settings.tolerance = 1e-3;
   settings.loss_width = 0.1;
@@ -229,7 +220,7 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, bool
   if (candidates.empty()) return {};
   const double limit = kHopeless * candidates.front().mean_square;
   std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.mean_square > limit; });
-  for (Candidate& candidate : candidates) polish(candidate, many, settings, rejects_outliers);
+  for (Candidate& candidate : candidates) polish(candidate, many, settings, search.rejects_outliers);
   return *std::ranges::min_element(candidates, {}, &Candidate::mean_square);
 }
 
@@ -252,15 +243,14 @@ double independent_points(const Candidate& candidate, const Cloud& cloud) {
 
 /// The family with the least Bayesian information criterion, n ln(mean square) + k ln n; distances of rounding count alike.
 Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
-  if (settings.family) return search_body(cloud, *settings.family, settings.rejects_outliers);
+  if (settings.family) return search_body(cloud, *settings.family, settings);
   std::vector<Candidate> candidates;
   for (const Family family : {Family::Ellipsoid, Family::Superellipsoid, Family::Superovoid}) {
     if (cloud.points.size() < least_points(family)) continue;
     // The taper is a small change: what was found without it is near enough.
     const bool is_near = family == Family::Superovoid && !candidates.empty();
-    const Candidate candidate =
-        is_near ? best_descent(make_starts_near(candidates.back().body, family), cloud, settings.rejects_outliers)
-                : search_body(cloud, family, settings.rejects_outliers);
+    const Candidate candidate = is_near ? best_descent(make_starts_near(candidates.back().body, family), cloud, settings)
+                                        : search_body(cloud, family, settings);
     if (std::isfinite(candidate.mean_square)) candidates.push_back(candidate);
     if (candidate.mean_square < kRounding * kRounding) break;
   }
@@ -289,8 +279,8 @@ void require_points(const Cloud& cloud, std::size_t least) {
   }
 }
 
-Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers) {
-  return best_descent(make_starts(thinned(cloud, 800), family), cloud, rejects_outliers);
+Candidate search_body(const Cloud& cloud, Family family, const FitSettings& settings) {
+  return best_descent(make_starts(thinned(cloud, 800), family), cloud, settings);
 }
 
 FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings) {
@@ -298,7 +288,7 @@ FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings&
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent);
   const Body body = moved(start, 1 / extent.size, -extent.centre / extent.size);
-  return finish(descend_on_all(body, data, settings, 4), extent, data, settings.noise);
+  return finish(descend_on_all(body, data, settings, 4), extent, data, settings);
 }
 
 FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
@@ -310,7 +300,7 @@ FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
   // Most of the way is done on some of the points.
   const bool is_large = data.points.size() > 10000;
   const Body near = is_large ? descend_on_all(best.body, thinned(data, 5000), settings, 3).body : best.body;
-  return finish(descend_on_all(in_customary_order(near), data, settings, is_large ? 2 : 4), extent, data, settings.noise);
+  return finish(descend_on_all(in_customary_order(near), data, settings, is_large ? 2 : 4), extent, data, settings);
 }
 
 }  // namespace fit

@@ -20,6 +20,8 @@ struct FitSettings {
   std::optional<Family> family;  ///< nothing: the one that the data call for
   Noise noise = Noise::Isotropic;
   bool rejects_outliers = true;  ///< leaves out points farther away than kOutlier standard deviations
+  /// No half-axis becomes longer than this times the data's radius (radius_of): data of one side only do not bound the body.
+  double largest_over_radius = 3;
   int threads = 1;
 };
 
@@ -54,6 +56,6 @@ struct Candidate {
   Body body;
   double mean_square = std::numeric_limits<double>::infinity();
 };
-Candidate search_body(const Cloud& cloud, Family family, bool rejects_outliers);
+Candidate search_body(const Cloud& cloud, Family family, const FitSettings& settings);
 
 }  // namespace fit

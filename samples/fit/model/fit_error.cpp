@@ -87,40 +87,6 @@ Solid solid_of_hull(const Data& data) {
   return solid;
 }
 
-/// The union's volume integrals by random points in its box.
-void integrate_union(std::span<const Body> bodies, FitError& error) {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  std::vector<DistanceFunction> functions;
-  for (const Body& body : bodies) {
-    functions.emplace_back(body);
-    for (int i = 0; i < 3; ++i) {
-      const Vector3 up = Vector3::Unit(i);
-      high[i] = std::max(high[i], body.position[i] + functions.back().shape().support(functions.back().to_body(up)));
-      low[i] = std::min(low[i], body.position[i] - functions.back().shape().support(functions.back().to_body(-up)));
-    }
-  }
-  std::mt19937_64 random(1);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const double box = (high - low).prod();
-  const Vector3 middle = (low + high) / 2;
-  double inside = 0;
-  Vector3 first = Vector3::Zero();
-  Matrix3 second = Matrix3::Zero();
-  for (std::size_t i = 0; i < kVolumeSamples; ++i) {
-    const Vector3 x = (Vector3(uniform(), uniform(), uniform()).array() - 0.5).matrix().cwiseProduct(high - low);
-    const bool is_inside = std::ranges::any_of(functions, [&](const DistanceFunction& f) { return f.contains(middle + x); });
-    if (!is_inside) continue;
-    inside += 1;
-    first += x;
-    second += x * x.transpose();
-  }
-  const auto all = static_cast<double>(kVolumeSamples);
-  const double share = inside / all;
-  error.body = about_centroid(box * share, first / inside, box / all * second);
-  error.body.centroid += middle;
-  error.body_error = box * std::sqrt(share * (1 - share) / all);
-}
-
 double triangle_distance(const Data& data, const Triangle& t, const Vector3& x) {
   // Ericson, Real-Time Collision Detection, section 5.1.5: the nearest point by the regions of Voronoi.
   const Vector3 &a = data.vertices.points[t[0]], &b = data.vertices.points[t[1]], &c = data.vertices.points[t[2]];
@@ -213,6 +179,40 @@ double largest_distance_to_data(std::span<const Body> bodies, const Data& data) 
 
 }  // namespace
 
+VolumeIntegral integrate_union(std::span<const Body> bodies) {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::vector<DistanceFunction> functions;
+  for (const Body& body : bodies) {
+    functions.emplace_back(body);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 up = Vector3::Unit(i);
+      high[i] = std::max(high[i], body.position[i] + functions.back().shape().support(functions.back().to_body(up)));
+      low[i] = std::min(low[i], body.position[i] - functions.back().shape().support(functions.back().to_body(-up)));
+    }
+  }
+  std::mt19937_64 random(1);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  const double box = (high - low).prod();
+  const Vector3 middle = (low + high) / 2;
+  double inside = 0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  for (std::size_t i = 0; i < kVolumeSamples; ++i) {
+    const Vector3 x = (Vector3(uniform(), uniform(), uniform()).array() - 0.5).matrix().cwiseProduct(high - low);
+    const bool is_inside = std::ranges::any_of(functions, [&](const DistanceFunction& f) { return f.contains(middle + x); });
+    if (!is_inside) continue;
+    inside += 1;
+    first += x;
+    second += x * x.transpose();
+  }
+  const auto all = static_cast<double>(kVolumeSamples);
+  const double share = inside / all;
+  VolumeIntegral result{about_centroid(box * share, first / inside, box / all * second),
+                        box * std::sqrt(share * (1 - share) / all)};
+  result.solid.centroid += middle;
+  return result;
+}
+
 FitError find_error(std::span<const Body> bodies, const Data& data) {
   FitError error;
   const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
@@ -235,7 +235,9 @@ FitError find_error(std::span<const Body> bodies, const Data& data) {
   if (bodies.size() == 1) {
     error.body = solid_of(bodies.front());
   } else {
-    integrate_union(bodies, error);
+    const VolumeIntegral integral = integrate_union(bodies);
+    error.body = integral.solid;
+    error.body_error = integral.volume_error;
   }
   return error;
 }

@@ -27,6 +27,14 @@ struct FitError {
   bool is_hull = false;   ///< whether `data` is that of the convex hull
 };
 
+struct VolumeIntegral {
+  Solid solid;
+  double volume_error = 0;  ///< standard error of the volume
+};
+
+/// Of the union of bodies, by random points, always the same.
+VolumeIntegral integrate_union(std::span<const Body> bodies);
+
 /// Hausdorff's distances are over the vertices of the data (and random points of its triangles), and over random points of the
 /// bodies' surfaces that no other body covers: lower bounds, short of the true ones by at most the points' spacing.
 FitError find_error(std::span<const Body> bodies, const Data& data);

@@ -16,6 +16,16 @@ namespace {
 constexpr double kRounding = 1e-9;
 constexpr double kLoss = 0.02;  // of distances while points still change hands
 
+// No half-axis of a part becomes longer than this times the radius of its points. The others hide some of its surface, but what
+// stands out of the data is no part of the union.
+constexpr double kLargestOverRadius = 1.5;
+
+FitSettings search_settings() {
+  FitSettings settings;
+  settings.largest_over_radius = kLargestOverRadius;
+  return settings;
+}
+
 enum class Distance {
   Surface,  ///< from the nearest surface: which points go together is not known yet
   Union,    ///< from the union
@@ -82,14 +92,15 @@ bool has_enough(const Assignment& assignment, Family family) {
 Model alternate(std::vector<Body> bodies, const Cloud& cloud, Distance distance, int rounds) {
   LeastSquaresSettings settings;
   settings.loss_width = kLoss;
-  settings.largest_half_axis = 4;
   settings.max_iterations = 8;
   settings.tolerance = 1e-5;
   Assignment assignment = assign(bodies, cloud, distance);
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       if (!has_enough(assignment, bodies[k].family)) return {};
-      bodies[k] = minimize_distances(bodies[k], owned(cloud, assignment.owner, k).points, {}, settings).body;
+      const Cloud part = owned(cloud, assignment.owner, k);
+      settings.largest_half_axis = kLargestOverRadius * radius_of(part.points);
+      bodies[k] = minimize_distances(bodies[k], part.points, {}, settings).body;
     }
     const std::vector<int> before = std::move(assignment.owner);
     assignment = assign(bodies, cloud, distance);
@@ -108,7 +119,7 @@ Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
     if (part.points.size() < 2 * least_points(Family::Ellipsoid)) return {};
     // Its own extent, so that the search is one for data of size 1.
     const Extent extent = extent_of(part.points);
-    const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, true);
+    const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, search_settings());
     if (!std::isfinite(found.mean_square)) return {};
     bodies.push_back(moved(found.body, extent.size, extent.centre));
   }
@@ -120,7 +131,7 @@ Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
 Body promoted(const Body& ellipsoid, const Cloud& points, Family family) {
   LeastSquaresSettings settings;
   settings.loss_width = kLoss;
-  settings.largest_half_axis = 4;
+  settings.largest_half_axis = kLargestOverRadius * radius_of(points.points);
   settings.max_iterations = 15;
   settings.tolerance = 1e-4;
   Matrix3 cycle;
@@ -169,7 +180,7 @@ Model searched_again(Model model, const Cloud& cloud, Family family) {
     const Cloud part = owned(cloud, assign(model.bodies, cloud, Distance::Union).owner, k);
     if (part.points.size() < 2 * least_points(family) || is_well_fitted(model.bodies[k], part)) continue;
     const Extent extent = extent_of(part.points);
-    const Candidate found = search_body(normalized(part, extent), family, true);
+    const Candidate found = search_body(normalized(part, extent), family, search_settings());
     if (!std::isfinite(found.mean_square)) continue;
     std::vector<Body> bodies = model.bodies;
     bodies[k] = moved(found.body, extent.size, extent.centre);
@@ -244,9 +255,11 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
     least = criterion(best, few.points.size());
   }
   if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
+  FitSettings of_part = settings;
+  of_part.largest_over_radius = kLargestOverRadius;
   best = searched_again(best, thinned(data, 3000), family);
   for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
-  return finish(best.bodies, cloud, settings);
+  return finish(best.bodies, cloud, of_part);
 }
 
 }  // namespace fit
