@@ -105,12 +105,12 @@ void print_head(const char* number) {
 void print_recovery(int bodies) {
   std::printf("%d bodies a row, %zu points each\n\n", bodies, kPoints);
   print_head("exponent");
-  for (std::size_t e = 0; e < kExponents.size(); ++e) {
-    print_rows(kExponents[e], bodies, [&](Row& row, int k, std::mt19937_64& random, const Scatter& scatter) {
+  for (const double exponent : kExponents) {
+    print_rows(exponent, bodies, [&](Row& row, int k, std::mt19937_64& random, const Scatter& scatter) {
       Body truth = random_superellipsoid(random);
       const bool is_delta = k % 2 == 0;
-      (is_delta ? truth.delta : truth.epsilon) = kExponents[e];
-      row.add(fit_and_compare(truth, scatter), truth, is_delta ? kLogDelta : kLogEpsilon, kExponents[e]);
+      (is_delta ? truth.delta : truth.epsilon) = exponent;
+      row.add(fit_and_compare(truth, scatter), truth, is_delta ? kLogDelta : kLogEpsilon, exponent);
     });
   }
   std::puts("");
