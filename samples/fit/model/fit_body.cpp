@@ -15,9 +15,10 @@ namespace fit {
 namespace {
 
 // Lengths below are of data of extent 1.
-constexpr double kRounding = 1e-9;   // distances below it are taken for rounding
-constexpr double kUnsettled = 2e-3;  // as much noise is allowed for until a descent has ended: flat faces may fit long before
-constexpr double kHuber = 1.345;     // standard deviations: 95 % efficiency for normal noise
+constexpr double kRounding = 1e-9;     // distances below it are taken for rounding
+constexpr double kUnsettled = 2e-3;    // as much noise is allowed for until a descent has ended: flat faces may fit long before
+constexpr std::size_t kLarge = 10000;  // points; of more, some find the body and all of them only its last digits
+constexpr double kHuber = 1.345;       // standard deviations: 95 % efficiency for normal noise
 
 double median_size(std::span<const double> values) {
   std::vector<double> sizes(values.size());
@@ -102,34 +103,70 @@ double root_mean_square(std::span<const double> values) {
   return std::sqrt(square / static_cast<double>(values.size()));
 }
 
-/// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether another descent would end
-/// elsewhere.
+/// The sum of g g^T over the inliers' gradients g, whose inverse times sigma^2 is the covariance of the body's numbers.
+Eigen::MatrixXd information_of(const Descent& descent, const DistanceFunction& function) {
+  const Eigen::Index count = parameter_count(descent.body.family);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
+  for (const std::size_t i : descent.inliers) {
+    const Eigen::VectorXd gradient = function.gradient(descent.measured.witnesses[i]).head(count);
+    information.selfadjointView<Eigen::Lower>().rankUpdate(gradient);
+  }
+  return information.selfadjointView<Eigen::Lower>();
+}
+
+/// How far, in standard errors of any combination of the body's numbers, changes of the inliers' distances move these: the length
+/// of the changes' projection on the distances that bodies nearby have, over sigma.
+double standard_errors_moved(const Descent& descent, const std::vector<double>& changes, double sigma) {
+  const DistanceFunction function(descent.body);
+  const Eigen::Index count = parameter_count(descent.body.family);
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(count);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (changes[i] != 0) pull += changes[i] * function.gradient(descent.measured.witnesses[i]).head(count);
+  }
+  if (pull.isZero(0)) return 0;
+  const Eigen::VectorXd move = information_of(descent, function).completeOrthogonalDecomposition().solve(pull);
+  return std::sqrt(std::max(pull.dot(move), 0.0)) / sigma;
+}
+
+/// What noise does to the distances of all points.
+std::vector<double> offsets_of(const Descent& descent, const FitSettings& settings, double sigma) {
+  std::vector<double> offsets(descent.measured.witnesses.size(), 0.0);
+  if (settings.noise != Noise::Isotropic || !(sigma > kRounding)) return offsets;
+  const DistanceFunction function(descent.body);
+  std::ranges::transform(descent.measured.witnesses, offsets.begin(),
+                         [&](const Witness& witness) { return noise_offset(function, witness, sigma); });
+  return offsets;
+}
+
+/// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether another descent would move
+/// the body by so much that its errors grow by 5 %.
 bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, double least_sigma) {
+  constexpr double kSettled = 0.3;  // standard errors; 1 + 0.3^2 is the square of 1.05
+  const std::size_t points = cloud.points.size();
   descent.measured = measure(descent.body, cloud.points);
-  if (descent.offsets.empty()) descent.offsets.assign(cloud.points.size(), 0.0);
+  if (descent.offsets.empty()) descent.offsets.assign(points, 0.0);
   const std::vector<double> residuals = residuals_of(descent);
   const double sigma = settings.rejects_outliers ? robust_sigma(residuals) : root_mean_square(residuals);
-  double square = 0;  // of the changes
-  if (settings.noise == Noise::Isotropic && sigma > kRounding) {
-    const DistanceFunction function(descent.body);
-    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-      const double offset = noise_offset(function, descent.measured.witnesses[i], sigma);
-      square += (offset - descent.offsets[i]) * (offset - descent.offsets[i]);
-      descent.offsets[i] = offset;
+  std::vector<double> offsets = offsets_of(descent, settings, sigma);
+  std::vector<bool> was_inlier(points, false);
+  for (const std::size_t i : descent.inliers) was_inlier[i] = true;
+  // Flat faces may fit exactly, and bring the median down, while the rest is still on its way: the mean square counts too.
+  const double limit = settings.rejects_outliers ? kOutlier * std::max({sigma, least_sigma, root_mean_square(residuals) / 2})
+                                                 : std::numeric_limits<double>::infinity();
+  descent.inliers.clear();
+  std::vector<double> changes(points, 0.0);
+  for (std::size_t i = 0; i < points; ++i) {
+    const double residual = descent.measured.distances[i] - offsets[i];
+    const bool is_inlier = std::abs(residual) <= limit;
+    if (is_inlier) descent.inliers.push_back(i);
+    if (is_inlier != was_inlier[i]) {
+      changes[i] = residual;
+    } else if (is_inlier) {
+      changes[i] = offsets[i] - descent.offsets[i];
     }
   }
-  // Data that change by a vector of length l move no number by more than l / sigma of its standard error.
-  const bool has_moved = square > 0.1 * 0.1 * sigma * sigma;
-  if (!settings.rejects_outliers) return has_moved;
-  // Flat faces may fit exactly, and bring the median down, while the rest is still on its way: the mean square counts too.
-  const double limit = kOutlier * std::max({sigma, least_sigma, root_mean_square(residuals) / 2});
-  std::vector<std::size_t> inliers;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (std::abs(descent.measured.distances[i] - descent.offsets[i]) <= limit) inliers.push_back(i);
-  }
-  const bool has_changed = has_moved || inliers != descent.inliers;
-  descent.inliers = std::move(inliers);
-  return has_changed;
+  descent.offsets = std::move(offsets);
+  return standard_errors_moved(descent, changes, sigma) > kSettled;
 }
 
 void solve(Descent& descent, const Cloud& cloud, LeastSquaresSettings settings) {
@@ -140,7 +177,7 @@ void solve(Descent& descent, const Cloud& cloud, LeastSquaresSettings settings) 
 }
 
 /// Least squares on all points but outliers, repeated until these and the noise's effect are settled.
-Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings& settings, int rounds) {
+Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings& settings, int rounds, int steps = 12) {
   Descent descent{start, {}, {}, {}};
   descent.inliers.resize(cloud.points.size());
   std::iota(descent.inliers.begin(), descent.inliers.end(), std::size_t{0});
@@ -149,7 +186,7 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
   // A step that lowers the cost by less moves no number by more than a tenth of its standard error.
   least_squares.tolerance = 1e-2 / static_cast<double>(cloud.points.size());
   least_squares.threads = settings.threads;
-  least_squares.max_iterations = 12;
+  least_squares.max_iterations = steps;
   for (int round = 0; round < rounds; ++round) {
     const bool has_changed = update(descent, cloud, settings, round == 0 ? kUnsettled : 0);
     if (round > 0 && !has_changed) return descent;
@@ -297,10 +334,12 @@ FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
   const Cloud data = normalized(cloud, extent);
   const Candidate best = best_family(thinned(data, 3000), settings);
   if (!std::isfinite(best.mean_square)) throw std::runtime_error("no body fits: every descent failed");
-  // Most of the way is done on some of the points.
-  const bool is_large = data.points.size() > 10000;
-  const Body near = is_large ? descend_on_all(best.body, thinned(data, 5000), settings, 3).body : best.body;
-  return finish(descend_on_all(in_customary_order(near), data, settings, is_large ? 2 : 4), extent, data, settings);
+  if (data.points.size() <= kLarge)
+    return finish(descend_on_all(in_customary_order(best.body), data, settings, 4), extent, data, settings);
+  // Most of the way is done on some of the points. From an estimate whose error falls as theirs does, one step of Newton's is as
+  // good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
+  const Body near = descend_on_all(best.body, thinned(data, kLarge), settings, 4).body;
+  return finish(descend_on_all(in_customary_order(near), data, settings, 2, 2), extent, data, settings);
 }
 
 }  // namespace fit
