@@ -117,7 +117,7 @@ std::string draw(std::span<const Body> bodies, const Cloud& data, double rms, co
   std::string text = "<svg xmlns='http://www.w3.org/2000/svg' width='" + text_of(width, "%.0f") + "' height='" +
                      text_of(height, "%.0f") +
                      "' font-family='sans-serif' font-size='13'>\n<rect width='100%' height='100%' fill='white'/>\n";
-  text += "<text x='" + text_of(kMargin) + "' y='24'>" + escaped(title) + "</text>\n";
+  text += "<text x='" + text_of(kMargin) + "' y='24'>" + escaped(title) + ": data red outside of the bodies, blue inside</text>\n";
   constexpr std::array kViews = {std::array{0, 1}, std::array{0, 2}, std::array{1, 2}};
   for (std::size_t k = 0; k < kViews.size(); ++k) {
     const auto [first, second] = kViews[k];
