@@ -222,6 +222,12 @@ struct Description {
 /// The descriptions of all effects.
 SUPERNORMAL_API std::span<const Description> descriptions();
 
+/// One of the two sides of a contact.
+struct Side {
+  Material material = 0;   ///< of the body or the wall
+  dBodyID body = nullptr;  ///< whose velocity the contact feels and to which its joint will be attached; 0: a wall at rest
+};
+
 /// Counts the work done for an effect so far.
 struct Cost {
   const char* name;                 ///< its name as in descriptions()
@@ -249,6 +255,11 @@ class SUPERNORMAL_API Effects {
   /// those that can carry no force (corners of an undamped spring) are moved behind them. The materials are those of geom.g1 and
   /// geom.g2. Call it when the bodies' velocities are those at the start of the step; adhesion adds its force to the bodies here.
   int set_up_contacts(std::span<dContact> contacts, Material material1 = 0, Material material2 = 0);
+
+  /// The same where a contact's bodies are not those of its geoms: a plane of ODE has no body, but may be a wall that moves, and a
+  /// kinematic body may give its velocity to geoms that stand, a conveyor. The sides are those of geom.g1 and geom.g2; attach the
+  /// joints to their bodies.
+  int set_up_contacts(std::span<dContact> contacts, const Side& side1, const Side& side2);
 
   /// Whether apply_forces does anything.
   bool visits_bodies() const;

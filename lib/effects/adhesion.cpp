@@ -14,7 +14,7 @@ constexpr double kLayer = 1e-4;  // depth at which rigid contacts stick, relativ
 void keep_in_touch(Patch& patch) {
   const dContactGeom& geom = patch.deepest().geom;
   const double layer = kLayer * std::min(mean_half_extent(geom.g1), mean_half_extent(geom.g2));
-  const dBodyID body = patch.body1() != nullptr ? patch.body1() : patch.body2();
+  const dBodyID body = patch.body1 != nullptr ? patch.body1 : patch.body2;
   const double rate = dWorldGetERP(dBodyGetWorld(body)) / patch.step;
   const double missing = std::max(0.0, layer - geom.depth);
   for (dContact& contact : patch.contacts) {
@@ -26,8 +26,8 @@ void keep_in_touch(Patch& patch) {
 
 // A contact joint cannot pull, so the attraction is an external force that the joint has to hold.
 void add_adhesion(const PairMaterial& pair, Patch& patch) {
-  const dBodyID body1 = patch.body1();
-  const dBodyID body2 = patch.body2();
+  const dBodyID body1 = patch.body1;
+  const dBodyID body2 = patch.body2;
   const auto is_awake = [](dBodyID body) { return body != nullptr && dBodyIsEnabled(body) != 0; };
   // ODE keeps the forces on a sleeping body until it wakes.
   if (!is_awake(body1) && !is_awake(body2)) return;

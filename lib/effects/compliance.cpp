@@ -33,7 +33,7 @@ struct Spring {
 double effective_mass(const Patch& patch) {
   const Vector3 point = ode::to_vector(patch.deepest().geom.pos);
   const Vector3 n = ode::to_vector(patch.deepest().geom.normal);
-  const double mobilities = mobility(patch.body1(), point, n) + mobility(patch.body2(), point, n);
+  const double mobilities = mobility(patch.body1, point, n) + mobility(patch.body2, point, n);
   return mobilities > 0 ? 1 / mobilities : 0;
 }
 
@@ -63,7 +63,7 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
   const Vector3 n = ode::to_vector(patch.deepest().geom.normal);
   for (dContact& contact : patch.contacts) {
     const Vector3 point = ode::to_vector(contact.geom.pos);
-    const double velocity = n.dot(velocity_at(patch.body1(), point) - velocity_at(patch.body2(), point));
+    const double velocity = n.dot(velocity_at(patch.body1, point) - velocity_at(patch.body2, point));
     const double share = depths > 0 ? contact.geom.depth / depths : 0;
     const double damper = patch.bears(contact) ? damping : 0;
     const double A = share * spring.force - (1 - new_half) * damper * velocity;

@@ -73,7 +73,7 @@ struct Effects::State {
     seconds[effect] += std::chrono::duration<double>(Clock::now() - start).count();
   }
 
-  int run_passes(PairMaterial& pair, std::span<dContact> contacts);
+  int run_passes(PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2);
 
   std::vector<Effect> list;
   double step;
@@ -86,11 +86,11 @@ struct Effects::State {
 
 // Runs the passes on each group of contacts with the same normal, which are consecutive; contacts to be attached move to the
 // front.
-int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts) {
+int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2) {
   std::size_t kept = 0;
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
     while (end < contacts.size() && is_same_normal(contacts[first], contacts[end])) ++end;
-    Patch patch{contacts.subspan(first, end - first), step, static_cast<int>(end - first)};
+    Patch patch{contacts.subspan(first, end - first), step, static_cast<int>(end - first), body1, body2};
     for (const Pass& pass : pair.passes) timed(pass.effect, [&] { pass.run(pair, patch); });
     pair.coarse += static_cast<unsigned long long>(patch.coarse);
     for (int k = 0; k < patch.kept; ++k, ++kept) {
@@ -111,9 +111,16 @@ void Effects::set_up(dWorldID world) const {
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, Material material2) {
-  PairMaterial& pair = state_->pair_materials.of(material1, material2);
+  if (contacts.empty()) return 0;
+  const dContactGeom& geom = contacts.front().geom;
+  return set_up_contacts(contacts, {material1, dGeomGetBody(geom.g1)}, {material2, dGeomGetBody(geom.g2)});
+}
+
+int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, const Side& side2) {
+  PairMaterial& pair = state_->pair_materials.of(side1.material, side2.material);
   for (dContact& contact : contacts) contact.surface = pair.surface;
-  const int kept = pair.passes.empty() ? static_cast<int>(contacts.size()) : state_->run_passes(pair, contacts);
+  const int kept =
+      pair.passes.empty() ? static_cast<int>(contacts.size()) : state_->run_passes(pair, contacts, side1.body, side2.body);
   pair.contacts += static_cast<unsigned long long>(kept);
   return kept;
 }

@@ -21,21 +21,22 @@ void align_corner(const Slip& slip, dContact& contact) {
 }
 
 /// The direction in the world frame; it is fixed to the body or, without one, to the geom.
-Vector3 world_direction(const FrictionAxes& axes, const dContactGeom& geom) {
-  const dGeomID carrier = axes.is_on_second ? geom.g2 : geom.g1;
+Vector3 world_direction(const FrictionAxes& axes, const Patch& patch) {
+  const dContactGeom& geom = patch.deepest().geom;
   const Vector3& d = axes.direction;
   dVector3 world;
-  if (const dBodyID body = dGeomGetBody(carrier)) {
+  if (const dBodyID body = axes.is_on_second ? patch.body2 : patch.body1) {
     dBodyVectorToWorld(body, ode::to_real(d.x()), ode::to_real(d.y()), ode::to_real(d.z()), world);
   } else {
+    const dGeomID carrier = axes.is_on_second ? geom.g2 : geom.g1;
     dGeomVectorToWorld(carrier, ode::to_real(d.x()), ode::to_real(d.y()), ode::to_real(d.z()), world);
   }
   return ode::to_vector(world);
 }
 
-void set_ellipse(const FrictionAxes& axes, const Slip& slip, dContact& contact) {
+void set_ellipse(const FrictionAxes& axes, const Vector3& direction, const Slip& slip, dContact& contact) {
   const Vector3 n = ode::to_vector(contact.geom.normal);
-  Vector3 first = world_direction(axes, contact.geom);
+  Vector3 first = direction;
   first -= n.dot(first) * n;
   // Seen along its own axis, the direction has no projection onto the surface, and any tangent will do.
   if (first.norm() < 1e-6 * axes.direction.norm()) first = n.unitOrthogonal();
@@ -57,14 +58,15 @@ void align_friction(const PairMaterial& /*pair*/, Patch& patch) {
 
 void align_anisotropic_friction(const PairMaterial& pair, Patch& patch) {
   const Slip slip(patch);
-  for (dContact& contact : patch.contacts) set_ellipse(pair.axes, slip, contact);
+  const Vector3 direction = world_direction(pair.axes, patch);
+  for (dContact& contact : patch.contacts) set_ellipse(pair.axes, direction, slip, contact);
 }
 
 // The axes are those of friction (fdir1), and torques have separate limits too. At rest, the bodies would be set rolling by the
 // torque of the force that pulls them along, about the axis n x slip.
 void align_rolling(const PairMaterial& pair, Patch& patch) {
   const Slip slip(patch);
-  const Vector3 spin = spin_of(patch.body1()) - spin_of(patch.body2());
+  const Vector3 spin = spin_of(patch.body1) - spin_of(patch.body2);
   for (dContact& contact : patch.contacts) {
     if ((contact.surface.mode & dContactFDir1) == 0) {
       align_corner(slip, contact);
@@ -74,8 +76,8 @@ void align_rolling(const PairMaterial& pair, Patch& patch) {
     const Vector3 n = ode::to_vector(contact.geom.normal);
     const Vector3 first = ode::to_vector(contact.fdir1);
     double radius = INFINITY;
-    for (const dBodyID body : {patch.body1(), patch.body2()}) {
-      if (body == nullptr) continue;
+    for (const dBodyID body : {patch.body1, patch.body2}) {
+      if (body == nullptr || dBodyIsKinematic(body) != 0) continue;  // what is driven does not begin to roll
       radius = std::min(radius, (ode::to_vector(contact.geom.pos) - ode::to_vector(dBodyGetPosition(body))).norm());
     }
     const Vector3 onset = radius > 0 && std::isfinite(radius) ? Vector3(n.cross(slip.at(contact)) / radius) : Vector3::Zero();

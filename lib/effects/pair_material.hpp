@@ -20,8 +20,10 @@ struct PairMaterial;
 /// Contacts of one pair with the same normal: the deepest point and the corners that share its load.
 struct Patch {
   std::span<dContact> contacts;
-  double step;     ///< s
-  int kept;        ///< contacts that may be attached; a pass may move others behind them
+  double step;    ///< s
+  int kept;       ///< contacts that may be attached; a pass may move others behind them
+  dBodyID body1;  ///< of the side of geom.g1; 0: a wall at rest
+  dBodyID body2;
   int coarse = 0;  ///< compliant contacts among them that last too few steps
 
   dContact& deepest() const { return contacts.front(); }
@@ -30,8 +32,6 @@ struct Patch {
   bool has_corners() const { return contacts.size() > 1 && contacts.back().geom.depth == 0; }
   bool bears(const dContact& contact) const { return !has_corners() || &contact != &contacts.front(); }
   double bearers() const { return static_cast<double>(contacts.size() - (has_corners() ? 1 : 0)); }
-  dBodyID body1() const { return dGeomGetBody(contacts.front().geom.g1); }
-  dBodyID body2() const { return dGeomGetBody(contacts.front().geom.g2); }
 };
 
 struct Pass {

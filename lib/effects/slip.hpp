@@ -12,7 +12,7 @@ namespace supernormal::effects {
 class Slip {
  public:
   explicit Slip(const Patch& patch)
-      : body1_(patch.body1()), body2_(patch.body2()), gain_(patch.step * (acceleration_of(body1_) - acceleration_of(body2_))) {}
+      : body1_(patch.body1), body2_(patch.body2), gain_(patch.step * (acceleration_of(body1_) - acceleration_of(body2_))) {}
 
   /// m/s; the tangential velocity of body 1 relative to body 2.
   Vector3 at(const dContact& contact) const {

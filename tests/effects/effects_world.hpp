@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -72,8 +73,9 @@ class EffectsWorld {
   World world;
   fx::Effects effects;
   std::function<fx::Material(dGeomID)> material_of = [](dGeomID) { return 0; };
-  std::vector<Load> loads;  ///< loads in the last step
-  double depth = 0;         ///< m, of the deepest contact in the last step
+  std::map<dGeomID, dBodyID> other_body;  ///< bodies of walls whose geoms have none; contacts are then set up by their sides
+  std::vector<Load> loads;                ///< loads in the last step
+  double depth = 0;                       ///< m, of the deepest contact in the last step
 
  private:
   struct Attached {
@@ -91,14 +93,21 @@ class EffectsWorld {
     const int count = dCollide(o1, o2, kRoom, &found[0].geom, sizeof(dContact));
     if (count == 0) return;
     const auto geom = found[0].geom;
-    const int kept = effects.set_up_contacts(std::span(found).first(static_cast<std::size_t>(count)), material_of(geom.g1),
-                                             material_of(geom.g2));
+    const auto contacts = std::span(found).first(static_cast<std::size_t>(count));
+    const int kept = other_body.empty() ? effects.set_up_contacts(contacts, material_of(geom.g1), material_of(geom.g2))
+                                        : effects.set_up_contacts(contacts, {material_of(geom.g1), body_of(geom.g1)},
+                                                                  {material_of(geom.g2), body_of(geom.g2)});
     for (int i = 0; i < kept; ++i) attach(found[static_cast<std::size_t>(i)]);
   }
 
+  dBodyID body_of(dGeomID geom) const {
+    const auto found = other_body.find(geom);
+    return found == other_body.end() ? dGeomGetBody(geom) : found->second;
+  }
+
   void attach(const dContact& contact) {
-    const dBodyID body1 = dGeomGetBody(contact.geom.g1);
-    const dBodyID body2 = dGeomGetBody(contact.geom.g2);
+    const dBodyID body1 = body_of(contact.geom.g1);
+    const dBodyID body2 = body_of(contact.geom.g2);
     const dJointID joint = dJointCreateContact(id(), joints_, &contact);
     dJointAttach(joint, body1, body2);
     const dBodyID first = body1 != nullptr ? body1 : body2;
