@@ -8,7 +8,7 @@
 namespace falling_particles {
 
 const char* kind_of(const Container& container) {
-  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic"};
+  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none"};
   return kKinds[container.index()];
 }
 
@@ -18,6 +18,14 @@ Rectangle plan_of(const Container& container) {
 
 double lowest_start(const Container& container) {
   return std::visit([](const auto& kind) { return kind.lowest(); }, container);
+}
+
+double ceiling_of(const Container& container) {
+  const auto ceiling = [](const auto& kind) {
+    if constexpr (requires { kind.ceiling(); }) return kind.ceiling();
+    return double{INFINITY};
+  };
+  return std::visit(ceiling, container);
 }
 
 bool has_room(const Container& container, const Point& lower, const Point& size) {

@@ -1,4 +1,4 @@
-// The container of a scene: a box, a hopper, a terrain or a periodic cell.
+// The container of a scene: a box, a hopper, a terrain, a periodic cell, or none.
 #pragma once
 
 #include <variant>
@@ -6,14 +6,15 @@
 #include "container/box.hpp"
 #include "container/geometry.hpp"
 #include "container/hopper.hpp"
+#include "container/open.hpp"
 #include "container/periodic.hpp"
 #include "container/terrain.hpp"
 
 namespace falling_particles {
 
-using Container = std::variant<Box, Hopper, Terrain, Periodic>;
+using Container = std::variant<Box, Hopper, Terrain, Periodic, Open>;
 
-/// The name in the scene file: "box", "hopper", "terrain" or "periodic".
+/// The name in the scene file: "box", "hopper", "terrain", "periodic" or "none".
 const char* kind_of(const Container& container);
 
 /// The rectangle above which grains may start.
@@ -21,6 +22,9 @@ Rectangle plan_of(const Container& container);
 
 /// The lowest z at which grains may start, m: nowhere in the container is the floor above it, except for the cone of a hopper.
 double lowest_start(const Container& container);
+
+/// The z below which all grains start, m; infinite where there is no such limit.
+double ceiling_of(const Container& container);
 
 /// Whether there is only air in the cell and above it: the cell lies within the plan and above lowest_start().
 bool has_room(const Container& container, const Point& lower, const Point& size);

@@ -111,6 +111,8 @@ std::vector<ContainerPart> parts_of(const Periodic&, double /*top*/) {
   return {std::move(cell)};
 }
 
+std::vector<ContainerPart> parts_of(const Open&, double /*top*/) { return {}; }
+
 }  // namespace
 
 std::vector<ContainerPart> parts_of(const Container& container, double top) {

@@ -35,6 +35,7 @@ class Walls {
   void add(const Hopper& hopper);
   void add(const Terrain& terrain);
   static void add(const Periodic&) {}  // it has no walls
+  static void add(const Open&) {}      // parts are its walls
 
   dSpaceID space_;
   std::vector<dGeomID> geoms_;

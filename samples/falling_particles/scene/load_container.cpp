@@ -69,14 +69,50 @@ Periodic read_periodic(const TomlTable& table) {
   return {table.number("side", Interval::positive(kLargest, "m"))};
 }
 
+Region read_region(const TomlTable& table, const char* key) {
+  const TomlTable region = table.table(key, {"corner", "size"});
+  const std::vector<double> corner = region.numbers("corner", 3, Interval::closed(-kLargest, kLargest, "m"));
+  const std::vector<double> size = region.numbers("size", 3, Interval::positive(kLargest, "m"));
+  return {{corner[0], corner[1], corner[2]}, {size[0], size[1], size[2]}};
+}
+
+Open read_open(const TomlTable& root, const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "start", "bounds"});
+  if (!root.has("part"))
+    table.fail("kind", "container.kind is \"none\" in a scene without parts; allowed: with one or more [[part]]");
+  Open open{read_region(table, "start"), read_region(table, "bounds")};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double end = open.start.corner[i] + open.start.size[i];
+    if (open.start.corner[i] >= open.bounds.corner[i] && end <= open.bounds.corner[i] + open.bounds.size[i]) continue;
+    table.fail("start", std::string("container.start reaches from ") + shortest(open.start.corner[i]) + " to " + shortest(end) +
+                            " m along " + "xyz"[i] + "; allowed: within container.bounds");
+  }
+  return open;
+}
+
 /// The lattice needs room for at least one cell, whatever the attitude of the largest grain.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   const double narrowest = std::min(plan.width[0], plan.width[1]);
   const double cell = scene.smallest_cell();
   if (narrowest >= cell) return;
-  table.fail("width", "container.width is " + shortest(narrowest) + " at its narrowest; allowed: at least " + shortest(cell) +
-                          " m, so that the largest grain fits in any attitude");
+  const char* key = table.has("width") ? "width" : "start";
+  table.fail(key, "container." + std::string(key) + " is " + shortest(narrowest) + " at its narrowest; allowed: at least " +
+                      shortest(cell) + " m, so that the largest grain fits in any attitude");
+}
+
+/// Where grains start below a ceiling, there may be too many.
+void check_ceiling(const TomlTable& table, const Scene& scene) {
+  if (std::isinf(ceiling_of(scene.container))) return;
+  Lattice lattice(scene);
+  for (int room = 0; room < scene.bodies(); ++room) {
+    try {
+      lattice.next();
+    } catch (const NoRoom&) {
+      table.fail("kind", "the scene has " + std::to_string(scene.bodies()) + " grains; allowed: up to " + std::to_string(room) +
+                             ", which find room in the container at the start");
+    }
+  }
 }
 
 void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& periodic) {
@@ -105,10 +141,11 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
 
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");
-  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic"});
+  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic", "none"});
   if (kind == "hopper") return read_hopper(table, time);
   if (kind == "terrain") return read_terrain(table);
   if (kind == "periodic") return read_periodic(table);
+  if (kind == "none") return read_open(root, table);
   return read_box(table);
 }
 
@@ -120,6 +157,7 @@ void check_fit(const TomlTable& root, const Scene& scene) {
     check_periodic(table, scene, *periodic);
   } else {
     check_width(table, scene);
+    check_ceiling(table, scene);
   }
 }
 

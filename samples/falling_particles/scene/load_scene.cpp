@@ -12,6 +12,8 @@
 #include "memory.hpp"
 #include "nearest_word.hpp"
 #include "output/picture.hpp"
+#include "parts/load_parts.hpp"
+#include "parts/part_material.hpp"
 #include "scene.hpp"
 #include "toml_input.hpp"
 
@@ -182,8 +184,8 @@ void read_output(const TomlTable& root, Scene& scene) {
 
 /// The names of the sections at the top of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed", "catalogue", "container",   "drop",        "grain",
-                                    "time", "solver",    "compression", "broad_phase", "output"};
+  std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
+                                    "solver", "compression", "broad_phase", "output", "part"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -197,10 +199,12 @@ Scene load_scene(const std::string& path) {
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
   scene.container = read_container(root, scene.time);
+  scene.parts = load_parts(root, scene, path);
   const TomlTable drop = read_drop(root, scene);
   scene.grains = read_grains(root, drop, path);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
+  add_part_effects(scene.parts, scene.effects);
   scene.compression = read_compression(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
   read_output(root, scene);

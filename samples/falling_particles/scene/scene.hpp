@@ -8,6 +8,7 @@
 
 #include "container/container.hpp"
 #include "grain.hpp"
+#include "parts/part.hpp"
 #include "simulation/sweep_space.hpp"
 
 namespace falling_particles {
@@ -56,6 +57,7 @@ struct Scene {
   std::optional<Compression> compression = {};        ///< for the grains in a periodic container
   std::vector<std::string> pictures = {};             ///< formats that a run leaves besides its tables (output/picture.hpp)
   bool forces = false;                                ///< whether pictures show the forces of the contacts
+  std::vector<Part> parts = {};                       ///< walls besides those of the container, or in its place
   std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen by the positions of the grains if empty
 
   /// Null when the scene names none.

@@ -1,6 +1,7 @@
 #include "contact_joints.hpp"
 
 #include <array>
+#include <utility>
 
 namespace falling_particles {
 namespace {
@@ -11,7 +12,7 @@ bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 ==
 
 // ODE tells the force on the joint's first body, which is that of g2 when g1 has none.
 Point MeasuredContact::force() const {
-  const double sign = dGeomGetBody(geom.g1) == nullptr ? -1 : 1;
+  const double sign = is_reversed ? -1 : 1;
   return {sign * feedback.f1[0], sign * feedback.f1[1], sign * feedback.f1[2]};
 }
 
@@ -29,16 +30,32 @@ void ContactJoints::replace(std::span<const dContactGeom> contacts, bool measure
 }
 
 void ContactJoints::attach(std::span<const dContactGeom> pair, bool measures) {
-  std::array<dContact, kContactsPerPair> contacts;
+  std::array<dContact, kContactsPerPair> room;
+  const auto contacts = std::span(room).first(pair.size());
   for (std::size_t i = 0; i < pair.size(); ++i) contacts[i].geom = pair[i];
-  const int count =
-      world_.effects().set_up_contacts(std::span(contacts).first(pair.size()), material_of(pair[0].g1), material_of(pair[0].g2));
-  for (int i = 0; i < count; ++i) {
-    const dContact& contact = contacts[static_cast<std::size_t>(i)];
-    const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
-    dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
-    if (measures) dJointSetFeedback(joint, &measured_.emplace_back(MeasuredContact{contact.geom, {}}).feedback);
+  if (world_.parts() != nullptr) return attach_to_parts(contacts, measures);
+  const int count = world_.effects().set_up_contacts(contacts, material_of(pair[0].g1), material_of(pair[0].g2));
+  for (const dContact& contact : contacts.first(static_cast<std::size_t>(count))) {
+    make(contact, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2), measures);
   }
+}
+
+// A grain on a part that moves stays awake: ODE would take the velocity of one that is slow for none.
+void ContactJoints::attach_to_parts(std::span<dContact> contacts, bool measures) {
+  const PartBodies& parts = *world_.parts();
+  const auto [geom1, geom2] = std::pair{contacts[0].geom.g1, contacts[0].geom.g2};
+  const auto side1 = parts.side_of(geom1, material_of(geom1));
+  const auto side2 = parts.side_of(geom2, material_of(geom2));
+  if (parts.is_moving(geom1)) dBodyEnable(side2.body);
+  if (parts.is_moving(geom2)) dBodyEnable(side1.body);
+  const int count = world_.effects().set_up_contacts(contacts, side1, side2);
+  for (const dContact& contact : contacts.first(static_cast<std::size_t>(count))) make(contact, side1.body, side2.body, measures);
+}
+
+void ContactJoints::make(const dContact& contact, dBodyID body1, dBodyID body2, bool measures) {
+  const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
+  dJointAttach(joint, body1, body2);
+  if (measures) dJointSetFeedback(joint, &measured_.emplace_back(MeasuredContact{contact.geom, {}, body1 == nullptr}).feedback);
 }
 
 }  // namespace falling_particles

@@ -17,6 +17,7 @@ inline constexpr int kContactsPerPair = 5;
 struct MeasuredContact {
   dContactGeom geom;
   dJointFeedback feedback;
+  bool is_reversed = false;  ///< whether the joint's first body is that of geom.g2
 
   /// N, in the world's frame, on the body of geom.g1; after the step.
   Point force() const;
@@ -41,6 +42,8 @@ class ContactJoints {
 
  private:
   void attach(std::span<const dContactGeom> pair, bool measures);
+  void attach_to_parts(std::span<dContact> contacts, bool measures);
+  void make(const dContact& contact, dBodyID body1, dBodyID body2, bool measures);
 
   const World& world_;
   dJointGroupID joints_;

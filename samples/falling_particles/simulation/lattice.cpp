@@ -24,6 +24,7 @@ std::array<std::size_t, 3> Lattice::next() {
     const std::array<std::size_t, 3> index{i % cells_[0], i / cells_[0] % cells_[1], i / (cells_[0] * cells_[1])};
     Point lower = corner_;
     for (std::size_t axis = 0; axis < 3; ++axis) lower[axis] += static_cast<double>(index[axis]) * cell_[axis];
+    if (lower[2] + cell_[2] > ceiling_of(container_)) throw NoRoom();
     if (!has_room(container_, lower, cell_)) continue;
     layers_ = index[2] + 1;
     return index;

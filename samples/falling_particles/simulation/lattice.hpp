@@ -3,10 +3,17 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
 
 #include "scene/scene.hpp"
 
 namespace falling_particles {
+
+/// There is no cell left for a grain.
+class NoRoom : public std::runtime_error {
+ public:
+  NoRoom() : std::runtime_error("the container has no room for all grains at the start") {}
+};
 
 /// The cells in which the grains of a scene start, layer upon layer from the container's lowest possible start: each holds the
 /// largest grain in any attitude, is free of walls, and a layer's cells share out the plan of the container.
@@ -15,7 +22,7 @@ class Lattice {
   /// The container's plan is at least one cell wide.
   explicit Lattice(const Scene& scene);
 
-  /// Indices of the next cell along x, y, z.
+  /// Indices of the next cell along x, y, z. Throws NoRoom when all cells below the container's ceiling are taken.
   std::array<std::size_t, 3> next();
 
   const Point& corner() const { return corner_; }  ///< m, lower corner of cell 0, 0, 0

@@ -31,6 +31,7 @@ Stepper::~Stepper() { snBatchDestroy(batch_); }
 
 void Stepper::step(bool measures) {
   contacts_.clear();
+  if (PartBodies* parts = world_.parts()) parts->before_step();
   if (PeriodicCell* cell = world_.cell()) cell->place_images();
   world_.sweep().before_step();
   {
@@ -49,6 +50,7 @@ void Stepper::step(bool measures) {
   const Stopwatch::Lap lap(costs_.solver);
   dWorldQuickStep(world_.id(), step_);
   if (PeriodicCell* cell = world_.cell()) cell->gather();
+  if (PartBodies* parts = world_.parts()) parts->after_step();
 }
 
 void Stepper::collide_grains() {
@@ -90,7 +92,10 @@ int Stepper::name_pair(void* self, dGeomID g1, dGeomID g2) {
     stepper.costs_.broad_phase.lap();
     return 0;
   }
-  if (stepper.may_sleep_ && !is_awake(g1) && !is_awake(g2)) return 0;
+  if (stepper.may_sleep_ && !is_awake(g1) && !is_awake(g2)) {
+    const PartBodies* parts = stepper.world_.parts();
+    if (parts == nullptr || !parts->is_moving(g2)) return 0;
+  }
   ++stepper.costs_.pairs_tested;
   return 1;
 }

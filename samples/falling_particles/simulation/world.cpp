@@ -46,6 +46,7 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
   // The walls are in no space: ODE pairs geoms without an upper end with all others, whatever their bounding boxes. Each wall is
   // compared with the grains instead, at the cost of the comparison of their boxes.
   walls_.emplace(nullptr, scene.container, kWallBit, kGrainBit);
+  if (!scene.parts.empty()) parts_ = std::make_unique<PartBodies>(world_, scene.parts, scene.time.step, kWallBit, kGrainBit);
   bodies_.reserve(placements.size());
   for (const Placement& placement : placements) add_body(scene.grains[placement.kind].grain, placement);
   if (const Periodic* periodic = std::get_if<Periodic>(&scene.container))
@@ -54,6 +55,7 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
 
 World::~World() {
   cell_.reset();
+  parts_.reset();
   walls_.reset();
   sweep_.reset();
   dWorldDestroy(world_);
@@ -66,6 +68,8 @@ void World::name_wall_pairs(void* data, dNearCallback* callback) const {
     // A space is a geom to ODE.
     dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
   }
+  if (parts_ == nullptr) return;
+  for (dGeomID part : parts_->geoms()) dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), part, data, callback);
 }
 
 void World::name_pairs(void* data, dNearCallback* callback) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "container/walls.hpp"
+#include "parts/part_bodies.hpp"
 #include "periodic_cell.hpp"
 #include "placement.hpp"
 #include "scene/material.hpp"
@@ -67,6 +68,7 @@ class World {
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
   void name_pairs(void* data, dNearCallback* callback) const;
   PeriodicCell* cell() const { return cell_.get(); }  ///< for a periodic container, otherwise null
+  PartBodies* parts() const { return parts_.get(); }  ///< null for a scene without parts
 
   /// Takes the lid off a hopper's outlet; call it once.
   void open_outlet() { walls_->open_outlet(); }
@@ -81,6 +83,7 @@ class World {
   std::vector<Body> bodies_;
   std::optional<Walls> walls_;
   std::unique_ptr<PeriodicCell> cell_;
+  std::unique_ptr<PartBodies> parts_;
 };
 
 }  // namespace falling_particles

@@ -1,0 +1,77 @@
+// Prescribed motions of parts, as functions of time.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace falling_particles {
+
+using Vector3 = Eigen::Vector3d;
+
+/// Where a part is: a point x of it is at rotation x + position.
+struct PartPose {
+  Vector3 position = Vector3::Zero();  ///< m
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+
+  Vector3 operator()(const Vector3& point) const { return rotation * point + position; }
+};
+
+/// Of the body's position, and of the body.
+struct PartVelocity {
+  Vector3 linear = Vector3::Zero();   ///< m/s
+  Vector3 angular = Vector3::Zero();  ///< rad/s
+
+  bool is_zero() const { return linear.isZero(0) && angular.isZero(0); }
+};
+
+/// A constant velocity.
+struct Translation {
+  Vector3 velocity;  ///< m/s
+};
+
+/// Turns about an axis.
+struct Rotation {
+  Vector3 axis;   ///< unit
+  Vector3 point;  ///< m, of the axis, where it is at the start
+  double rpm;     ///< revolutions a minute, anticlockwise as seen from the tip of the axis
+};
+
+/// Shakes by amplitude (sin(2 pi frequency t + phase) - sin phase): it starts where the part is.
+struct Vibration {
+  Vector3 amplitude;  ///< m, along the direction
+  double frequency;   ///< Hz
+  double phase;       ///< rad
+};
+
+/// The surface moves, and the part stands. The velocity is that of the whole surface, which a face across it pushes with.
+struct Conveyor {
+  Vector3 velocity;  ///< m/s, at the start; it turns with the part
+  Rotation turn;     ///< of the surface about an axis of the part; none for rpm = 0
+};
+
+/// One motion of a part.
+struct PartMotion {
+  std::variant<Translation, Rotation, Vibration, Conveyor> kind;
+  double from = 0;                                         ///< s, when it starts
+  double until = std::numeric_limits<double>::infinity();  ///< s; then the part stays where it is
+
+  double elapsed(double time) const;  ///< s, the time for which it has been on
+};
+
+/// The pose at a time (s) of a part that starts in `start`: an exact function of time, whatever the steps. Displacements add up,
+/// and are along directions of the world. Rotations turn the part about the places where their axes are at the start, the last one
+/// first, and are then displaced: an axis is carried by the displacements and by the rotations listed before.
+PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, double time);
+
+/// The constant velocity that leads from one pose to the other within `duration` (s), by the smaller turn.
+PartVelocity mean_velocity(const PartPose& from, const PartPose& to, double duration);
+
+/// The mean velocity that conveyors give the surface of the part from one time to another (s), in the world's frame, at the
+/// position of the part, which is at `now`.
+PartVelocity conveyor_velocity(const PartPose& start, const PartPose& now, std::span<const PartMotion> motions, double from,
+                               double until);
+
+}  // namespace falling_particles

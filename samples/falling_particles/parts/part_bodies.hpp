@@ -1,0 +1,83 @@
+// The parts of a scene in a world of ODE.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <span>
+#include <supernormal/effects.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "parts/part.hpp"
+
+namespace falling_particles {
+
+/// Where a part is and how it moves.
+struct PartState {
+  PartPose pose;
+  PartVelocity velocity;  ///< mean of the last step, without that of a conveyor's surface
+};
+
+/// The geoms of the parts, and bodies that give contacts their velocities. The geoms have no bodies, since ODE's planes can have
+/// none: a part that moves has a kinematic body beside its geom, with the mean velocity of the step, and is set to its exact pose
+/// after it. A driven part has a body with mass on a slider joint to its kinematic one.
+class PartBodies {
+ public:
+  /// The parts must outlive this object, and the world too. The geoms collide with those that have a bit of `collide_bits`, and
+  /// have `category_bits`. `step`: s. Throws std::runtime_error when the library refuses a shape.
+  PartBodies(dWorldID world, const std::vector<Part>& parts, double step, unsigned long category_bits, unsigned long collide_bits);
+  ~PartBodies();
+  PartBodies(const PartBodies&) = delete;
+  PartBodies& operator=(const PartBodies&) = delete;
+
+  const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< in the order of the parts
+
+  /// Gives the bodies their velocities; call it before the contacts of a step are looked for.
+  void before_step();
+  /// Puts the parts where they belong after the step.
+  void after_step();
+
+  /// Whether the geom is that of a part which moves, or whose surface moves, in this step.
+  bool is_moving(dGeomID geom) const;
+  /// The body of the part, 0 while it does not move, and its material; of any other geom its own body.
+  supernormal::effects::Side side_of(dGeomID geom, supernormal::effects::Material otherwise) const;
+
+  const Part& part(std::size_t index) const { return *entries_[index].part; }
+  std::size_t count() const { return entries_.size(); }
+  PartState state(std::size_t index) const;
+
+ private:
+  struct Entry {
+    const Part* part;
+    dGeomID geom;
+    supernormal::effects::Material material;
+    PartPose pose;               // of the carrier
+    PartPose next;               // of the carrier, after the step
+    PartVelocity velocity = {};  // of the carrier, in this step
+    dBodyID carrier = nullptr;   // kinematic; null for a part that stands
+    bool is_moving = false;
+    dBodyID driven = nullptr;  // with mass; null for a part that is not driven
+    dJointID slider = nullptr;
+    double position = 0;  // m, of the driven body along its axis
+    double speed = 0;     // m/s
+    bool is_held = true;
+
+    PartPose part_pose() const;  // with the way that the driven body has slid
+    Vector3 axis() const;        // of the drive, in the world's frame
+  };
+  dGeomID create_geom(const PartShape& shape);
+  void add_drive(Entry& entry, const Drive& drive);
+  void push(Entry& entry, double now);
+  void slide(Entry& entry);
+  static void place(const Entry& entry);
+
+  dWorldID world_;
+  double step_;
+  long steps_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<dGeomID> geoms_;
+  std::unordered_map<dGeomID, std::size_t> index_of_;
+  std::vector<dTriMeshDataID> mesh_data_;
+};
+
+}  // namespace falling_particles
