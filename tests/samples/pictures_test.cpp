@@ -3,6 +3,7 @@
 #include <tiny_gltf.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "output/picture.hpp"
+#include "parts/part_mesh.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
@@ -35,7 +37,7 @@ Frame frame_at(std::size_t index) {
   const auto t = static_cast<double>(index);
   frame.time = 0.1 * t;
   frame.energy = {0.5 * t, 1 - t};
-  frame.part_scales = {1, 1};
+  frame.part_places = {{}, {}, {{0.1 * t, 0.2, 0.3}, {std::cos(0.3 * t), 0, std::sin(0.3 * t), 0}, 1}};
   for (std::size_t k = 0; k < kBodies; ++k) {
     const double moved = k + 1 == kBodies ? 0 : t;
     const auto body = static_cast<double>(k);
@@ -49,13 +51,27 @@ Frame frame_at(std::size_t index) {
   return frame;
 }
 
+/// Floor, walls, and a plate that moves and turns.
+std::vector<ContainerPart> parts_of_scene(const Scene& scene) {
+  std::vector<ContainerPart> parts = parts_of(scene.container, 0.1);
+  Part plate{"plate", BoxShape{{0.02, 0.04, 0.01}}};
+  plate.motions = {{Translation{{1, 0, 0}}}};
+  parts.push_back(picture_of(plate, 1));
+  return parts;
+}
+
+/// A corner of the plate at a frame.
+Vector3 corner_at(std::size_t index) {
+  const auto& [p, q, scale] = frame_at(index).part_places[2];
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3(0.01, 0.02, 0.005) + Vector3(p[0], p[1], p[2]);
+}
+
 /// Writes the frames in one format and gives the folder to look at.
 class Written {
  public:
   explicit Written(std::string_view format) : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
     const PictureFormat& found = *find_picture_format(format);
-    const std::unique_ptr<Picture> picture =
-        found.make(out_, found, Contents{&scene_, {0, 1, 0, 1, 0}, parts_of(scene_.container, 0.1)});
+    const std::unique_ptr<Picture> picture = found.make(out_, found, Contents{&scene_, {0, 1, 0, 1, 0}, parts_of_scene(scene_)});
     for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
     picture->finish(kSummary);
     for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
@@ -107,15 +123,15 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
   REQUIRE(reader.LoadBinaryFromFile(&model, &error, &warning, written.path("scene.glb")));
   CHECK(error.empty());
   CHECK(warning.empty());
-  REQUIRE(model.meshes.size() == 4);  // two of the grains, floor and walls
+  REQUIRE(model.meshes.size() == 5);  // two of the grains, floor, walls and plate
   CHECK(model.meshes[2].name == "floor");
   CHECK(model.meshes[1].name == "die </script>");
-  REQUIRE(model.nodes.size() == kBodies + 3);
+  REQUIRE(model.nodes.size() == kBodies + 4);
   CHECK(model.nodes[kBodies + 1].mesh == 3);
   CHECK(model.nodes[3].mesh == 1);
   REQUIRE(model.animations.size() == 1);
   const tinygltf::Animation& animation = model.animations[0];
-  CHECK(animation.channels.size() == 2 * (kBodies - 1));
+  CHECK(animation.channels.size() == 2 * (kBodies - 1) + 2);  // and the plate
   for (const tinygltf::AnimationChannel& channel : animation.channels) {
     const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
     CHECK(read(model, sampler.input).size() == kFrames);
@@ -123,12 +139,14 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
     const std::size_t width = channel.target_path == "translation" ? 3 : 4;
     REQUIRE(track.size() == width * kFrames);
     for (std::size_t index = 0; index < kFrames; ++index) {
-      const BodyState body = frame_at(index).bodies[static_cast<std::size_t>(channel.target_node)];
-      const auto& [w, x, y, z] = body.quaternion;
+      const Frame frame = frame_at(index);
+      const auto node = static_cast<std::size_t>(channel.target_node);
+      const Point& position = node < kBodies ? frame.bodies[node].position : frame.part_places[node - kBodies].position;
+      const auto& [w, x, y, z] = node < kBodies ? frame.bodies[node].quaternion : frame.part_places[node - kBodies].quaternion;
       const std::array<double, 4> turned = {x, y, z, w};
       double along = 0;
       for (std::size_t i = 0; i < width; ++i) {
-        if (width == 3) CHECK(track[3 * index + i] == static_cast<float>(body.position[i]));
+        if (width == 3) CHECK(track[3 * index + i] == static_cast<float>(position[i]));
         if (width == 4) along += track[4 * index + i] * turned[i];
       }
       if (width == 4) CHECK(std::abs(along) == doctest::Approx(1).epsilon(1e-6));
@@ -153,8 +171,12 @@ TEST_CASE("page: what it needs is in it, and names cannot end a script") {
   REQUIRE(run["kinds"].size() == 2);
   CHECK(run["kinds"][1]["name"] == "die </script>");
   CHECK(run["kinds"][1]["exponents"] == std::vector{20.0, 20.0});
-  CHECK(run["parts"].size() == 2);
-  CHECK(run["partScales"][1] == std::vector{1.0, 1.0});
+  CHECK(run["parts"].size() == 3);
+  CHECK(run["partScales"][1] == std::vector{1.0, 1.0, 1.0});
+  CHECK(run["parts"][1]["moves"] == false);
+  CHECK(run["parts"][2]["moves"] == true);
+  // Of the part that moves alone, the quaternion with w last.
+  CHECK(run["partPoses"][2] == std::vector{0.2, 0.2, 0.3, 0.0, std::sin(0.6), 0.0, std::cos(0.6)});
   CHECK(run["contacts"].size() == kFrames);
   CHECK(run["contacts"][0]["count"] == 0);
   CHECK(run["contacts"][3]["count"] == 2);
@@ -195,6 +217,14 @@ TEST_CASE("vtk: grains and contacts of every frame, also where there are none") 
   CHECK(count_of(written.text("grains.pvd"), "<DataSet ") == kFrames);
   CHECK(count_of(written.text("contacts.pvd"), "<DataSet ") == kFrames);
   for (std::size_t index = 0; index < kFrames; ++index) {
+    const std::vector<double> points = read_array(written.text("vtk/container_00000" + std::to_string(index) + ".vtp"), "position");
+    double nearest = 1;
+    for (std::size_t k = 0; k < points.size(); k += 3) {
+      nearest = std::min(nearest, (Vector3(points[k], points[k + 1], points[k + 2]) - corner_at(index)).norm());
+    }
+    CHECK(nearest < 1e-8);
+  }
+  for (std::size_t index = 0; index < kFrames; ++index) {
     const Frame frame = frame_at(index);
     const std::string grains = written.text("vtk/grains_00000" + std::to_string(index) + ".vtp");
     const std::vector<double> positions = read_array(grains, "position"), quaternions = read_array(grains, "quaternion");
@@ -216,6 +246,19 @@ TEST_CASE("povray: a grain with rounded edges is a mesh, another is exact") {
   const std::string text = written.text("still.pov");
   CHECK(count_of(text, "superellipsoid {") == 1);
   CHECK(count_of(text, "mesh2 {") == 1);
+  // The plate is where it is in the last frame.
+  const std::size_t plate = text.find("// plate");
+  REQUIRE(plate != std::string::npos);
+  double nearest = 1;
+  for (std::size_t at = text.find("triangle {", plate); at != std::string::npos; at = text.find("triangle {", at + 1)) {
+    std::array<double, 9> corners{};
+    auto& [ax, ay, az, bx, by, bz, cx, cy, cz] = corners;
+    REQUIRE(std::sscanf(text.c_str() + at, "triangle { <%lf, %lf, %lf>, <%lf, %lf, %lf>, <%lf, %lf, %lf> }", &ax, &ay, &az, &bx,
+                        &by, &bz, &cx, &cy, &cz) == 9);
+    for (std::size_t k = 0; k < 9; k += 3)
+      nearest = std::min(nearest, (Vector3::Map(&corners.at(k)) - corner_at(kFrames - 1)).norm());
+  }
+  CHECK(nearest < 1e-8);
   CHECK(count_of(text, "object { Kind0 matrix") == 3);
   CHECK(count_of(text, "object { Kind1 matrix") == 2);
 }

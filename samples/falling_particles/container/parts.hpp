@@ -11,8 +11,9 @@ namespace falling_particles {
 
 /// A piece of a container.
 struct ContainerPart {
-  /// A lid vanishes when the outlet opens; a cell, whose mesh has the side 1, is scaled about the origin by its side.
-  enum class Role { Still, Lid, Cell };
+  /// A lid vanishes when the outlet opens; a cell, whose mesh has the side 1, is scaled about the origin by its side; the mesh of
+  /// what moves is in its own frame.
+  enum class Role { Still, Lid, Cell, Moving };
 
   std::string name;
   Role role;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "parts/part_mesh.hpp"
 #include "simulation/stepper.hpp"
 #include "simulation/world.hpp"
 
@@ -24,9 +25,21 @@ double scale_of(const ContainerPart& part, const World& world) {
     case ContainerPart::Role::Cell:
       return world.cell()->side();
     case ContainerPart::Role::Still:
+    case ContainerPart::Role::Moving:
       break;
   }
   return 1;
+}
+
+PartPlace place_of(const PartPose& pose) {
+  const auto& [p, q] = pose;
+  return {{p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}, 1};
+}
+
+/// m, wide enough for the grains of the scene to stay above a plane of that width.
+double width_of_planes(const Scene& scene) {
+  const Rectangle plan = plan_of(scene.container);
+  return 2 * std::max(plan.width[0], plan.width[1]);
 }
 
 ContactState state_of(const dContactGeom& contact, const World& world) {
@@ -46,6 +59,12 @@ void add_contacts(Frame& frame, const World& world, const Stepper& stepper) {
 }
 
 }  // namespace
+
+Point PartPlace::operator()(const std::array<float, 3>& vertex) const {
+  const auto& [w, x, y, z] = quaternion;
+  const Vector3 turned = Eigen::Quaterniond(w, x, y, z) * (scale * Vector3(vertex[0], vertex[1], vertex[2]));
+  return {position[0] + turned.x(), position[1] + turned.y(), position[2] + turned.z()};
+}
 
 Extent extent_of(const Frame& frame, double radius) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -70,6 +89,7 @@ Contents contents_of(const World& world, const Scene& scene) {
     top = std::max(top, body.position()[2] + body.grain->bounding_radius());
   }
   contents.parts = parts_of(scene.container, top);
+  for (const Part& part : scene.parts) contents.parts.push_back(picture_of(part, width_of_planes(scene)));
   return contents;
 }
 
@@ -77,7 +97,12 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
   Frame frame;
   frame.time = time;
   frame.energy = energy;
-  for (const ContainerPart& part : contents.parts) frame.part_scales.push_back(scale_of(part, world));
+  const std::size_t of_container = contents.parts.size() - contents.scene->parts.size();
+  for (std::size_t i = 0; i < contents.parts.size(); ++i) {
+    const ContainerPart& part = contents.parts[i];
+    frame.part_places.push_back(part.role == ContainerPart::Role::Moving ? place_of(world.parts()->state(i - of_container).pose)
+                                                                         : PartPlace{.scale = scale_of(part, world)});
+  }
   frame.bodies.reserve(world.bodies().size());
   for (const Body& body : world.bodies()) {
     frame.bodies.push_back(

@@ -36,13 +36,23 @@ struct ContactState {
 
 inline constexpr int kWall = -1;
 
+/// Where a part of the container is: its mesh is scaled, turned and moved.
+struct PartPlace {
+  Point position = {};                              ///< m
+  std::array<double, 4> quaternion = {1, 0, 0, 0};  ///< w, x, y, z; unit
+  double scale = 1;                                 ///< 0: the part is gone
+
+  Point operator()(const std::array<float, 3>& vertex) const;
+  bool operator==(const PartPlace&) const = default;
+};
+
 /// One moment of a run. The bodies are those of the scene, always in the same order.
 struct Frame {
   double time = 0;  ///< s
   Energy energy{};
   std::vector<BodyState> bodies;
   std::vector<ContactState> contacts;  ///< of the step that led to this moment; none at the start. Those of a pair are consecutive
-  std::vector<double> part_scales;     ///< of the container's parts about the origin; 0: the part is gone
+  std::vector<PartPlace> part_places;  ///< of the container's parts
 };
 
 /// A box along the axes.
@@ -57,7 +67,7 @@ Extent extent_of(const Frame& frame, double radius);
 struct Contents {
   const Scene* scene;
   std::vector<std::size_t> kind_of_body;  ///< index into scene->grains
-  std::vector<ContainerPart> parts = {};  ///< of the container
+  std::vector<ContainerPart> parts = {};  ///< of the container, then those of the scene
 
   const Grain& grain(std::size_t body) const { return scene->grains[kind_of_body[body]].grain; }
 };

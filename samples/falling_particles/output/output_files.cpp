@@ -74,4 +74,24 @@ void CompressionFile::write(double time, const Packing& packing) {
                shortest(packing.overlap.relative), shortest(packing.target_overlap), shortest(packing.contacts_per_grain)}));
 }
 
+PartsFile::PartsFile(const std::filesystem::path& path) : file_(path) {
+  file_.write("time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n");
+}
+
+void PartsFile::write(double time, const PartBodies& parts) {
+  std::string frame;
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    if (!parts.part(i).moves()) continue;
+    const auto& [pose, velocity] = parts.state(i);
+    const Eigen::Quaterniond& q = pose.rotation;
+    frame += shortest(time) + ',' + parts.part(i).name;
+    for (const double number : pose.position) frame += ',' + shortest(number);
+    for (const double number : {q.w(), q.x(), q.y(), q.z()}) frame += ',' + shortest(number);
+    for (const double number : velocity.linear) frame += ',' + shortest(number);
+    for (const double number : velocity.angular) frame += ',' + shortest(number);
+    frame += '\n';
+  }
+  file_.write(frame);
+}
+
 }  // namespace falling_particles

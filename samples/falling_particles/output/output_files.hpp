@@ -19,8 +19,9 @@ inline constexpr std::string_view kStateFile = "state.csv";
 inline constexpr std::string_view kSummaryFile = "summary.toml";
 inline constexpr std::string_view kDischargeFile = "discharge.csv";
 inline constexpr std::string_view kCompressionFile = "compression.csv";
-inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,  kStateFile,
-                                            kSummaryFile,    kDischargeFile, kCompressionFile};
+inline constexpr std::string_view kPartsFile = "parts.csv";
+inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,    kStateFile, kSummaryFile,
+                                            kDischargeFile,  kCompressionFile, kPartsFile};
 
 /// trajectory.csv has a line per frame and body. Numbers are the shortest text that reads back exactly. All files are handed over
 /// to the system frame by frame: a run that is killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
@@ -83,6 +84,18 @@ class CompressionFile {
  public:
   explicit CompressionFile(const std::filesystem::path& path);
   void write(double time, const Packing& packing);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+};
+
+/// parts.csv, of a scene with parts that move, has a line per frame and such part: where it is, and its mean velocity in the step
+/// before, without that of a conveyor's surface.
+class PartsFile {
+ public:
+  explicit PartsFile(const std::filesystem::path& path);
+  void write(double time, const PartBodies& parts);
   void close() { file_.close(); }
 
  private:

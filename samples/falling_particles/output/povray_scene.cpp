@@ -48,13 +48,10 @@ std::string mesh(const Grain& grain) {
 
 /// A part of the container: what carries grains is solid, and one sees through what surrounds them, of which a still of the last
 /// frame shows edges, as wide as a tenth of a grain. Walls are left out but for their lowest edges, the floor's.
-std::string container(const ContainerPart& part, double scale, double grain) {
-  if (scale == 0 || part.name == "walls") return {};
+std::string container(const ContainerPart& part, const PartPlace& place, double grain) {
+  if (place.scale == 0 || part.name == "walls") return {};
   const bool is_solid = part.edges.empty() || part.name == "floor" || part.name == "dish";
-  const auto corner = [&](unsigned int index) {
-    const auto& [x, y, z] = part.mesh.vertices[index];
-    return vector(std::array{scale * x, scale * y, scale * z});
-  };
+  const auto corner = [&](unsigned int index) { return vector(place(part.mesh.vertices[index])); };
   std::string text = "\n// " + part.name + "\n";
   if (!part.mesh.triangles.empty()) {
     text += "mesh {\n";
@@ -91,7 +88,7 @@ std::string camera_on(const Frame& frame, double radius, const std::vector<Conta
   for (const BodyState& body : frame.bodies) hold(to_vector(body.position), radius);
   for (std::size_t part = 0; part < parts.size(); ++part) {
     if (parts[part].role != ContainerPart::Role::Cell) continue;
-    for (const auto& [x, y, z] : parts[part].mesh.vertices) hold(frame.part_scales[part] * Vector3(x, y, z), 0);
+    for (const auto& vertex : parts[part].mesh.vertices) hold(to_vector(frame.part_places[part](vertex)), 0);
   }
   const Vector3 light = centre + 4 * size * Vector3(0.1, -0.5, 0.85).normalized();
   const std::string side = shortest(size / 2);
@@ -111,7 +108,7 @@ void PovrayScene::finish(const std::string& /*summary*/) {
   std::string text = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" +
                      camera_on(last_, contents_.scene->largest_bounding_radius(), contents_.parts);
   for (std::size_t part = 0; part < contents_.parts.size(); ++part) {
-    text += container(contents_.parts[part], last_.part_scales[part], contents_.scene->smallest_half_axis());
+    text += container(contents_.parts[part], last_.part_places[part], contents_.scene->smallest_half_axis());
   }
   for (std::size_t kind = 0; kind < contents_.scene->grains.size(); ++kind) {
     const Grain& grain = contents_.scene->grains[kind].grain;

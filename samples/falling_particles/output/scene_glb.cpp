@@ -34,7 +34,7 @@ class Builder {
     add_nodes(contents);
   }
 
-  /// A track a node; what does not move has none.
+  /// A track a node, those of the bodies before those of the parts, which have scales too; what does not move has none.
   void animate(const std::vector<float>& times, const Channel& translations, const Channel& rotations, const Channel& scales) {
     tinygltf::Animation animation;
     animation.name = "run";
@@ -42,22 +42,22 @@ class Builder {
     const int input = add_accessor(view, times, TINYGLTF_TYPE_SCALAR);
     model_.accessors[static_cast<std::size_t>(input)].minValues = {times.front()};
     model_.accessors[static_cast<std::size_t>(input)].maxValues = {times.back()};
-    for (std::size_t body = 0; body < translations.size(); ++body) {
-      animate(animation, body, "translation", input, add_moving(view, translations[body], 3), "LINEAR");
-      animate(animation, body, "rotation", input, add_moving(view, rotations[body], 4), "LINEAR");
+    for (std::size_t node = 0; node < translations.size(); ++node) {
+      animate(animation, node, "translation", input, add_moving(view, translations[node], 3), "LINEAR");
+      animate(animation, node, "rotation", input, add_moving(view, rotations[node], 4), "LINEAR");
     }
+    const std::size_t bodies = translations.size() - scales.size();
     for (std::size_t part = 0; part < scales.size(); ++part) {
       // A lid is there or not, a cell shrinks from frame to frame.
       const bool vanishes = std::ranges::find(scales[part], 0) != scales[part].end();
-      animate(animation, translations.size() + part, "scale", input, add_moving(view, scales[part], 3),
-              vanishes ? "STEP" : "LINEAR");
+      animate(animation, bodies + part, "scale", input, add_moving(view, scales[part], 3), vanishes ? "STEP" : "LINEAR");
     }
     if (!animation.channels.empty()) model_.animations.push_back(std::move(animation));
   }
 
-  void place(std::size_t body, std::span<const float> translation, std::span<const float> rotation) {
-    model_.nodes[body].translation.assign(translation.begin(), translation.end());
-    model_.nodes[body].rotation.assign(rotation.begin(), rotation.end());
+  void place(std::size_t node, std::span<const float> translation, std::span<const float> rotation) {
+    model_.nodes[node].translation.assign(translation.begin(), translation.end());
+    model_.nodes[node].rotation.assign(rotation.begin(), rotation.end());
   }
 
   void scale(std::size_t node, std::span<const float> scale) { model_.nodes[node].scale.assign(scale.begin(), scale.end()); }
@@ -238,36 +238,40 @@ class Builder {
 SceneGlb::SceneGlb(const std::filesystem::path& path, const Contents& contents)
     : path_(path),
       contents_(contents),
-      translations_(contents.kind_of_body.size()),
-      rotations_(contents.kind_of_body.size()),
+      translations_(contents.kind_of_body.size() + contents.parts.size()),
+      rotations_(translations_.size()),
       scales_(contents.parts.size()) {}
 
 void SceneGlb::add(const Frame& frame) {
   times_.push_back(static_cast<float>(frame.time));
   for (std::size_t body = 0; body < frame.bodies.size(); ++body) {
-    const BodyState& state = frame.bodies[body];
-    for (const double x : state.position) translations_[body].push_back(static_cast<float>(x));
-    // w, x, y, z there; and of the two quaternions of an attitude the one on the side of the last, between which players
-    // interpolate.
-    const auto& [w, x, y, z] = state.quaternion;
-    std::vector<float>& rotation = rotations_[body];
-    std::array<double, 4> now = {x, y, z, w};
-    double along = 0;
-    for (std::size_t i = 0; i < 4 && rotation.size() >= 4; ++i) along += now[i] * rotation[rotation.size() - 4 + i];
-    for (const double component : now) rotation.push_back(static_cast<float>(along < 0 ? -component : component));
+    add_pose(body, frame.bodies[body].position, frame.bodies[body].quaternion);
   }
   for (std::size_t part = 0; part < scales_.size(); ++part) {
-    scales_[part].insert(scales_[part].end(), 3, static_cast<float>(frame.part_scales[part]));
+    const PartPlace& place = frame.part_places[part];
+    add_pose(frame.bodies.size() + part, place.position, place.quaternion);
+    scales_[part].insert(scales_[part].end(), 3, static_cast<float>(place.scale));
   }
+}
+
+void SceneGlb::add_pose(std::size_t node, const Point& position, const std::array<double, 4>& quaternion) {
+  for (const double x : position) translations_[node].push_back(static_cast<float>(x));
+  // w, x, y, z there; and of the two quaternions of an attitude the one on the side of the last, between which players interpolate.
+  const auto& [w, x, y, z] = quaternion;
+  std::vector<float>& rotation = rotations_[node];
+  const std::array<double, 4> now = {x, y, z, w};
+  double along = 0;
+  for (std::size_t i = 0; i < 4 && rotation.size() >= 4; ++i) along += now[i] * rotation[rotation.size() - 4 + i];
+  for (const double component : now) rotation.push_back(static_cast<float>(along < 0 ? -component : component));
 }
 
 void SceneGlb::finish(const std::string& /*summary*/) {
   Builder builder(contents_);
-  for (std::size_t body = 0; body < translations_.size(); ++body) {
-    builder.place(body, std::span(translations_[body]).first(3), std::span(rotations_[body]).first(4));
+  for (std::size_t node = 0; node < translations_.size(); ++node) {
+    builder.place(node, std::span(translations_[node]).first(3), std::span(rotations_[node]).first(4));
   }
   for (std::size_t part = 0; part < scales_.size(); ++part) {
-    builder.scale(translations_.size() + part, std::span(scales_[part]).first(3));
+    builder.scale(contents_.kind_of_body.size() + part, std::span(scales_[part]).first(3));
   }
   if (times_.size() > 1) builder.animate(times_, translations_, rotations_, scales_);
   builder.write(path_);

@@ -20,6 +20,8 @@ class SceneGlb final : public Picture {
   void finish(const std::string& summary) override;
 
  private:
+  void add_pose(std::size_t node, const Point& position, const std::array<double, 4>& quaternion);
+
   std::filesystem::path path_;
   Contents contents_;
   std::vector<float> times_;

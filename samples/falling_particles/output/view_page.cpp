@@ -76,7 +76,8 @@ json describe(const ContainerPart& part) {
   return {{"name", part.name},
           {"points", packed(points)},
           {"triangles", packed(indices(part.mesh.triangles))},
-          {"edges", packed(indices(part.edges))}};
+          {"edges", packed(indices(part.edges))},
+          {"moves", part.role == ContainerPart::Role::Moving}};
 }
 
 /// A script that holds text for another one. In JSON a '<', which might end the script, can be written otherwise.
@@ -102,17 +103,27 @@ void ViewPage::add(const Frame& frame) {
   times_.push_back(frame.time);
   kinetic_.push_back(frame.energy.kinetic);
   potential_.push_back(frame.energy.potential);
-  part_scales_.push_back(frame.part_scales);
+  std::vector<double>& scales = part_scales_.emplace_back();
+  std::vector<double>& poses = part_poses_.emplace_back();
+  for (std::size_t i = 0; i < contents_.parts.size(); ++i) {
+    const PartPlace& place = frame.part_places[i];
+    scales.push_back(place.scale);
+    if (contents_.parts[i].role != ContainerPart::Role::Moving) continue;
+    const auto& [w, x, y, z] = place.quaternion;
+    poses.insert(poses.end(), place.position.begin(), place.position.end());
+    poses.insert(poses.end(), {x, y, z, w});
+  }
   bodies_.add(frame);
   contacts_.add(frame);
 }
 
 void ViewPage::finish(const std::string& summary) {
   const Scene& scene = *contents_.scene;
-  json run = {{"scene", scene.name},     {"container", kind_of(scene.container)},
-              {"times", times_},         {"kinetic", kinetic_},
-              {"potential", potential_}, {"partScales", part_scales_},
-              {"forces", scene.forces},  {"summary", summary}};
+  json run = {{"scene", scene.name},      {"container", kind_of(scene.container)},
+              {"times", times_},          {"kinetic", kinetic_},
+              {"potential", potential_},  {"partScales", part_scales_},
+              {"partPoses", part_poses_}, {"forces", scene.forces},
+              {"summary", summary}};
   for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) run["kinds"].push_back(describe(scene.grains[kind].grain, kind));
   run["kindOfBody"] = packed(std::vector<std::uint16_t>(contents_.kind_of_body.begin(), contents_.kind_of_body.end()));
   for (const ContainerPart& part : contents_.parts) run["parts"].push_back(describe(part));

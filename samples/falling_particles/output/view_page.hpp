@@ -23,6 +23,7 @@ class ViewPage final : public Picture {
   Contents contents_;
   std::vector<double> times_, kinetic_, potential_;
   std::vector<std::vector<double>> part_scales_;  // of each frame
+  std::vector<std::vector<double>> part_poses_;   // of each frame: x, y, z of the position, x, y, z, w of each part that moves
   PackedBodies bodies_;
   PackedContacts contacts_;
 };

@@ -58,16 +58,14 @@ std::string cloud(std::size_t count, const std::string& points, const std::strin
 }
 
 /// The parts of a container that are there, in one piece.
-std::string container_of(const std::vector<ContainerPart>& parts, const std::vector<double>& scales) {
+std::string container_of(const std::vector<ContainerPart>& parts, const std::vector<PartPlace>& places) {
   std::vector<Point> points;
   std::vector<std::array<unsigned int, 2>> edges;
   std::vector<std::array<unsigned int, 3>> triangles;
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    if (scales[part] == 0) continue;
+    if (places[part].scale == 0) continue;
     const auto first = static_cast<unsigned int>(points.size());
-    for (const auto& [x, y, z] : parts[part].mesh.vertices) {
-      points.push_back({scales[part] * x, scales[part] * y, scales[part] * z});
-    }
+    for (const auto& vertex : parts[part].mesh.vertices) points.push_back(places[part](vertex));
     for (const auto& [a, b] : parts[part].edges) edges.push_back({first + a, first + b});
     for (const auto& [a, b, c] : parts[part].mesh.triangles) triangles.push_back({first + a, first + b, first + c});
   }
@@ -108,8 +106,10 @@ VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
 void VtkSeries::add(const Frame& frame) {
   list(grains_, frame.time, write("grains", grains_of(frame)));
   list(contacts_, frame.time, write("contacts", contacts_of(frame, contents_.scene->forces)));
-  if (frame.part_scales != part_scales_) container_ = write("container", container_of(contents_.parts, frame.part_scales));
-  part_scales_ = frame.part_scales;
+  if (frames_ == 0 || frame.part_places != part_places_) {
+    container_ = write("container", container_of(contents_.parts, frame.part_places));
+  }
+  part_places_ = frame.part_places;
   list(containers_, frame.time, container_);
   ++frames_;
 }

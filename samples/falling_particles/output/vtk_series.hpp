@@ -33,7 +33,7 @@ class VtkSeries final : public Picture {
   Contents contents_;
   std::string grains_, contacts_, containers_;  // entries of the lists
   std::string container_;                       // file of the container as it is
-  std::vector<double> part_scales_;             // with which it was written
+  std::vector<PartPlace> part_places_;          // of its parts as it was written
   int frames_ = 0;
 };
 

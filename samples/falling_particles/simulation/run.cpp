@@ -78,6 +78,7 @@ class Recorder {
         states_(folder.file(std::string(kStateFile))) {
     if (watches.discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
     if (watches.compressor) compression_file_.emplace(folder.file(std::string(kCompressionFile)));
+    if (std::ranges::any_of(scene.parts, &Part::moves)) parts_file_.emplace(folder.file(std::string(kPartsFile)));
     for (const std::string& name : scene.pictures) {
       const PictureFormat& format = *find_picture_format(name);
       pictures_.push_back(format.make(folder, format, contents_));
@@ -92,6 +93,7 @@ class Recorder {
     states_.write(time, state_of(world_, scene_, watches_, stepper));
     if (discharge_file_) discharge_file_->write(time, watches_.discharge->mass(), watches_.discharge->count());
     if (compression_file_ && stepper != nullptr) compression_file_->write(time, watches_.compressor->packing());
+    if (parts_file_) parts_file_->write(time, *world_.parts());
     if (pictures_.empty()) return;
     const Frame frame = frame_of(time, energy, contents_, world_, stepper);
     for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
@@ -106,6 +108,7 @@ class Recorder {
     states_.close();
     if (discharge_file_) discharge_file_->close();
     if (compression_file_) compression_file_->close();
+    if (parts_file_) parts_file_->close();
   }
 
   void finish_pictures(const std::string& summary) {
@@ -130,6 +133,7 @@ class Recorder {
   StateFile states_;
   std::optional<DischargeFile> discharge_file_;
   std::optional<CompressionFile> compression_file_;
+  std::optional<PartsFile> parts_file_;  // where any part moves
   std::vector<std::unique_ptr<Picture>> pictures_;
 };
 

@@ -1,7 +1,7 @@
 // The parts of the container: one sees through them, and those between the viewer and the bodies are not drawn but for their edges.
 import { BufferAttribute, BufferGeometry, FrontSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial } from "three";
 import { geometryOf } from "./geometry";
-import type { Run } from "./run";
+import type { Moment, Run } from "./run";
 
 const solid = ["floor", "ground", "dish"]; // what carries the bodies is easier to read when it hides what is below
 
@@ -40,11 +40,16 @@ export class Container {
     });
   }
 
-  place(frame: number): void {
+  /** Between frames parts move as the bodies do; their sizes are those of the nearest one. */
+  place({ frame, share }: Moment): void {
+    const next = share > 0 ? frame + 1 : frame;
     this.parts.forEach((part, index) => {
-      const scale = this.run.partScales[frame][index];
+      const [from, to] = [this.run.placeOfPart(index, frame), this.run.placeOfPart(index, next)];
+      const { scale } = share < 0.5 ? from : to;
       part.visible = scale > 0;
       if (scale > 0) part.scale.setScalar(scale);
+      part.position.lerpVectors(from.position, to.position, share);
+      part.quaternion.slerpQuaternions(from.rotation, to.rotation, share);
     });
   }
 }

@@ -1,7 +1,7 @@
 // A page that plays a run. The address may say what it shows: ?t=1.5 (s), play=1, colour=speed, show=contacts,boxes, pick=12 (index of
 // a body), camera=azimuth,elevation,zoom (degrees; 1 just shows
 // everything, with fit=bodies all bodies), panel=1.
-import { Box3, Raycaster, Vector2 } from "three";
+import { Box3, Matrix4, Raycaster, Vector2, Vector3 } from "three";
 import { Bodies } from "./bodies";
 import { EnergyChart } from "./chart";
 import { Container } from "./container";
@@ -76,7 +76,7 @@ class Page {
     const moment = momentOf(this.run, this.player.time);
     const nearest = moment.share < 0.5 ? moment.frame : moment.frame + 1;
     this.bodies.place(moment);
-    this.container.place(nearest);
+    this.container.place(moment);
     this.bodies.mark(this.picked);
     this.chart.show(this.player.time, nearest);
     if (nearest !== this.shownFrame) {
@@ -285,11 +285,9 @@ class Page {
 function extentOf(run: Run): Box3 {
   const extent = new Box3();
   run.parts.forEach(({ mesh }, index) => {
-    const scale = run.partScales[0][index];
+    const { position, rotation, scale } = run.placeOfPart(index, 0);
     const part = new Box3().setFromArray(mesh.points as unknown as number[]);
-    part.min.multiplyScalar(scale);
-    part.max.multiplyScalar(scale);
-    extent.union(part);
+    extent.union(part.applyMatrix4(new Matrix4().compose(position, rotation, new Vector3().setScalar(scale))));
   });
   return extent.union(run.extentOfBodies(0));
 }

@@ -1,5 +1,5 @@
 // The run that the page shows: what output/view_page.cpp has put into it.
-import { Box3, Vector3 } from "three";
+import { Box3, Quaternion, Vector3 } from "three";
 import { Unpacker, bytesOf, ofFraction, ofUpperHalf } from "./unpack";
 
 export type Vector = [number, number, number];
@@ -27,6 +27,13 @@ export interface Kind {
 export interface Part {
   name: string;
   mesh: Mesh;
+  moves: boolean;
+}
+
+export interface Place {
+  position: Vector3;
+  rotation: Quaternion;
+  scale: number;
 }
 
 /** The states of all bodies at one time. Of the numbers of a body, all first ones come before all second ones. */
@@ -57,11 +64,12 @@ interface Description {
   kinetic: number[];
   potential: number[];
   partScales: number[][];
+  partPoses: number[][]; // x, y, z of the position and x, y, z, w of the quaternion, of each part that moves
   forces: boolean;
   summary: string;
   kinds: (Omit<Kind, "meshes"> & { meshes: { points: string; normals: string; triangles: string }[] })[];
   kindOfBody: string;
-  parts: { name: string; points: string; triangles: string; edges: string }[];
+  parts: { name: string; points: string; triangles: string; edges: string; moves: boolean }[];
   contacts: { frame: number; count: number; length: number }[];
 }
 
@@ -97,10 +105,12 @@ export class Run {
       triangles: indices(triangles),
     })),
   }));
-  readonly parts: Part[] = this.description.parts.map(({ name, points, triangles, edges }) => ({
+  readonly parts: Part[] = this.description.parts.map(({ name, points, triangles, edges, moves }) => ({
     name,
+    moves,
     mesh: { points: floats(points), triangles: indices(triangles), edges: indices(edges) },
   }));
+  private readonly moving = this.parts.flatMap(({ moves }, part) => (moves ? [part] : []));
   readonly kindOfBody = new Uint16Array(bytesOf(this.description.kindOfBody).buffer);
   /** Those that have been unpacked. */
   readonly frames: Frame[] = [];
@@ -173,6 +183,15 @@ export class Run {
       extent.union(new Box3().setFromCenterAndSize(centre, new Vector3().setScalar(2 * this.kindOf(body).radius)));
     }
     return extent;
+  }
+
+  /** Where a part is at a frame: its mesh is scaled, turned and moved. */
+  placeOfPart(part: number, frame: number): Place {
+    const scale = this.partScales[frame][part];
+    const at = 7 * this.moving.indexOf(part);
+    if (at < 0) return { position: new Vector3(), rotation: new Quaternion(), scale };
+    const [x, y, z, ...rotation] = this.description.partPoses[frame].slice(at, at + 7);
+    return { position: new Vector3(x, y, z), rotation: new Quaternion(...rotation), scale };
   }
 
   velocity(body: number, frame: number): Vector {

@@ -1,0 +1,13 @@
+// What pictures show of a part.
+#pragma once
+
+#include "container/parts.hpp"
+#include "parts/part.hpp"
+
+namespace falling_particles {
+
+/// The surface of a part and its sharp edges: of one that moves in its own frame, of one that stands where it is. A plane is shown
+/// as a square around its position with sides of `extent` (m).
+ContainerPart picture_of(const Part& part, double extent);
+
+}  // namespace falling_particles
