@@ -8,7 +8,7 @@
 namespace falling_particles {
 
 const char* kind_of(const Container& container) {
-  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none"};
+  constexpr std::array kKinds = {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor"};
   return kKinds[container.index()];
 }
 
@@ -29,6 +29,7 @@ double ceiling_of(const Container& container) {
 }
 
 bool has_room(const Container& container, const Point& lower, const Point& size) {
+  if (const Drum* drum = std::get_if<Drum>(&container)) return drum->has_room(lower, size);
   const Hopper* hopper = std::get_if<Hopper>(&container);
   if (hopper == nullptr) return true;  // only walls can be in the way of a cell above it, and the plan leaves them out
   // A hopper does not narrow upwards: the cell's lower end decides, at its corner farthest from the axis.

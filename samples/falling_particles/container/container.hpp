@@ -1,4 +1,4 @@
-// The container of a scene: a box, a hopper, a terrain, a periodic cell, or none.
+// The container of a scene: a box, a hopper, a terrain, a periodic cell, one that moves, or none.
 #pragma once
 
 #include <variant>
@@ -6,15 +6,16 @@
 #include "container/box.hpp"
 #include "container/geometry.hpp"
 #include "container/hopper.hpp"
+#include "container/moving.hpp"
 #include "container/open.hpp"
 #include "container/periodic.hpp"
 #include "container/terrain.hpp"
 
 namespace falling_particles {
 
-using Container = std::variant<Box, Hopper, Terrain, Periodic, Open>;
+using Container = std::variant<Box, Hopper, Terrain, Periodic, Open, Drum, Tray, ShearCell, ConveyorBelt>;
 
-/// The name in the scene file: "box", "hopper", "terrain", "periodic" or "none".
+/// The name in the scene file: "box", "hopper", …
 const char* kind_of(const Container& container);
 
 /// The rectangle above which grains may start.

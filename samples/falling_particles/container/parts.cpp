@@ -111,7 +111,11 @@ std::vector<ContainerPart> parts_of(const Periodic&, double /*top*/) {
   return {std::move(cell)};
 }
 
-std::vector<ContainerPart> parts_of(const Open&, double /*top*/) { return {}; }
+/// Of a container whose walls are parts of the scene.
+template <typename MadeOfParts>
+std::vector<ContainerPart> parts_of(const MadeOfParts&, double /*top*/) {
+  return {};
+}
 
 }  // namespace
 

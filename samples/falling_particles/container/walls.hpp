@@ -35,7 +35,8 @@ class Walls {
   void add(const Hopper& hopper);
   void add(const Terrain& terrain);
   static void add(const Periodic&) {}  // it has no walls
-  static void add(const Open&) {}      // parts are its walls
+  template <typename MadeOfParts>
+  static void add(const MadeOfParts&) {}
 
   dSpaceID space_;
   std::vector<dGeomID> geoms_;

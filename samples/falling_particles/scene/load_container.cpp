@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "load_moving_container.hpp"
 #include "simulation/lattice.hpp"
 
 namespace falling_particles {
@@ -96,7 +97,8 @@ void check_width(const TomlTable& table, const Scene& scene) {
   const double narrowest = std::min(plan.width[0], plan.width[1]);
   const double cell = scene.smallest_cell();
   if (narrowest >= cell) return;
-  const char* key = table.has("width") ? "width" : "start";
+  const std::vector<const char*> keys = {"width", "diameter", "start"};
+  const char* key = *std::ranges::find_if(keys, [&table](const char* each) { return table.has(each); });
   table.fail(key, "container." + std::string(key) + " is " + shortest(narrowest) + " at its narrowest; allowed: at least " +
                       shortest(cell) + " m, so that the largest grain fits in any attitude");
 }
@@ -141,11 +143,16 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
 
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");
-  const std::string kind = table.choice("kind", {"box", "hopper", "terrain", "periodic", "none"});
+  const std::string kind =
+      table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor"});
   if (kind == "hopper") return read_hopper(table, time);
   if (kind == "terrain") return read_terrain(table);
   if (kind == "periodic") return read_periodic(table);
   if (kind == "none") return read_open(root, table);
+  if (kind == "drum") return read_drum(table, time);
+  if (kind == "tray") return read_tray(table, time);
+  if (kind == "shear_cell") return read_shear_cell(table, time);
+  if (kind == "conveyor") return read_conveyor_belt(table, time);
   return read_box(table);
 }
 
