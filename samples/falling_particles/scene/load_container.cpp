@@ -97,8 +97,9 @@ void check_width(const TomlTable& table, const Scene& scene) {
   const double narrowest = std::min(plan.width[0], plan.width[1]);
   const double cell = scene.smallest_cell();
   if (narrowest >= cell) return;
-  const std::vector<const char*> keys = {"width", "diameter", "start"};
-  const char* key = *std::ranges::find_if(keys, [&table](const char* each) { return table.has(each); });
+  const char* key = "width";
+  if (std::holds_alternative<Open>(scene.container)) key = "start";
+  if (std::holds_alternative<Drum>(scene.container)) key = plan.width[0] < plan.width[1] ? "diameter" : "length";
   table.fail(key, "container." + std::string(key) + " is " + shortest(narrowest) + " at its narrowest; allowed: at least " +
                       shortest(cell) + " m, so that the largest grain fits in any attitude");
 }
