@@ -26,9 +26,9 @@ enum ExitCode { Done = 0, Failed = 1, BadInput = 2, Leaked = 3, Interrupted = 13
 
 constexpr const char* kFooter =
     "Writes OUT/<scene>/trajectory.csv, energies.csv, state.csv, summary.toml, of a hopper discharge.csv, of a packing\n"
-    "compression.csv, and the pictures that the scene asks for, view.html, scene.glb and a plot of each table if it does not\n"
-    "say; until the end they are in OUT/<scene>.unfinished-1. If the run is killed the tables stay there, up to the last frame,\n"
-    "until the next run of the scene.\n"
+    "compression.csv, of parts that move parts.csv, and the pictures that the scene asks for, view.html, scene.glb and a plot of\n"
+    "each table if it does not say; until the end they are in OUT/<scene>.unfinished-1. If the run is killed the tables stay\n"
+    "there, up to the last frame, until the next run of the scene.\n"
     "Exit code: 0 done; 1 failed (disk full, say, or stdout closed): results of an earlier run stay unless there are new ones;\n"
     "2 bad input, nothing written;\n"
     "3 with --check-leaks: a grain left the container, all results written;\n"
