@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { createRequire } from "node:module";
-import { readTrajectory } from "./trajectory.mjs";
+import { readParts, readTrajectory } from "./trajectory.mjs";
 
 const { validateBytes } = createRequire(import.meta.url)("gltf-validator");
 const runs = process.env.RUNS ?? ".";
@@ -21,7 +21,7 @@ function floatsOf({ gltf, buffer }, accessor) {
   return Array.from({ length: count }, (_, k) => Array.from({ length: width }, (_, i) => buffer.readFloatLE(start + 4 * (k * width + i))));
 }
 
-for (const run of ["box", "hopper", "cell"]) {
+for (const run of ["box", "hopper", "cell", "drum"]) {
   test(`${run}: gltf-validator has nothing to say`, async () => {
     const { issues } = await validateBytes(new Uint8Array(readFileSync(`${runs}/${run}/scene.glb`)));
     assert.deepEqual([issues.numErrors, issues.numWarnings, issues.numInfos], [0, 0, 0], JSON.stringify(issues.messages.slice(0, 3)));
@@ -48,6 +48,28 @@ for (const run of ["box", "hopper", "cell"]) {
     });
   });
 }
+
+test("parts that move are where parts.csv has them, at every frame", () => {
+  const file = parse(readFileSync(`${runs}/drum/scene.glb`));
+  const [animation] = file.gltf.animations;
+  const parts = readParts(`${runs}/drum`);
+  assert.equal(parts.size, 4);
+  for (const [name, frames] of parts) {
+    const node = file.gltf.nodes.findIndex((candidate) => candidate.name === name);
+    const trackOf = (path) => {
+      const channel = animation.channels.find(({ target }) => target.node === node && target.path === path);
+      if (channel) return floatsOf(file, animation.samplers[channel.sampler].output);
+      return frames.map(() => file.gltf.nodes[node][path]);
+    };
+    const [translations, rotations] = [trackOf("translation"), trackOf("rotation")];
+    assert.equal(translations.length, frames.length);
+    frames.forEach(({ position, quaternion }, frame) => {
+      assert.deepEqual(translations[frame].map(Math.fround), position.map(Math.fround));
+      const along = rotations[frame].reduce((sum, q, i) => sum + q * quaternion[i], 0);
+      assert.ok(Math.abs(Math.abs(along) - 1) < 1e-6);
+    });
+  }
+});
 
 test("the lid goes, the cell shrinks", () => {
   const scalesOf = (run, name) => {

@@ -1,12 +1,12 @@
 // Opens the pages of runs in Chromium and uses them as people do.
-//   node --test page_test.mjs    RUNS: the folder of the runs "box", "hopper" and "cell"; SCREENSHOTS: where to leave pictures
+//   node --test page_test.mjs    RUNS: the folder of the runs "box", "hopper", "cell" and "drum"; SCREENSHOTS: where to leave pictures
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { resolve } from "node:path";
 import { chromium } from "playwright-core";
 import { PNG } from "pngjs";
-import { readContactCounts, readTrajectory } from "./trajectory.mjs";
+import { readContactCounts, readParts, readTrajectory } from "./trajectory.mjs";
 
 const runs = resolve(process.env.RUNS ?? ".");
 const screenshots = resolve(process.env.SCREENSHOTS ?? `${runs}/screenshots`);
@@ -75,7 +75,7 @@ function project(camera, point) {
 const ids = (run, time) => `?colour=index&container=0&t=${time}${run === "hopper" ? "&fit=bodies" : ""}`;
 
 describe("where the bodies are", () => {
-  for (const run of ["box", "hopper", "cell"]) {
+  for (const run of ["box", "hopper", "cell", "drum"]) {
     test(`${run}: the page has every frame of the trajectory, to float precision`, async () => {
       const page = await open(run);
       const frames = readTrajectory(`${runs}/${run}`);
@@ -153,6 +153,24 @@ describe("where the bodies are", () => {
     assert.equal(start.cell.scale, 0.1);
     assert.ok(end.cell.scale < 0.1);
   });
+});
+
+test("parts that move are where parts.csv has them, and between frames on their way", async () => {
+  for (const [name, frames] of readParts(`${runs}/drum`)) {
+    for (const [time, from, to] of [[0.1, 10, 10], [0.115, 11, 12]]) {
+      const page = await open("drum", `?t=${time}`);
+      const { position, quaternion } = await page.evaluate(async (wanted) => {
+        const { run, container } = await window.supernormal;
+        const part = container.group.children[run.parts.findIndex(({ name }) => name === wanted)];
+        return { position: part.position.toArray(), quaternion: part.quaternion.toArray() };
+      }, name);
+      position.forEach((x, i) => assert.ok(Math.abs(x - (frames[from].position[i] + frames[to].position[i]) / 2) < 1e-9));
+      const turned = frames[from].quaternion.map((q, i) => q + frames[to].quaternion[i]);
+      const along = turned.reduce((sum, q, i) => sum + q * quaternion[i], 0) / Math.hypot(...turned);
+      assert.ok(Math.abs(Math.abs(along) - 1) < 1e-9, name);
+      await close(page);
+    }
+  }
 });
 
 describe("what people do", () => {
@@ -281,7 +299,7 @@ describe("what people do", () => {
 });
 
 describe("on a phone", () => {
-  for (const run of ["box", "hopper", "cell"]) {
+  for (const run of ["box", "hopper", "cell", "drum"]) {
     test(`${run}: everything is within reach`, async () => {
       const page = await open(run, "?t=0.1", phone);
       const isCutOff = () => page.evaluate(() => document.documentElement.scrollWidth > innerWidth || document.documentElement.scrollHeight > innerHeight);

@@ -17,7 +17,7 @@ function hueOf(r, g, b) {
   return [(sixth / 6 + 1) % 1, (most - least) / (most || 1)];
 }
 
-for (const run of ["box", "hopper", "cell"]) {
+for (const run of ["box", "hopper", "cell", "drum"]) {
   test(`${run}: POV-Ray renders the still, and grains of every kind are in it`, () => {
     mkdirSync(screenshots, { recursive: true });
     const png = `${screenshots}/still-${run}.png`;

@@ -22,6 +22,16 @@ export function readTrajectory(folder) {
   return frames;
 }
 
+/** Where each part that moves is: a map of its name to its frames { position, quaternion: x, y, z, w }. */
+export function readParts(folder) {
+  const parts = new Map();
+  for (const row of rowsOf(`${folder}/parts.csv`)) {
+    if (!parts.has(row.part)) parts.set(row.part, []);
+    parts.get(row.part).push({ position: [row.x_m, row.y_m, row.z_m].map(Number), quaternion: [row.qx, row.qy, row.qz, row.qw].map(Number) });
+  }
+  return parts;
+}
+
 /** The numbers of contacts of the frames. */
 export function readContactCounts(folder) {
   return rowsOf(`${folder}/energies.csv`).map(({ contacts }) => Number(contacts));

@@ -1,6 +1,6 @@
 """Reads the VTK files of runs with VTK's own reader and holds them against the trajectories.
 
-vtk_test.py RUNS: the folder of the runs "box", "hopper" and "cell". Exit code 77: VTK is not there.
+vtk_test.py RUNS: the folder of the runs "box", "hopper", "cell" and "drum". Exit code 77: VTK is not there.
 """
 
 import csv
@@ -66,9 +66,23 @@ def check_container(run, first, last):
     return frames
 
 
+def check_parts(run):
+    """The shell of the drum, the first part, has turned as the table says."""
+    sides = 24
+    frames = check_container(run, (2 * sides + 2 + 2 + 12, 2 * sides + 4 + 4 + 12), (2 * sides + 2 + 2 + 12, 2 * sides + 4 + 4 + 12))
+    rows = [row for row in read_rows(run / "parts.csv") if row["part"] == "drum"]
+    start = vtk_to_numpy(frames[0].GetPoints().GetData())[0]
+    for row, data in zip(rows, frames, strict=True):
+        w, y = float(row["qw"]), float(row["qy"])
+        cos, sin = w * w - y * y, 2 * w * y
+        x, z = start[0], start[2] - 0.04
+        point = vtk_to_numpy(data.GetPoints().GetData())[0]
+        assert abs(point[0] - (cos * x + sin * z)) < 1e-9 and abs(point[2] - 0.04 - (cos * z - sin * x)) < 1e-9
+
+
 def main():
     runs = Path(sys.argv[1])
-    for name in ("box", "hopper", "cell"):
+    for name in ("box", "hopper", "cell", "drum"):
         check_grains(runs / name)
         check_contacts(runs / name, has_forces=name == "box")
     check_container(runs / "box", (10, 12), (10, 12))
@@ -79,6 +93,7 @@ def main():
     cells = check_container(runs / "cell", (0, 12), (0, 12))
     width = [data.GetBounds()[1] for data in (cells[0], cells[-1])]
     assert width[0] == 0.1 and width[1] < 0.1
+    check_parts(runs / "drum")
     print("VTK reads what the trajectories say")
 
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 namespace falling_particles {
 namespace {
@@ -34,7 +33,8 @@ double PartMotion::elapsed(double time) const { return std::max(0.0, std::min(ti
 PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, double time) {
   PartPose pose = start;
   Vector3 moved = Vector3::Zero();
-  for (const PartMotion& motion : std::views::reverse(motions)) {
+  for (auto last = motions.rbegin(); last != motions.rend(); ++last) {
+    const PartMotion& motion = *last;
     const double seconds = motion.elapsed(time);
     if (const auto* rotation = std::get_if<Rotation>(&motion.kind)) {
       const Eigen::Quaterniond turn = turned(*rotation, seconds);

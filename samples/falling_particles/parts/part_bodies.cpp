@@ -49,7 +49,11 @@ PartBodies::PartBodies(dWorldID world, const std::vector<Part>& parts, double st
   entries_.reserve(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
-    Entry& entry = entries_.emplace_back(Entry{&part, create_geom(part.shape), material_of_part(parts, i), part.start, part.start});
+    Entry& entry = entries_.emplace_back();
+    entry.pose = entry.next = part.start;
+    entry.part = &part;
+    entry.geom = create_geom(part.shape);
+    entry.material = material_of_part(parts, i);
     dGeomSetCategoryBits(entry.geom, category_bits);
     dGeomSetCollideBits(entry.geom, collide_bits);
     geoms_.push_back(entry.geom);

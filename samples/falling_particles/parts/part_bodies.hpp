@@ -48,18 +48,18 @@ class PartBodies {
 
  private:
   struct Entry {
-    const Part* part;
-    dGeomID geom;
-    supernormal::effects::Material material;
     PartPose pose;               // of the carrier
     PartPose next;               // of the carrier, after the step
     PartVelocity velocity = {};  // of the carrier, in this step
-    dBodyID carrier = nullptr;   // kinematic; null for a part that stands
-    bool is_moving = false;
-    dBodyID driven = nullptr;  // with mass; null for a part that is not driven
+    double position = 0;         // m, of the driven body along its axis
+    double speed = 0;            // m/s
+    const Part* part = nullptr;
+    dGeomID geom = nullptr;
+    dBodyID carrier = nullptr;  // kinematic; null for a part that stands
+    dBodyID driven = nullptr;   // with mass; null for a part that is not driven
     dJointID slider = nullptr;
-    double position = 0;  // m, of the driven body along its axis
-    double speed = 0;     // m/s
+    supernormal::effects::Material material = 0;
+    bool is_moving = false;
     bool is_held = true;
 
     PartPose part_pose() const;  // with the way that the driven body has slid
