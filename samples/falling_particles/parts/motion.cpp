@@ -33,8 +33,8 @@ double PartMotion::elapsed(double time) const { return std::max(0.0, std::min(ti
 PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, double time) {
   PartPose pose = start;
   Vector3 moved = Vector3::Zero();
-  for (auto last = motions.rbegin(); last != motions.rend(); ++last) {
-    const PartMotion& motion = *last;
+  for (std::size_t k = motions.size(); k-- > 0;) {
+    const PartMotion& motion = motions[k];
     const double seconds = motion.elapsed(time);
     if (const auto* rotation = std::get_if<Rotation>(&motion.kind)) {
       const Eigen::Quaterniond turn = turned(*rotation, seconds);

@@ -178,9 +178,10 @@ TEST_CASE("a mistake in a container that moves is told with its name, its value 
       {kBelt, {"speed = 0.4", "speed = 40", {"container.speed is 40", "a tenth"}}},
       {kBelt, {"drop_length = 0.1", "drop_length = 0.01", {"container.drop_length is 0.01", "beyond the last roller"}}},
   };
-  for (const auto& [container, mistake] : all) {
+  for (const Wrong& wrong : all) {
+    const Mistake& mistake = wrong.mistake;
     CAPTURE(mistake.to);
-    check_says(complaint(replaced(scene_in(container), mistake.from, mistake.to)), mistake.says);
+    check_says(complaint(replaced(scene_in(wrong.container), mistake.from, mistake.to)), mistake.says);
   }
 }
 
