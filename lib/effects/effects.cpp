@@ -111,9 +111,15 @@ void Effects::set_up(dWorldID world) const {
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, Material material2) {
-  if (contacts.empty()) return 0;
-  const dContactGeom& geom = contacts.front().geom;
-  return set_up_contacts(contacts, {material1, dGeomGetBody(geom.g1)}, {material2, dGeomGetBody(geom.g2)});
+  PairMaterial& pair = state_->pair_materials.of(material1, material2);
+  for (dContact& contact : contacts) contact.surface = pair.surface;
+  int kept = static_cast<int>(contacts.size());
+  if (!pair.passes.empty() && !contacts.empty()) {
+    const dContactGeom& geom = contacts.front().geom;
+    kept = state_->run_passes(pair, contacts, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));
+  }
+  pair.contacts += static_cast<unsigned long long>(kept);
+  return kept;
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, const Side& side2) {

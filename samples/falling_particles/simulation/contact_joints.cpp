@@ -36,7 +36,9 @@ void ContactJoints::attach(std::span<const dContactGeom> pair, bool measures) {
   if (world_.parts() != nullptr) return attach_to_parts(contacts, measures);
   const int count = world_.effects().set_up_contacts(contacts, material_of(pair[0].g1), material_of(pair[0].g2));
   for (const dContact& contact : contacts.first(static_cast<std::size_t>(count))) {
-    make(contact, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2), measures);
+    const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
+    dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
+    if (measures) measure(joint, contact, dGeomGetBody(contact.geom.g1) == nullptr);
   }
 }
 
@@ -49,13 +51,15 @@ void ContactJoints::attach_to_parts(std::span<dContact> contacts, bool measures)
   if (parts.is_moving(geom1)) dBodyEnable(side2.body);
   if (parts.is_moving(geom2)) dBodyEnable(side1.body);
   const int count = world_.effects().set_up_contacts(contacts, side1, side2);
-  for (const dContact& contact : contacts.first(static_cast<std::size_t>(count))) make(contact, side1.body, side2.body, measures);
+  for (const dContact& contact : contacts.first(static_cast<std::size_t>(count))) {
+    const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
+    dJointAttach(joint, side1.body, side2.body);
+    if (measures) measure(joint, contact, side1.body == nullptr);
+  }
 }
 
-void ContactJoints::make(const dContact& contact, dBodyID body1, dBodyID body2, bool measures) {
-  const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
-  dJointAttach(joint, body1, body2);
-  if (measures) dJointSetFeedback(joint, &measured_.emplace_back(MeasuredContact{contact.geom, {}, body1 == nullptr}).feedback);
+void ContactJoints::measure(dJointID joint, const dContact& contact, bool is_reversed) {
+  dJointSetFeedback(joint, &measured_.emplace_back(MeasuredContact{contact.geom, {}, is_reversed}).feedback);
 }
 
 }  // namespace falling_particles

@@ -43,7 +43,7 @@ class ContactJoints {
  private:
   void attach(std::span<const dContactGeom> pair, bool measures);
   void attach_to_parts(std::span<dContact> contacts, bool measures);
-  void make(const dContact& contact, dBodyID body1, dBodyID body2, bool measures);
+  void measure(dJointID joint, const dContact& contact, bool is_reversed);
 
   const World& world_;
   dJointGroupID joints_;
