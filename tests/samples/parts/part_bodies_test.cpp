@@ -191,6 +191,32 @@ TEST_CASE("a grain on the floor of a drum that turns has the drum's velocity, al
   }
 }
 
+TEST_CASE("a ball rests on every shape, where its surface is, and is lifted with it") {
+  const MeshShape square{{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}},
+                         {{0, 1, 2}, {0, 2, 3}}};
+  const std::vector<std::pair<PartShape, double>> shapes = {
+      {PlaneShape{}, 0},
+      {BoxShape{{0.1, 0.1, 0.04}}, 0.02},
+      {CylinderShape{0.05, 0.04}, 0.02},
+      {SmoothShape{{0.05, 0.04, 0.02}, 2, 2, 0, 0}, 0.02},
+      {SmoothShape{{0.05, 0.04, 0.02}, 5, 3, 0, 0}, 0.02},
+      {SmoothShape{{0.05, 0.04, 0.02}, 2, 2, 0.2, 0.2}, 0.02},
+      {square, 0.02},
+  };
+  for (const auto& shape_and_top : shapes) {
+    const auto& shape = shape_and_top.first;
+    const double top = shape_and_top.second;
+    CAPTURE(shape.index());
+    const Part part{"part", shape, {{0, 0, 0.3}, Eigen::Quaterniond::Identity()}, {motion(Translation{{0, 0, 0.1}})}};
+    const Scene scene = scene_on({part}, ball(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
+    const World world(scene, {at(0.3 + top + 5e-3)});
+    Stepper stepper(world, scene);
+    for (int i = 0; i < 500; ++i) stepper.step();
+    CHECK(std::abs(height(world) - (0.3 + 0.1 * 0.1 + top + 5e-3)) < 5e-5);
+    CHECK(speed(world, 2) == relative(0.1).epsilon(1e-3));
+  }
+}
+
 namespace {
 
 /// N, from the floor upwards on all grains, mean of a number of steps.
