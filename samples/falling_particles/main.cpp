@@ -14,6 +14,7 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
+#include "measurements/measurement.hpp"
 #include "output/rendering.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene.hpp"
@@ -34,13 +35,17 @@ constexpr const char* kFooter =
     "3 with --check-leaks: a grain left the container, all results written;\n"
     "130 stopped by Ctrl-C, with all results up to then written.";
 
-void list_effects() {
+void list() {
   std::puts(
       "A scene runs with the effects whose sections it has, and with nothing else. Rigid contact itself is 1 row a contact.\n");
   for (const supernormal::effects::Description& effect : supernormal::effects::descriptions()) {
     std::printf("[%s]\n  parameters  %s\n  cost        %d rows per contact; passes per step: %s\n  source      %s\n", effect.name,
                 effect.parameters, effect.rows, effect.passes, effect.source);
   }
+  std::puts("\nIt measures what its sections [[measurement]] ask for, each into measurements/NAME.csv. Parameters of all:\n");
+  std::puts("  interval: s, from sample to sample, a multiple of time.step; name: of the table, the kind without it;");
+  std::puts("  from, until: s, of the first and the last sample, the whole run without them\n");
+  std::fputs(falling_particles::list_measurements().c_str(), stdout);
 }
 
 struct Options {
@@ -77,11 +82,12 @@ ExitCode run_program(int argc, char** argv) {
   app.add_flag("-q,--quiet", options.quiet, "no progress");
   app.add_flag("--check-leaks", options.check_leaks, "exit with 3 when a grain leaves its container");
   app.add_flag("--no-pictures", options.no_pictures, "leave nothing but the tables, whatever the scene asks for");
-  const auto list = [] {
-    list_effects();
+  const auto list_and_end = [] {
+    list();
     throw CLI::Success();
   };
-  app.add_flag_callback("--list-effects", list, "print what a scene may name, with units, ranges, costs and sources");
+  app.add_flag_callback("--list", list_and_end,
+                        "print the effects and measurements that a scene may name, with units, ranges, costs and sources");
   app.footer(kFooter);
   try {
     app.parse(argc, argv);

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "measurements/measuring.hpp"
 #include "output/write_file.hpp"
 #include "output_files.hpp"
 #include "picture.hpp"
@@ -36,7 +37,7 @@ bool is_output_file(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename().string();
   const auto holds = [&](const auto& names) { return std::ranges::find(names, name) != names.end(); };
   const auto writes = [&](const PictureFormat& format) { return holds(format.files) || holds(format.rendered); };
-  return holds(kOutputFiles) || std::ranges::any_of(picture_formats(), writes);
+  return holds(kOutputFiles) || name == kMeasurementFolder || std::ranges::any_of(picture_formats(), writes);
 }
 
 /// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run, and it is not

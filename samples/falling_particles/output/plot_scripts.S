@@ -11,4 +11,5 @@
     script kStateScript, "state.gp"
     script kDischargeScript, "discharge.gp"
     script kCompressionScript, "compression.gp"
+    script kMeasurementScript, "measurement.gp"
     .section .note.GNU-stack, "", @progbits

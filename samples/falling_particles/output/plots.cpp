@@ -3,8 +3,10 @@
 #include <string>
 #include <variant>
 
+#include "measurements/measuring.hpp"
+
 // The texts of the scripts (plot_scripts.S).
-extern "C" const char kEnergiesScript[], kStateScript[], kDischargeScript[], kCompressionScript[];
+extern "C" const char kEnergiesScript[], kStateScript[], kDischargeScript[], kCompressionScript[], kMeasurementScript[];
 
 namespace falling_particles {
 namespace {
@@ -13,12 +15,22 @@ Rendering plot(const std::string& table, const char* script) {
   return {table + ".svg", {"gnuplot", "-c", "/dev/stdin", table + ".csv"}, script, "gnuplot-nox"};
 }
 
+/// A plot of a measurement's table, where its kind has one.
+void add_plot(std::vector<Rendering>& plots, const MeasurementRequest& request) {
+  const MeasurementKind& kind = *find_measurement_kind(request.kind);
+  if (kind.plotted.empty()) return;
+  Rendering& rendering = plots.emplace_back(plot(std::string(kMeasurementFolder) + '/' + request.name, kMeasurementScript));
+  rendering.command.push_back(kind.plot_label);
+  for (const std::string& column : kind.plotted) rendering.command.push_back(column);
+}
+
 }  // namespace
 
 std::vector<Rendering> Plots::renderings() const {
   std::vector<Rendering> plots = {plot("energies", kEnergiesScript), plot("state", kStateScript)};
   if (std::holds_alternative<Hopper>(contents_.scene->container)) plots.push_back(plot("discharge", kDischargeScript));
   if (contents_.scene->compression) plots.push_back(plot("compression", kCompressionScript));
+  for (const MeasurementRequest& request : contents_.scene->measurements) add_plot(plots, request);
   return plots;
 }
 

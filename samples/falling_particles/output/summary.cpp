@@ -182,6 +182,17 @@ void add_effect_costs(Lines& lines, const Summary& s) {
   }
 }
 
+void add_measurement_costs(Lines& lines, const Summary& s) {
+  for (const MeasurementCost& cost : s.measurements) {
+    const std::string section = "measurement." + cost.name + ".";
+    const auto add = [&](const char* key, auto value, const char* comment) { lines.add((section + key).c_str(), value, comment); };
+    add("seconds", cost.seconds, "s");
+    add("samples", cost.state.samples, "");
+    add("lines", cost.state.lines, "of its table");
+  }
+  if (!s.measurements.empty()) lines.add("measured_contacts_seconds", s.seconds_of_contacts, "s, shared: contacts put together");
+}
+
 }  // namespace
 
 std::string to_toml(const Summary& summary) {
@@ -194,6 +205,7 @@ std::string to_toml(const Summary& summary) {
   if (summary.heap) add_heap(lines, *summary.heap);
   add_costs(lines, summary);
   add_effect_costs(lines, summary);
+  add_measurement_costs(lines, summary);
   return lines.text();
 }
 

@@ -12,6 +12,7 @@
 #include "measure/energy.hpp"
 #include "measure/heap.hpp"
 #include "measure/overlap.hpp"
+#include "measurements/measuring.hpp"
 #include "scene/scene.hpp"
 #include "simulation/compression.hpp"
 #include "simulation/stepper.hpp"
@@ -44,6 +45,8 @@ struct Summary {
   std::optional<Packing> packing;  ///< for a compression
   std::optional<Heap> heap;        ///< for a hopper's dish
   std::vector<supernormal::effects::Cost> effects;
+  std::vector<MeasurementCost> measurements = {};
+  double seconds_of_contacts = 0;  ///< s, to gather contacts for the measurements
 };
 
 /// Writes TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.

@@ -9,6 +9,7 @@
 #include "input_error.hpp"
 #include "load_container.hpp"
 #include "load_effects.hpp"
+#include "load_measurements.hpp"
 #include "memory.hpp"
 #include "nearest_word.hpp"
 #include "output/picture.hpp"
@@ -185,7 +186,7 @@ void read_output(const TomlTable& root, Scene& scene) {
 /// The names of the sections at the top of the file.
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
-                                    "solver", "compression", "broad_phase", "output", "part"};
+                                    "solver", "compression", "broad_phase", "output", "part",  "measurement"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -206,6 +207,7 @@ Scene load_scene(const std::string& path) {
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   add_part_effects(scene.parts, scene.effects);
   scene.compression = read_compression(root, scene);
+  scene.measurements = load_measurements(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
   read_output(root, scene);
   check_memory(root, scene.bodies());

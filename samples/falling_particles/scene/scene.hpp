@@ -8,6 +8,7 @@
 
 #include "container/container.hpp"
 #include "grain.hpp"
+#include "measurements/request.hpp"
 #include "parts/part.hpp"
 #include "simulation/sweep_space.hpp"
 
@@ -59,6 +60,7 @@ struct Scene {
   bool forces = false;                                ///< whether pictures show the forces of the contacts
   std::vector<Part> parts = {};                       ///< walls besides those of the container, or in its place
   std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen by the positions of the grains if empty
+  std::vector<MeasurementRequest> measurements = {};  ///< those that the scene names, and no others
 
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;

@@ -183,7 +183,16 @@ std::optional<TomlTable> TomlTable::find_table(std::string_view key, std::vector
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector<std::string>& keys) const {
-  const std::string allowed = "one or more [[" + full_name(key) + "]] with " + join(keys);
+  std::vector<TomlTable> result = parts(key, "one or more [[" + full_name(key) + "]] with " + join(keys));
+  for (const TomlTable& table : result) table.refuse_unknown_keys(keys);
+  return result;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+  return parts(key, "one or more [[" + full_name(key) + "]]");
+}
+
+std::vector<TomlTable> TomlTable::parts(std::string_view key, const std::string& allowed) const {
   const toml::node* value = node_->table->get(key);
   if (value == nullptr) fail_missing(key, allowed);
   const toml::array* array = value->as_array();
@@ -194,7 +203,6 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector
     if (part == nullptr)
       throw InputError(node_->file, line_of(element), full_name(key) + " holds " + describe(element) + "; allowed: " + allowed);
     result.push_back(TomlTable(std::make_shared<const Node>(node_->child(*part, full_name(key)))));
-    result.back().refuse_unknown_keys(keys);
   }
   return result;
 }

@@ -36,6 +36,8 @@ class TomlTable {
 
   /// The array of tables ([[key]]), not empty.
   std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& keys) const;
+  /// The same, if the valid keys of each depend on its content: refuse_unknown_keys() has to follow.
+  std::vector<TomlTable> tables(std::string_view key) const;
 
   void refuse_unknown_keys(const std::vector<std::string>& keys) const;
 
@@ -53,6 +55,7 @@ class TomlTable {
   struct Node;
   explicit TomlTable(std::shared_ptr<const Node> node);
   TomlTable part(std::string_view key, const std::string& allowed) const;
+  std::vector<TomlTable> parts(std::string_view key, const std::string& allowed) const;
   [[noreturn]] void fail_missing(std::string_view key, const std::string& allowed) const;
   [[noreturn]] void fail_value(std::string_view key, const std::string& allowed) const;
 

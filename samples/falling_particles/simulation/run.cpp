@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "measure/discharge.hpp"
 #include "measure/energy.hpp"
 #include "measure/leaks.hpp"
+#include "measurements/measuring.hpp"
 #include "output/output_files.hpp"
 #include "output/output_folder.hpp"
 #include "output/picture.hpp"
@@ -141,19 +143,28 @@ double time_after(int step, const Time& time) {
   return std::round(step * time.step * 1e9) / 1e9;  // 0.7 and not 0.7000000000000001
 }
 
+/// Stands for Measuring in a scene that names no measurement, whose steps are then not an instruction longer.
+struct NoMeasuring {
+  static constexpr bool wants_forces(int /*step*/) { return false; }
+  static constexpr void after_step(int /*step*/, double /*time*/, const std::deque<MeasuredContact>& /*contacts*/) {}
+};
+
 /// Steps until the end or until the user interrupts, with a frame at the start, at every interval and at the end. Returns the
 /// number of steps done.
-int advance(Stepper& stepper, Watches& watches, Recorder& recorder, const Time& time, bool quiet) {
+template <typename Measurements>
+int advance(Stepper& stepper, Watches& watches, Recorder& recorder, Measurements&& measuring, const Time& time, bool quiet) {
   const int steps = time.steps();
   std::optional<Progress> progress;
   if (!quiet) progress.emplace(stderr, steps);
   recorder.record(0, nullptr);
+  measuring.after_step(0, 0, stepper.measured_contacts());
   int step = 0;
   while (step < steps && !interrupted()) {
     ++step;
     const bool is_frame = step == steps || step % time.steps_per_frame() == 0;
-    stepper.step(is_frame && recorder.wants_forces());
+    stepper.step((is_frame && recorder.wants_forces()) || measuring.wants_forces(step));
     const double now = time_after(step, time);
+    measuring.after_step(step, now, stepper.measured_contacts());  // before a compression scales the cell
     watches.after_step(now, stepper);
     const bool last = step == steps || interrupted();
     if (last || is_frame) recorder.record(now, &stepper);
@@ -180,9 +191,12 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
   Stepper stepper(world, scene, threads);
   Watches watches(world, scene, random);
   Recorder recorder(folder, world, scene, watches);
+  Measuring measuring(scene, world, folder);
   snResetStatistics();
   const auto start = std::chrono::steady_clock::now();
-  const int steps = advance(stepper, watches, recorder, scene.time, quiet);
+  const int steps = scene.measurements.empty() ? advance(stepper, watches, recorder, NoMeasuring{}, scene.time, quiet)
+                                               : advance(stepper, watches, recorder, measuring, scene.time, quiet);
+  measuring.close_tables();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   snStatistics statistics;  // taken before the measurements at the end add to them
   snGetStatistics(&statistics);
@@ -210,7 +224,9 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         watches.discharge ? &*watches.discharge : nullptr,
                         watches.compressor ? std::optional(watches.compressor->packing()) : std::nullopt,
                         find_heap(world, scene.container),
-                        world.effects().costs()};
+                        world.effects().costs(),
+                        measuring.costs(),
+                        measuring.seconds_of_contacts()};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);
   recorder.finish_pictures(text);

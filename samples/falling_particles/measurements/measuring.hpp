@@ -1,0 +1,64 @@
+// The measurements of a run as it goes.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "measurements/measurement.hpp"
+#include "measurements/request.hpp"
+#include "output/output_folder.hpp"
+#include "output/write_file.hpp"
+#include "simulation/stopwatch.hpp"
+
+namespace falling_particles {
+
+/// The folder of the tables within that of the run.
+inline constexpr const char* kMeasurementFolder = "measurements";
+
+/// All that a measurement accumulates, besides the bytes of its table: what a resumed run has to restore.
+struct MeasurementState {
+  unsigned long long samples = 0;
+  unsigned long long lines = 0;  ///< of the table, its head not counted
+};
+
+/// What a measurement took.
+struct MeasurementCost {
+  std::string name;
+  std::string kind;
+  MeasurementState state;
+  double seconds;  ///< wall-clock time of its samples
+};
+
+/// Writes the tables that a scene asks for.
+class Measuring {
+ public:
+  /// Creates the folder and the tables, if there are any. `world` has not started, and outlives this object.
+  Measuring(const Scene& scene, const World& world, const OutputFolder& folder);
+
+  /// Whether a sample after this step needs the forces of its contacts.
+  bool wants_forces(int step) const;
+  /// `contacts`: those of the step if wants_forces(step).
+  void after_step(int step, double time, const std::deque<MeasuredContact>& contacts);
+  void close_tables();
+
+  std::vector<MeasurementCost> costs() const;
+  double seconds_of_contacts() const { return gathering_.seconds(); }  ///< s, to gather contacts for all measurements
+
+ private:
+  struct Entry {
+    const MeasurementRequest* request;
+    std::unique_ptr<Measurement> measurement;
+    std::unique_ptr<OutputFile> file;
+    MeasurementState state = {};
+    Stopwatch watch = {};
+  };
+
+  const World& world_;
+  double step_;
+  std::vector<Entry> entries_;
+  Stopwatch gathering_;
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,26 @@
+// A measurement that a scene asks for.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace falling_particles {
+
+class Measurement;
+class World;
+
+/// A section [[measurement]] of a scene file, checked.
+struct MeasurementRequest {
+  std::string name;  ///< of its table, measurements/NAME.csv
+  std::string kind;  ///< in measurement_kinds()
+  int every;         ///< steps from sample to sample: the multiples of it from `first` to `last`
+  int first;         ///< in steps; at 0, the start, only kinds that need no contacts have a sample
+  int last;
+  bool needs_contacts;
+  std::function<std::unique_ptr<Measurement>(const World&)> make;
+
+  bool is_due(int step) const { return step % every == 0 && step >= first && step <= last; }
+};
+
+}  // namespace falling_particles

@@ -1,0 +1,48 @@
+#include "measurements/surfaces.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <variant>
+
+namespace falling_particles {
+namespace {
+
+/// Names surfaces in the order in which Walls makes their geoms.
+struct Names {
+  std::vector<std::string> operator()(const Box&) const { return {"floor", "x_low", "x_high", "y_low", "y_high"}; }
+  std::vector<std::string> operator()(const Hopper& hopper) const {
+    std::vector<std::string> names = {"floor", "x_low", "x_high", "y_low", "y_high", "lid", "hopper"};
+    if (hopper.dish) names.emplace_back("dish");
+    return names;
+  }
+  std::vector<std::string> operator()(const Terrain&) const { return {"x_low", "x_high", "y_low", "y_high", "ground"}; }
+  template <typename WithoutWalls>
+  std::vector<std::string> operator()(const WithoutWalls&) const {
+    return {};
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> surface_names(const Scene& scene) {
+  std::vector<std::string> names = std::visit(Names{}, scene.container);
+  for (const Part& part : scene.parts) names.push_back(part.name);
+  return names;
+}
+
+std::vector<NamedSurface> surfaces_of(const World& world, const std::vector<std::string>& names) {
+  std::vector<dGeomID> geoms = world.walls().geoms();
+  if (world.parts() != nullptr) geoms.insert(geoms.end(), world.parts()->geoms().begin(), world.parts()->geoms().end());
+  if (names.size() != geoms.size()) throw std::logic_error("a scene has other walls than surfaces_of() names");
+  std::vector<NamedSurface> surfaces;
+  surfaces.reserve(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) surfaces.push_back({names[i], geoms[i]});
+  return surfaces;
+}
+
+std::string surface_name(const std::vector<NamedSurface>& surfaces, dGeomID geom) {
+  const auto found = std::ranges::find(surfaces, geom, &NamedSurface::geom);
+  return found == surfaces.end() ? "wall" : found->name;
+}
+
+}  // namespace falling_particles
