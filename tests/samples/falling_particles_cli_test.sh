@@ -25,6 +25,27 @@ same_seed_same_result() {
   state_is_as_summed_up "$work/first/short"
 }
 
+# Measurements change no grain's way, and are the same with any number of threads.
+measurements_are_written() {
+  { cat "$samples/scenes/short.toml"
+    sed -n '/^\[\[measurement\]\]/,$p' "$samples/scenes/silo.toml" | sed -e 's/^from = .*//' -e 's/^interval = .*/interval = 0.05/'
+  } >"$work/scenes/short.toml"
+  for threads in 1 2; do expect 0 "$program" -q -t $threads --scene "$work/scenes/short.toml" --out "$work/measured$threads"; done
+  for file in trajectory.csv energies.csv state.csv; do
+    cmp "$work/first/short/$file" "$work/measured1/short/$file" || fail "$file differs where there are measurements"
+  done
+  diff -r "$work/measured1/short/measurements" "$work/measured2/short/measurements" || fail "measurements differ with two threads"
+  local table
+  for table in floor walls stress coordination fabric nematic_order contact_forces; do
+    [ "$(wc -l <"$work/measured1/short/measurements/$table.csv")" -gt 10 ] || fail "$table.csv has less than a line a sample"
+    grep -q "^measurement.$table.seconds " "$work/measured1/short/summary.toml" || fail "the cost of $table is not told"
+  done
+  expect 0 "$program" -q --scene "$samples/scenes/short.toml" --out "$work/measured1"
+  [ ! -e "$work/measured1/short/measurements" ] || fail "an earlier run's measurements stay"
+  expect 0 "$program" --list
+  for name in friction stress part_force surface; do grep -q "[[\"]$name[]\"]" "$work/log" || fail "--list does not name $name"; done
+}
+
 other_seed_other_result() {
   sed 's/^seed = .*/seed = 4711/' "$samples/scenes/short.toml" >"$work/scenes/short.toml"
   expect 0 "$program" -q --scene "$work/scenes/short.toml" --out "$work/third"
@@ -153,8 +174,8 @@ stdout_is_checked() {
     [ -s "$work/stdout/brief/summary.toml" ] || fail "no results with stdout $command"
   done
   got=0
-  "$program" --list-effects >/dev/full 2>"$work/log" || got=$?
-  [ "$got" -eq 1 ] || fail "exit code $got of --list-effects to a full disk"
+  "$program" --list >/dev/full 2>"$work/log" || got=$?
+  [ "$got" -eq 1 ] || fail "exit code $got of --list to a full disk"
 }
 
 # Starts a run of an hour in the background, sets $pid and returns when it has written frames. $1: name of the scene
@@ -215,6 +236,7 @@ a_killed_run_leaves_whole_frames_until_the_next() {
 
 mkdir "$work/scenes" && cp -r "$samples/data" "$work/data"
 same_seed_same_result
+measurements_are_written
 other_seed_other_result
 bad_input_leaves_nothing
 other_containers
