@@ -14,7 +14,7 @@ using supernormal::test::relative;
 namespace {
 
 std::array<double, 4> plane_of(const World& world, const Scene& scene, const std::string& name) {
-  const std::vector<NamedSurface> surfaces = surfaces_of(world, surface_names(scene.container));
+  const std::vector<NamedSurface> surfaces = surfaces_of(world, surface_names(scene));
   const auto found = std::ranges::find(surfaces, name, &NamedSurface::name);
   REQUIRE(found != surfaces.end());
   REQUIRE(dGeomGetClass(found->geom) == dPlaneClass);
@@ -37,7 +37,7 @@ TEST_CASE("measurements: the names of walls are those of their geoms") {
 
   const Scene terrain = falling_particles::scene_of(scene_in(kTerrainText));
   const World on_terrain(terrain, {});
-  const std::vector<NamedSurface> of_terrain = surfaces_of(on_terrain, surface_names(terrain.container));
+  const std::vector<NamedSurface> of_terrain = surfaces_of(on_terrain, surface_names(terrain));
   CHECK(of_terrain.back().name == "ground");
   CHECK(dGeomGetClass(of_terrain.back().geom) == dHeightfieldClass);
   CHECK(plane_of(on_terrain, terrain, "y_high") == Plane{0, -1, 0, -0.06});
@@ -62,4 +62,26 @@ TEST_CASE("measurements: a pea on the lid of a hopper weighs on it, and later on
   TableText table;
   floor->measure({0, world, gather_contacts(stepper.measured_contacts(), world, on_lid.time.step)}, table);
   CHECK(std::stod(split(table.text())[4]) == relative(-weight).epsilon(1e-3));
+}
+
+TEST_CASE("measurements: a pea on a part that rises weighs on it") {
+  const std::string plate = R"(
+[[part]]
+name = "plate"
+shape = "box"
+size = [0.03, 0.03, 0.004]
+position = [0.02, 0.02, 0.008]
+[[part.motion]]
+kind = "velocity"
+velocity = [0, 0, 0.01]
+)";
+  const Scene scene = scene_with("kind = \"part_force\"\nsurfaces = [\"plate\"]\nabout = [0.015, 0.02, 0]\n", kSceneText + plate);
+  World world(scene, {upright(kPea, 0.02, 0.02, 0.01 + 3e-3)});
+  const double weight = world.bodies()[0].mass.mass * 9.81;
+  Stepper stepper(world, scene);
+  for (int step = 0; step < 400; ++step) stepper.step(true);
+  CHECK(world.bodies()[0].position()[2] == relative(0.012 + 3e-3).epsilon(1e-2));
+  const MeasuredTable table = measure(scene, world, &stepper);
+  CHECK(table.number("force_z_N") == relative(-weight).epsilon(1e-3));
+  CHECK(table.number("torque_y_Nm") == relative(5e-3 * weight).epsilon(1e-2));
 }
