@@ -165,7 +165,7 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);
   folder.write("t.stl", kTetrahedron);
-  folder.write("broken.stl", "solid x\nfacet normal 0 0");
+  folder.write("broken.stl", "");
   folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   folder.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const auto load = [&](const std::string& file, const std::string& unit) {
@@ -187,7 +187,7 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
   CHECK(std::get<MeshShape>(load("square.obj", "inch").parts[0].shape).triangles.size() == 2);
   check_says(refusal("none.stl", "mm"), {"part.file", "there is no file", "none.stl"});
   check_says(refusal("points.obj", "mm"), {"part.file", "points.obj"});
-  CHECK(refusal("broken.stl", "mm").find("broken.stl") != std::string::npos);
+  check_says(refusal("broken.stl", "mm"), {"part.file", "broken.stl", "cannot be read"});
   check_says(refusal("t.step", "mm"), {"part.file is \"t.step\"", ".stl or .obj"});
   check_says(refusal("t.stl", "ft"), {"part.unit is \"ft\"", "inch"});
 }
