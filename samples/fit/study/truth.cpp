@@ -57,7 +57,7 @@ Body aligned(const Body& fitted, const Body& truth, Eigen::Matrix3d& axes) {
     for (int signs = 0; signs < 8; ++signs) {
       Matrix3 candidate = Matrix3::Zero();
       for (int k = 0; k < 3; ++k) candidate(permutation[static_cast<std::size_t>(k)], k) = ((signs >> k) & 1) != 0 ? -1 : 1;
-      if (candidate.determinant() < 0 || (truth.taper != 0 && candidate(2, 2) < 0)) continue;
+      if (candidate.determinant() < 0) continue;
       const double trace = (truth.rotation().transpose() * fitted.rotation() * candidate).trace();
       if (trace <= largest) continue;
       largest = trace;
@@ -67,6 +67,7 @@ Body aligned(const Body& fitted, const Body& truth, Eigen::Matrix3d& axes) {
   Body result = fitted;
   result.attitude = Eigen::Quaterniond(fitted.rotation() * axes).normalized();
   result.half_axes = axes.cwiseAbs().transpose() * fitted.half_axes;
+  if (axes(2, 2) < 0) result.taper = -fitted.taper;
   return result;
 }
 

@@ -21,8 +21,9 @@ Cloud scatter(const Body& truth, const Scatter& settings);
 
 double mean_half_axis(const Body& body);
 
-/// `fitted` in that of its equivalent frames which is nearest to the frame of `truth`: axes may point the other way, x and y change
-/// places, and where both exponents of the truth are the same, which axis is called z is chance.
+/// `fitted` in that of its equivalent frames which is nearest to the frame of `truth`: axes may point the other way (a
+/// taper then changes its sign), x and y change places, and where both exponents of the truth are the same, which axis is called z
+/// is chance.
 Body aligned(const Body& fitted, const Body& truth, Eigen::Matrix3d& axes);
 
 /// The numbers of `fitted` less those of `truth`, in the order of kPosition to kTaper; exponents and half-axes as such.
