@@ -62,7 +62,8 @@ std::vector<ContainerPart> parts_of_scene(const Scene& scene) {
 
 /// A corner of the plate at a frame.
 Vector3 corner_at(std::size_t index) {
-  const auto& [p, q, scale] = frame_at(index).part_places[2];
+  const Frame frame = frame_at(index);
+  const auto& [p, q, scale] = frame.part_places[2];
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3(0.01, 0.02, 0.005) + Vector3(p[0], p[1], p[2]);
 }
 
