@@ -111,15 +111,9 @@ void Effects::set_up(dWorldID world) const {
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, Material material2) {
-  PairMaterial& pair = state_->pair_materials.of(material1, material2);
-  for (dContact& contact : contacts) contact.surface = pair.surface;
-  int kept = static_cast<int>(contacts.size());
-  if (!pair.passes.empty() && !contacts.empty()) {
-    const dContactGeom& geom = contacts.front().geom;
-    kept = state_->run_passes(pair, contacts, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));
-  }
-  pair.contacts += static_cast<unsigned long long>(kept);
-  return kept;
+  if (contacts.empty()) return 0;
+  const dContactGeom& geom = contacts.front().geom;
+  return set_up_contacts(contacts, Side{material1, dGeomGetBody(geom.g1)}, Side{material2, dGeomGetBody(geom.g2)});
 }
 
 int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, const Side& side2) {

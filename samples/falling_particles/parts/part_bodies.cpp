@@ -41,6 +41,12 @@ PartPose PartBodies::Entry::part_pose() const {
   return moved;
 }
 
+PartVelocity PartBodies::Entry::part_velocity() const {
+  PartVelocity moved = velocity;
+  if (driven != nullptr) moved.linear += speed * axis() + velocity.angular.cross(position * axis());
+  return moved;
+}
+
 Vector3 PartBodies::Entry::axis() const { return pose.rotation * part->start.rotation.conjugate() * part->drive->axis; }
 
 PartBodies::PartBodies(dWorldID world, const std::vector<Part>& parts, double step, unsigned long category_bits,
@@ -155,9 +161,7 @@ void PartBodies::after_step() {
     set_pose(entry.carrier, entry.pose);
     if (entry.driven != nullptr) {
       set_pose(entry.driven, entry.part_pose());
-      PartVelocity velocity = entry.velocity;
-      velocity.linear += entry.speed * entry.axis() + velocity.angular.cross(entry.position * entry.axis());
-      set_velocity(entry.driven, velocity);
+      set_velocity(entry.driven, entry.part_velocity());
     }
     place(entry);
   }
@@ -197,14 +201,6 @@ supernormal::effects::Side PartBodies::side_of(dGeomID geom, supernormal::effect
   return {entry.material, entry.is_moving ? body : nullptr};
 }
 
-PartState PartBodies::state(std::size_t index) const {
-  const Entry& entry = entries_[index];
-  PartState state{entry.part_pose(), entry.velocity};
-  if (entry.driven != nullptr) {
-    const Vector3 axis = entry.axis();
-    state.velocity.linear += entry.speed * axis + entry.velocity.angular.cross(entry.position * axis);
-  }
-  return state;
-}
+PartState PartBodies::state(std::size_t index) const { return {entries_[index].part_pose(), entries_[index].part_velocity()}; }
 
 }  // namespace falling_particles

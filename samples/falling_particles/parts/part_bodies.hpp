@@ -62,8 +62,9 @@ class PartBodies {
     bool is_moving = false;
     bool is_held = true;
 
-    PartPose part_pose() const;  // with the way that the driven body has slid
-    Vector3 axis() const;        // of the drive, in the world's frame
+    PartPose part_pose() const;          // with the way that the driven body has slid
+    PartVelocity part_velocity() const;  // with its speed; mean of the last step
+    Vector3 axis() const;                // of the drive, in the world's frame
   };
   dGeomID create_geom(const PartShape& shape);
   void add_drive(Entry& entry, const Drive& drive);

@@ -6,6 +6,11 @@
 namespace falling_particles {
 namespace {
 
+/// A grain on a wall that moves stays awake: ODE would take the velocity of one that is slow for none.
+bool is_moving_wall(dGeomID geom, const supernormal::effects::Side& side) {
+  return body_of(geom) == nullptr && side.body != nullptr;
+}
+
 bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; }
 
 }  // namespace
@@ -33,29 +38,22 @@ void ContactJoints::attach(std::span<const dContactGeom> pair, bool measures) {
   std::array<dContact, kContactsPerPair> room;
   const auto contacts = std::span(room).first(pair.size());
   for (std::size_t i = 0; i < pair.size(); ++i) contacts[i].geom = pair[i];
-  if (world_.parts() != nullptr) return attach_to_parts(contacts, measures);
-  const int count = world_.effects().set_up_contacts(contacts, material_of(pair[0].g1), material_of(pair[0].g2));
-  for (const dContact& contact : contacts.first(static_cast<std::size_t>(count))) {
-    const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
-    dJointAttach(joint, dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
-    if (measures) measure(joint, contact, dGeomGetBody(contact.geom.g1) == nullptr);
-  }
-}
-
-// A grain on a part that moves stays awake: ODE would take the velocity of one that is slow for none.
-void ContactJoints::attach_to_parts(std::span<dContact> contacts, bool measures) {
-  const PartBodies& parts = *world_.parts();
-  const auto [geom1, geom2] = std::pair{contacts[0].geom.g1, contacts[0].geom.g2};
-  const auto side1 = parts.side_of(geom1, material_of(geom1));
-  const auto side2 = parts.side_of(geom2, material_of(geom2));
-  if (parts.is_moving(geom1)) dBodyEnable(side2.body);
-  if (parts.is_moving(geom2)) dBodyEnable(side1.body);
+  const auto [geom1, geom2] = std::pair{pair[0].g1, pair[0].g2};
+  const Side side1 = side_of(geom1), side2 = side_of(geom2);
+  if (is_moving_wall(geom1, side1)) dBodyEnable(side2.body);
+  if (is_moving_wall(geom2, side2)) dBodyEnable(side1.body);
   const int count = world_.effects().set_up_contacts(contacts, side1, side2);
   for (const dContact& contact : contacts.first(static_cast<std::size_t>(count))) {
     const dJointID joint = dJointCreateContact(world_.id(), joints_, &contact);
     dJointAttach(joint, side1.body, side2.body);
     if (measures) measure(joint, contact, side1.body == nullptr);
   }
+}
+
+ContactJoints::Side ContactJoints::side_of(dGeomID geom) const {
+  const PartBodies* parts = world_.parts();
+  if (parts == nullptr || body_of(geom) != nullptr) return {material_of(geom), dGeomGetBody(geom)};
+  return parts->side_of(geom, material_of(geom));
 }
 
 void ContactJoints::measure(dJointID joint, const dContact& contact, bool is_reversed) {

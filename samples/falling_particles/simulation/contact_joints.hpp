@@ -41,8 +41,10 @@ class ContactJoints {
   const std::deque<MeasuredContact>& measured() const { return measured_; }
 
  private:
+  using Side = supernormal::effects::Side;
+
   void attach(std::span<const dContactGeom> pair, bool measures);
-  void attach_to_parts(std::span<dContact> contacts, bool measures);
+  Side side_of(dGeomID geom) const;
   void measure(dJointID joint, const dContact& contact, bool is_reversed);
 
   const World& world_;
