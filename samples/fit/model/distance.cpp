@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <supernormal/proximity/solve.hpp>
 #include <supernormal/shapes/sphere.hpp>
 
@@ -73,6 +74,12 @@ Gradient DistanceFunction::gradient(const Witness& witness) const {
   // A turn of the body by w moves its boundary point by w x r, which lowers the distance by n.(w x r) = w.(r x n).
   gradient.segment<3>(kRotation) = n.cross(r);
   return gradient;
+}
+
+double least_distance(std::span<const DistanceFunction> functions, const Vector3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const DistanceFunction& function : functions) least = std::min(least, function.find(x).value_or(Witness{least}).distance);
+  return least;
 }
 
 }  // namespace fit

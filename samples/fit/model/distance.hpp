@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "body.hpp"
 
@@ -42,5 +43,8 @@ class DistanceFunction {
   Matrix3 rotation_;
   std::unique_ptr<supernormal::Shape> shape_;
 };
+
+/// The least of the distances of a point from several bodies: outside, that from their union.
+double least_distance(std::span<const DistanceFunction> functions, const Vector3& x);
 
 }  // namespace fit

@@ -103,15 +103,11 @@ double root_mean_square(std::span<const double> values) {
   return std::sqrt(square / static_cast<double>(values.size()));
 }
 
-/// The sum of g g^T over the inliers' gradients g, whose inverse times sigma^2 is the covariance of the body's numbers.
-Eigen::MatrixXd information_of(const Descent& descent, const DistanceFunction& function) {
-  const Eigen::Index count = parameter_count(descent.body.family);
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
-  for (const std::size_t i : descent.inliers) {
-    const Eigen::VectorXd gradient = function.gradient(descent.measured.witnesses[i]).head(count);
-    information.selfadjointView<Eigen::Lower>().rankUpdate(gradient);
-  }
-  return information.selfadjointView<Eigen::Lower>();
+std::vector<Witness> inlier_witnesses(const Descent& descent) {
+  std::vector<Witness> witnesses;
+  witnesses.reserve(descent.inliers.size());
+  for (const std::size_t i : descent.inliers) witnesses.push_back(descent.measured.witnesses[i]);
+  return witnesses;
 }
 
 /// How far, in standard errors of any combination of the body's numbers, changes of the inliers' distances move these: the length
@@ -124,7 +120,8 @@ double standard_errors_moved(const Descent& descent, const std::vector<double>& 
     if (changes[i] != 0) pull += changes[i] * function.gradient(descent.measured.witnesses[i]).head(count);
   }
   if (pull.isZero(0)) return 0;
-  const Eigen::VectorXd move = information_of(descent, function).completeOrthogonalDecomposition().solve(pull);
+  const Eigen::MatrixXd information = normal_matrix(function, inlier_witnesses(descent)).topLeftCorner(count, count);
+  const Eigen::VectorXd move = information.completeOrthogonalDecomposition().solve(pull);
   return std::sqrt(std::max(pull.dot(move), 0.0)) / sigma;
 }
 
@@ -199,19 +196,13 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
 /// The result in the frame of the data, which have been normalized by `extent`.
 FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud, const FitSettings& settings) {
   FittedBody fitted;
-  std::vector<Witness> witnesses;
-  std::vector<double> residuals;
   std::vector<bool> is_inlier(cloud.points.size(), false);
-  for (const std::size_t i : descent.inliers) {
-    is_inlier[i] = true;
-    witnesses.push_back(descent.measured.witnesses[i]);
-    residuals.push_back(descent.measured.distances[i] - descent.offsets[i]);
-  }
+  for (const std::size_t i : descent.inliers) is_inlier[i] = true;
   for (std::size_t i = 0; i < is_inlier.size(); ++i) {
     if (!is_inlier[i]) fitted.outliers.push_back(i);
   }
   fitted.inliers = descent.inliers.size();
-  fitted.uncertainty = find_uncertainty(descent.body, witnesses, residuals);
+  fitted.uncertainty = find_uncertainty(descent.body, inlier_witnesses(descent), residuals_of(descent));
   const double sharpest = make_shape(descent.body)->min_curvature_radius_estimate();
   fitted.is_edge_below_noise =
       settings.noise == Noise::Isotropic && fitted.uncertainty.sigma > kRounding && sharpest < 2 * fitted.uncertainty.sigma;

@@ -11,8 +11,6 @@
 #include <supernormal/shapes/polytope.hpp>
 #include <utility>
 
-#include "distance.hpp"
-
 namespace fit {
 namespace {
 
@@ -160,24 +158,21 @@ class DataDistance {
   Tree tree_;
 };
 
-/// The largest distance of the bodies' free surface from the data.
-double largest_distance_to_data(std::span<const Body> bodies, const Data& data) {
-  const DataDistance distance(data);
-  const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
-  double largest = 0;
+}  // namespace
+
+std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count) {
+  std::vector<Vector3> points;
   for (const DistanceFunction& function : functions) {
     const Matrix3 R = function.body().rotation();
-    for (const Eigen::Vector3d& r : sample_boundary(function.shape(), kSamples, 1).points) {
+    for (const Eigen::Vector3d& r : sample_boundary(function.shape(), count, 1).points) {
       const Vector3 x = function.body().position + R * r;
       const bool is_covered =
           std::ranges::any_of(functions, [&](const DistanceFunction& other) { return &other != &function && other.contains(x); });
-      if (!is_covered) largest = std::max(largest, distance(x));
+      if (!is_covered) points.push_back(x);
     }
   }
-  return largest;
+  return points;
 }
-
-}  // namespace
 
 VolumeIntegral integrate_union(std::span<const Body> bodies) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -223,13 +218,13 @@ FitError find_error(std::span<const Body> bodies, const Data& data) {
   }
   double square = 0;
   for (const Vector3& x : points) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const DistanceFunction& function : functions) least = std::min(least, function.find(x).value_or(Witness{least}).distance);
+    const double least = least_distance(functions, x);
     error.to_body = std::max(error.to_body, std::abs(least));
     square += least * least;
   }
   error.rms = std::sqrt(square / static_cast<double>(points.size()));
-  error.to_data = largest_distance_to_data(bodies, data);
+  const DataDistance to_data(data);
+  for (const Vector3& x : free_surface(functions, kSamples)) error.to_data = std::max(error.to_data, to_data(x));
   error.is_hull = !is_closed(data);
   error.data = error.is_hull ? solid_of_hull(data) : solid_of_mesh(data);
   if (bodies.size() == 1) {

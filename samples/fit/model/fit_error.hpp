@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body.hpp"
+#include "distance.hpp"
 #include "input/read_data.hpp"
 
 namespace fit {
@@ -26,6 +27,9 @@ struct FitError {
   Solid data;             ///< of the mesh where it is closed, of the convex hull otherwise
   bool is_hull = false;   ///< whether `data` is that of the convex hull
 };
+
+/// Points of the union's surface: of `count` on each body, the same always, those that no other body contains.
+std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count);
 
 struct VolumeIntegral {
   Solid solid;

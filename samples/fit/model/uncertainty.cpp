@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace fit {
 namespace {
-
-using SquareMatrix = Eigen::Matrix<double, kParameters, kParameters>;
 
 // Over the body's size: distances are not known better than the first; what is below the second is rounding, which has patterns.
 constexpr double kExact = 1e-12, kRounding = 1e-9;
@@ -71,25 +70,28 @@ Gradient largest_errors(const Body& body) {
 
 }  // namespace
 
+SquareMatrix normal_matrix(const DistanceFunction& function, std::span<const Witness> witnesses) {
+  SquareMatrix sum = SquareMatrix::Zero();
+  for (const Witness& witness : witnesses) {
+    const Gradient gradient = function.gradient(witness);
+    sum += gradient * gradient.transpose();
+  }
+  return sum;
+}
+
 Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals) {
   Uncertainty result;
   const double size = body.half_axes.maxCoeff();
-  const DistanceFunction function(body);
-  SquareMatrix normal_matrix = SquareMatrix::Zero();
-  double square = 0;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    Gradient row = function.gradient(witnesses[i]);
-    row.segment<3>(kPosition) *= size;  // all in lengths, so that eigenvalues may be compared
-    normal_matrix += row * row.transpose();
-    square += residuals[i] * residuals[i];
-  }
+  SquareMatrix all = normal_matrix(DistanceFunction(body), witnesses);
+  all.middleRows<3>(kPosition) *= size;  // all in lengths, so that eigenvalues may be compared
+  all.middleCols<3>(kPosition) *= size;
+  const double square = std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
   const int parameters = parameter_count(body.family);
   const double freedom = std::max(1.0, static_cast<double>(residuals.size()) - parameters);
   result.sigma = std::max(std::sqrt(square / freedom), kExact * size);
   if (result.sigma > kRounding * size) test_lack_of_fit(body, witnesses, residuals, result);
 
-  // A family varies the first of the numbers.
-  const Eigen::MatrixXd reduced = normal_matrix.topLeftCorner(parameters, parameters);
+  const Eigen::MatrixXd reduced = all.topLeftCorner(parameters, parameters);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
   constexpr double kNoWeight = 1e-9;  // of the largest eigenvalue; the derivatives are right to about 1e-6
   constexpr double kShare = 1e-2;

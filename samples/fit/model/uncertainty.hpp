@@ -22,6 +22,11 @@ struct Uncertainty {
   bool is_significant = false;  ///< whether lack_of_fit is too large for chance; standard errors are then larger by its root
 };
 
+using SquareMatrix = Eigen::Matrix<double, kParameters, kParameters>;
+
+/// J^T J: the sum of g g^T over the gradients g of the distances. A family varies the first of the numbers.
+SquareMatrix normal_matrix(const DistanceFunction& function, std::span<const Witness> witnesses);
+
 /// From the distances of the points that were fitted, less what they should be (`residuals`).
 ///
 /// The covariance of least squares is sigma^2 (J^T J)^-1 with the Jacobian J at the solution (Seber and Wild, Nonlinear Regression,

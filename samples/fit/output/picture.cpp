@@ -95,11 +95,7 @@ std::string draw_view(std::span<const DistanceFunction> functions, std::span<con
 std::string draw(std::span<const Body> bodies, const Cloud& data, double rms, const std::string& title) {
   const std::vector<DistanceFunction> functions(bodies.begin(), bodies.end());
   std::vector<Dot> dots;
-  for (const Eigen::Vector3d& x : thinned(data, kDots).points) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const DistanceFunction& function : functions) least = std::min(least, function.find(x).value_or(Witness{least}).distance);
-    dots.push_back({x, least});
-  }
+  for (const Eigen::Vector3d& x : thinned(data, kDots).points) dots.push_back({x, least_distance(functions, x)});
   const Matrix3 axes = bodies.front().rotation();
   // The box of the data and the bodies along these axes.
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;

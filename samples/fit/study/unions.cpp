@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <limits>
 #include <vector>
 
 #include "compounds.hpp"
-#include "input/sampling.hpp"
 #include "model/distance.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
@@ -16,23 +14,14 @@ namespace fit {
 namespace {
 
 constexpr std::size_t kPointsOfPart = 1000;
+constexpr std::size_t kSurfacePoints = 5000;
 constexpr int kLargestCount = 4;
 
 /// The largest distance of the first union's surface from the second's.
 double largest_distance(const std::vector<Body>& from, const std::vector<Body>& to) {
   const std::vector<DistanceFunction> own(from.begin(), from.end()), others(to.begin(), to.end());
   double largest = 0;
-  for (const DistanceFunction& function : own) {
-    for (const Vector3& r : sample_boundary(function.shape(), 5000, 1).points) {
-      const Vector3 x = function.body().position + function.body().rotation() * r;
-      const bool is_covered =
-          std::ranges::any_of(own, [&](const DistanceFunction& other) { return &other != &function && other.contains(x); });
-      if (is_covered) continue;
-      double least = std::numeric_limits<double>::infinity();
-      for (const DistanceFunction& other : others) least = std::min(least, other.find(x).value().distance);
-      largest = std::max(largest, std::abs(least));
-    }
-  }
+  for (const Vector3& x : free_surface(own, kSurfacePoints)) largest = std::max(largest, std::abs(least_distance(others, x)));
   return largest;
 }
 
