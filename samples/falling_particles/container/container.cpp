@@ -1,6 +1,5 @@
 #include "container/container.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -29,13 +28,11 @@ double ceiling_of(const Container& container) {
 }
 
 bool has_room(const Container& container, const Point& lower, const Point& size) {
-  if (const Drum* drum = std::get_if<Drum>(&container)) return drum->has_room(lower, size);
-  const Hopper* hopper = std::get_if<Hopper>(&container);
-  if (hopper == nullptr) return true;  // only walls can be in the way of a cell above it, and the plan leaves them out
-  // A hopper does not narrow upwards: the cell's lower end decides, at its corner farthest from the axis.
-  const double x = std::max(std::abs(lower[0]), std::abs(lower[0] + size[0]));
-  const double y = std::max(std::abs(lower[1]), std::abs(lower[1] + size[1]));
-  return std::hypot(x, y) <= hopper->radius_at(lower[2]);
+  const auto room = [&](const auto& kind) {
+    if constexpr (requires { kind.has_room(lower, size); }) return kind.has_room(lower, size);
+    return true;  // only walls can be in the way of a cell above it, and the plan leaves them out
+  };
+  return std::visit(room, container);
 }
 
 bool contains(const Container& container, const Point& point) {

@@ -1,5 +1,6 @@
 #include "container/hopper.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -65,6 +66,13 @@ bool Hopper::is_in_tray(const Point& p) const {
   const Rectangle tray{{-tray_width / 2, -tray_width / 2}, {tray_width, tray_width}};
   if (!tray.contains(p[0], p[1]) || !(p[2] > 0 && p[2] < clearance)) return false;
   return !dish || p[2] > dish->height || !is_within(p[0], p[1], dish->outer_radius());
+}
+
+// A hopper does not narrow upwards: the cell's lower end decides, at its corner farthest from the axis.
+bool Hopper::has_room(const Point& lower, const Point& size) const {
+  const double x = std::max(std::abs(lower[0]), std::abs(lower[0] + size[0]));
+  const double y = std::max(std::abs(lower[1]), std::abs(lower[1] + size[1]));
+  return std::hypot(x, y) <= radius_at(lower[2]);
 }
 
 double Hopper::mean_height(double level) const {

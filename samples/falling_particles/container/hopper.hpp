@@ -32,12 +32,13 @@ struct Hopper {
   double opens_at;                ///< s
   std::optional<Dish> dish = {};  ///< below the outlet, around the z-axis
 
-  double cone_height() const;                               ///< m
-  double top() const;                                       ///< m, z of the upper rim
-  double radius_at(double z) const;                         ///< m, from the outlet upwards; above the rim it is the cylinder's
-  bool is_within(double x, double y, double radius) const;  ///< whether it is in the regular polygon with that inscribed circle
-  bool is_in_tray(const Point& p) const;                    ///< below the outlet
-  double mean_height(double level) const;                   ///< m, of the volume between outlet and z = level, above the outlet
+  double cone_height() const;                                  ///< m
+  double top() const;                                          ///< m, z of the upper rim
+  double radius_at(double z) const;                            ///< m, from the outlet upwards; above the rim it is the cylinder's
+  bool is_within(double x, double y, double radius) const;     ///< whether it is in the regular polygon with that inscribed circle
+  bool is_in_tray(const Point& p) const;                       ///< below the outlet
+  bool has_room(const Point& lower, const Point& size) const;  ///< for the box from `lower` on and for what is above it
+  double mean_height(double level) const;                      ///< m, of the volume between outlet and z = level, above the outlet
 
   Rectangle plan() const { return {{-diameter / 2, -diameter / 2}, {diameter, diameter}}; }
   double lowest() const { return clearance; }

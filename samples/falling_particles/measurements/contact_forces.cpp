@@ -50,7 +50,7 @@ MeasurementKind contact_forces_kind() {
           "tangential force on grain 1, points",
           "feedback of ODE's contact joints",
           true,
-          [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere), names = surface_names(scene)](
                        const World& world) { return std::make_unique<ContactForces>(region, surfaces_of(world, names)); };
           }};

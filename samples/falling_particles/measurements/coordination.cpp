@@ -121,7 +121,7 @@ MeasurementKind coordination_kind() {
           "time, grains, mean, rattlers, mean without rattlers, number of grains with 0, 1, ... contacts",
           "O'Hern et al., Phys. Rev. E 68 (2003) 011306: rattlers are taken away until none is left",
           true,
-          [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
             const bool walls = !table.has("walls") || table.boolean("walls");
             const std::size_t least =

@@ -59,7 +59,7 @@ MeasurementKind fabric_kind() {
           "time, contacts, six components, eigenvalues, direction of the largest, anisotropy sqrt(3/2) |15/2 (F - I/3)|",
           "Satake 1982; anisotropy: Guo and Zhao, Computers and Geotechnics 47 (2013)",
           true,
-          [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
             const bool walls = table.has("walls") && table.boolean("walls");
             return [=](const World&) { return std::make_unique<Fabric>(region, walls); };

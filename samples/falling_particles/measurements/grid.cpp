@@ -133,7 +133,7 @@ MeasurementKind grid_kind() {
       "time, cell, its middle, grains, density, volume fraction, mean velocity by mass, granular temperature, velocity variance",
       "granular temperature beside the cell's own velocity gradient: Glasser and Goldhirsch, Phys. Fluids 13 (2001) 407",
       false,
-      [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
         const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
         const CellCounts cells = read_cells(table);
         return [=](const World&) { return std::make_unique<Grid>(region, cells); };

@@ -1,13 +1,13 @@
 // What a scene can measure of its grains.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "measurements/pair_contact.hpp"
+#include "measurements/request.hpp"
 #include "measurements/table_text.hpp"
 #include "scene/scene.hpp"
 #include "scene/toml_input.hpp"
@@ -50,7 +50,7 @@ struct MeasurementKind {
   bool needs_contacts;  ///< of the steps that it samples, whose joints then tell their forces
   /// Checks the section's parameters against the scene, of which the container, the grains and the time have been read. Throws
   /// InputError.
-  std::function<std::unique_ptr<Measurement>(const World&)> (*read)(const TomlTable& table, const Scene& scene);
+  MeasurementMaker (*read)(const TomlTable& table, const Scene& scene);
   std::vector<std::string> plotted = {};  ///< columns that are worth a plot over time, all of one unit
   std::string plot_label = {};            ///< of the plot's axis
 };

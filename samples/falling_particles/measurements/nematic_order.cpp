@@ -77,7 +77,7 @@ MeasurementKind nematic_order_kind() {
       "others)",
       "de Gennes and Prost, The Physics of Liquid Crystals (1993)",
       false,
-      [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
         const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
         const std::string grain = read_grain(table, "grain", scene);
         const std::size_t axis = find_axis(table, scene, grain, table.choice("axis", {"longest", "shortest"}));

@@ -60,7 +60,7 @@ MeasurementKind part_force_kind() {
           "time, force-bearing contacts, force, torque",
           "sum of the feedback of ODE's contact joints",
           true,
-          [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const std::vector<std::string> chosen = read_surfaces(table, scene);
             Vector3 about = Vector3::Zero();
             if (table.has("about")) {

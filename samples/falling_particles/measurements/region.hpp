@@ -32,8 +32,6 @@ class SamplingRegion {
 
   Bounds bounds(const World& world) const;
 
-  static std::vector<std::string> keys() { return {"lower", "upper"}; }
-
  private:
   std::optional<Bounds> given_;
   bool is_cell_ = false;

@@ -10,6 +10,9 @@ namespace falling_particles {
 class Measurement;
 class World;
 
+/// Makes a measurement for a world that has not started.
+using MeasurementMaker = std::function<std::unique_ptr<Measurement>(const World&)>;
+
 /// A section [[measurement]] of a scene file, checked.
 struct MeasurementRequest {
   std::string name;  ///< of its table, measurements/NAME.csv
@@ -18,7 +21,7 @@ struct MeasurementRequest {
   int first;         ///< in steps; at 0, the start, only kinds that need no contacts have a sample
   int last;
   bool needs_contacts;
-  std::function<std::unique_ptr<Measurement>(const World&)> make;
+  MeasurementMaker make;
 
   bool is_due(int step) const { return step % every == 0 && step >= first && step <= last; }
 };

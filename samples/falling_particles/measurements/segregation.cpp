@@ -78,7 +78,7 @@ MeasurementKind segregation_kind() {
           "mixed, index",
           "Lacey, J. Appl. Chem. 4 (1954) 257; cells are weighted by their grains",
           false,
-          [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const std::vector<std::string> grains = table.choices("grains", names_of_grains(scene));
             if (grains.size() != 2) {
               table.fail("grains", table.full_name("grains") + " has " + std::to_string(grains.size()) + " names; allowed: two");

@@ -113,7 +113,7 @@ MeasurementKind stress_kind() {
       "Love 1927, Weber 1966; share of a force by its way from centre to contact to centre: Weinhart et al., Granular Matter 14 "
       "(2012)",
       true,
-      [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
         const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
         const std::size_t axis = table.has("axis") ? read_axis(table, "axis") : 2;
         const std::int64_t slices = table.has("slices") ? table.integer("slices", 1, kMostSlices) : 1;

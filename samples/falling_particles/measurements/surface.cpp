@@ -165,7 +165,7 @@ MeasurementKind surface_kind() {
           "time, angle (positive where the bed rises along the axis), its standard error, columns of the fit, heights",
           "line of least squares through the middle: Henein et al., Metallurgical Transactions B 14 (1983)",
           false,
-          [](const TomlTable& table, const Scene& scene) -> std::function<std::unique_ptr<Measurement>(const World&)> {
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
             const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
             const Settings settings = read_settings(table);
             return [=](const World&) { return std::make_unique<Surface>(region, settings); };

@@ -8,14 +8,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;       // m and m/s
-constexpr double kLargestTurn = 0.1;    // of a step, revolutions: the velocity of a step is that of the smaller turn
-constexpr double kStepsPerPeriod = 10;  // of a vibration, at least
-
-double read_rpm(const TomlTable& table, const Time& time) {
-  const double most = 60 * kLargestTurn / time.step;
-  return table.number("rpm", Interval::closed(-most, most, "revolutions a minute (a tenth of one in time.step)"));
-}
+constexpr double kLargest = 1000;  // m and m/s
 
 Rotation read_rotation(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys({"kind", "axis", "point", "rpm", "from", "until"});
@@ -27,9 +20,8 @@ Vibration read_vibration(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys({"kind", "direction", "amplitude", "frequency", "phase", "from", "until"});
   Vibration vibration{};
   vibration.amplitude = table.number("amplitude", Interval::positive(kLargest, "m")) * read_direction(table, "direction");
-  vibration.frequency =
-      table.number("frequency", Interval::positive(1 / (kStepsPerPeriod * time.step), "Hz (a period has at least ten time.step)"));
-  if (table.has("phase")) vibration.phase = table.number("phase", Interval::closed(-360, 360, "degrees")) * std::numbers::pi / 180;
+  vibration.frequency = read_frequency(table, time);
+  vibration.phase = read_phase(table);
   return vibration;
 }
 
@@ -77,6 +69,21 @@ Vector3 read_direction(const TomlTable& table, const char* key) {
   const Vector3 v = read_vector(table, key, Interval::closed(-1e6, 1e6, "(a direction, not 0)"));
   if (v.norm() > 1e-6) return v.normalized();
   table.fail(key, table.full_name(key) + " is [0, 0, 0]; allowed: a direction, not 0");
+}
+
+double read_rpm(const TomlTable& table, const Time& time) {
+  const double most = 60 * kLargestTurn / time.step;
+  return table.number("rpm", Interval::closed(-most, most, "revolutions a minute (a tenth of one in time.step)"));
+}
+
+double read_frequency(const TomlTable& table, const Time& time) {
+  constexpr double kStepsPerPeriod = 10;
+  return table.number("frequency",
+                      Interval::positive(1 / (kStepsPerPeriod * time.step), "Hz (a period has at least ten time.step)"));
+}
+
+double read_phase(const TomlTable& table) {
+  return table.has("phase") ? table.number("phase", Interval::closed(-360, 360, "degrees")) * std::numbers::pi / 180 : 0;
 }
 
 std::pair<double, double> read_times(const TomlTable& table) {

@@ -48,10 +48,7 @@ std::vector<std::string> all_keys() {
   return with_common_keys(std::move(keys));
 }
 
-Vector3 read_sizes(const TomlTable& table, const char* key) {
-  const std::vector<double> sizes = table.numbers(key, 3, Interval::positive(kLargest, "m"));
-  return {sizes[0], sizes[1], sizes[2]};
-}
+Vector3 read_sizes(const TomlTable& table, const char* key) { return read_vector(table, key, Interval::positive(kLargest, "m")); }
 
 SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   SmoothShape body{read_sizes(table, "half_axes")};

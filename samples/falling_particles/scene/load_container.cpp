@@ -15,11 +15,6 @@ constexpr double kLargest = 1000;  // m, upper bound of all lengths
 constexpr std::int64_t kMostSegments = 10'000;
 constexpr std::int64_t kMostSamples = 4096;
 
-std::array<double, 2> read_width(const TomlTable& table) {
-  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargest, "m"));
-  return {width[0], width[1]};
-}
-
 Box read_box(const TomlTable& table) {
   table.refuse_unknown_keys({"kind", "width"});
   return {read_width(table)};
@@ -141,6 +136,11 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
 }
 
 }  // namespace
+
+std::array<double, 2> read_width(const TomlTable& table) {
+  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargest, "m"));
+  return {width[0], width[1]};
+}
 
 Container read_container(const TomlTable& root, const Time& time) {
   const TomlTable table = root.table("container");

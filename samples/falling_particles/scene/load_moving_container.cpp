@@ -1,28 +1,20 @@
 #include "load_moving_container.hpp"
 
 #include <numbers>
-#include <string>
-#include <vector>
 
+#include "load_container.hpp"
 #include "parts/load_motion.hpp"
 
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;       // m, upper bound of all lengths
-constexpr double kLargestTurn = 0.1;    // of a step, revolutions
-constexpr double kStepsPerPeriod = 10;  // of a vibration, at least
+constexpr double kLargest = 1000;  // m, upper bound of all lengths
 
 double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargest, "m")); }
 
 /// When a motion starts: 0 if the scene does not say.
 double read_start(const TomlTable& table, const char* key, const Time& time) {
   return table.has(key) ? table.number(key, {0, time.duration, true, false, "s (before time.duration)"}) : 0;
-}
-
-std::array<double, 2> read_width(const TomlTable& table) {
-  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargest, "m"));
-  return {width[0], width[1]};
 }
 
 }  // namespace
@@ -33,8 +25,7 @@ Drum read_drum(const TomlTable& table, const Time& time) {
   drum.diameter = read_length(table, "diameter");
   drum.length = read_length(table, "length");
   drum.segments = static_cast<int>(table.integer("segments", 8, 10'000));
-  const double most = 60 * kLargestTurn / time.step;
-  drum.rpm = table.number("rpm", Interval::closed(-most, most, "revolutions a minute (a tenth of one in time.step)"));
+  drum.rpm = read_rpm(table, time);
   drum.is_smooth = table.has("smooth") && table.boolean("smooth");
   drum.turns_at = read_start(table, "turns_at", time);
   return drum;
@@ -50,9 +41,8 @@ Tray read_tray(const TomlTable& table, const Time& time) {
   const Vector3 direction = read_direction(table, "direction");
   tray.direction = {direction.x(), direction.y(), direction.z()};
   tray.amplitude = read_length(table, "amplitude");
-  tray.frequency =
-      table.number("frequency", Interval::positive(1 / (kStepsPerPeriod * time.step), "Hz (a period has at least ten time.step)"));
-  if (table.has("phase")) tray.phase = table.number("phase", Interval::closed(-360, 360, "degrees")) * std::numbers::pi / 180;
+  tray.frequency = read_frequency(table, time);
+  tray.phase = read_phase(table);
   tray.shakes_at = read_start(table, "shakes_at", time);
   return tray;
 }

@@ -74,7 +74,7 @@ class Recorder {
       : world_(world),
         scene_(scene),
         watches_(watches),
-        contents_(contents_of(world, scene)),
+        contents_(scene.pictures.empty() ? Contents{&scene, {}} : contents_of(world, scene)),
         trajectory_(folder.file(std::string(kTrajectoryFile))),
         energies_(folder.file(std::string(kEnergiesFile))),
         states_(folder.file(std::string(kStateFile))) {
