@@ -6,6 +6,8 @@
 #include "ode/geom/body.hpp"
 #include "ode/geom/user_shape.hpp"
 #include "ode/support/last_error.hpp"
+#include "shapes/validation.hpp"
+#include "supernormal/shapes/capsule.hpp"
 #include "supernormal/supernormal.h"
 
 using namespace supernormal::ode;
@@ -26,6 +28,15 @@ extern "C" dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c,
                                       dReal taper_y) {
   return guarded("snCreateSuperovoid", dGeomID{}, [&] {
     return create_geom(space, std::make_unique<Body>(SuperovoidParameters{{{a, b, c}, delta, epsilon}, taper_x, taper_y}));
+  });
+}
+
+extern "C" dGeomID snCreateCapsule(dSpaceID space, dReal radius, dReal length) {
+  return guarded("snCreateCapsule", dGeomID{}, [&] {
+    // The core takes a radius of 0, the segment; a geom must have an inside.
+    supernormal::require_in("radius", radius, supernormal::kMinLength, supernormal::kMaxLength, "m");
+    supernormal::require_in("length", length, 0, supernormal::kMaxLength, "m");
+    return create_geom(space, std::make_unique<Body>(std::make_shared<supernormal::Capsule>(radius, length / 2)));
   });
 }
 
