@@ -205,7 +205,7 @@ TEST_CASE("files that cannot be read") {
 }
 
 TEST_CASE("the catalogues are valid and name their sources, and the scenes load") {
-  for (const char* catalogue : {"grains", "shapes"}) {
+  for (const char* catalogue : {"grains", "shapes", "compounds"}) {
     const std::vector<Grain> grains = load_catalogue(std::string(SUPERNORMAL_SAMPLES "/data/") + catalogue + ".toml");
     CHECK(grains.size() >= 3);
     for (const Grain& grain : grains) {
@@ -215,6 +215,6 @@ TEST_CASE("the catalogues are valid and name their sources, and the scenes load"
     }
   }
   for (const char* scene : {"mixture", "short", "hopper", "terrain", "heap", "packing_spheres", "packing_ellipsoids", "packing_mm",
-                            "packing_superballs", "tower"})
+                            "packing_superballs", "tower", "sizes", "compounds", "rods"})
     load_scene(std::string(SUPERNORMAL_SAMPLES "/scenes/") + scene + ".toml");
 }

@@ -70,9 +70,11 @@ Vector3 corner_at(std::size_t index) {
 /// Writes the frames in one format and gives the folder to look at.
 class Written {
  public:
-  explicit Written(std::string_view format) : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
+  explicit Written(std::string_view format, const std::vector<double>& scales = {})
+      : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
     const PictureFormat& found = *find_picture_format(format);
-    const std::unique_ptr<Picture> picture = found.make(out_, found, Contents{&scene_, {0, 1, 0, 1, 0}, parts_of_scene(scene_)});
+    const std::unique_ptr<Picture> picture =
+        found.make(out_, found, Contents{&scene_, {0, 1, 0, 1, 0}, parts_of_scene(scene_), scales});
     for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
     picture->finish(kSummary);
     for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
@@ -262,6 +264,52 @@ TEST_CASE("povray: a grain with rounded edges is a mesh, another is exact") {
   CHECK(nearest < 1e-8);
   CHECK(count_of(text, "object { Kind0 matrix") == 3);
   CHECK(count_of(text, "object { Kind1 matrix") == 2);
+}
+
+TEST_CASE("pictures show each body at its own size") {
+  const std::vector<double> scales = {1, 2, 0.5, 1, 1};
+  {
+    const Written written("glb", scales);
+    tinygltf::Model model;
+    tinygltf::TinyGLTF reader;
+    std::string error, warning;
+    REQUIRE(reader.LoadBinaryFromFile(&model, &error, &warning, written.path("scene.glb")));
+    CHECK(model.meshes.size() == 5);  // still one a kind
+    CHECK(model.nodes[0].scale.empty());
+    CHECK(model.nodes[1].scale == std::vector{2.0, 2.0, 2.0});
+    CHECK(model.nodes[2].scale == std::vector{0.5, 0.5, 0.5});
+  }
+  {
+    const Written written("page", scales);
+    const std::string text = written.text("view.html");
+    CHECK(text.find(R"("scales":"AACAPwAAAEAAAAA/AACAPwAAgD8=")") != std::string::npos);  // floats in base 64
+    CHECK(Written("page").text("view.html").find(R"("scales":)") == std::string::npos);
+  }
+  {
+    const Written written("vtk", scales);
+    const std::string grains = written.text("vtk/grains_000000.vtp");
+    const std::vector<double> half_axes = read_array(grains, "half_axes");
+    const std::vector<double> rounding = read_array(grains, "rounding");
+    for (std::size_t k = 0; k < kBodies; ++k) {
+      const Grain& grain = written.scene().grains[k % 2].grain;
+      CHECK(half_axes[3 * k] == scales[k] * grain.half_axes[0]);
+      CHECK(rounding[k] == scales[k] * grain.rounding);
+    }
+    CHECK(grains.find("Name=\"grain\"") == std::string::npos);
+  }
+  {
+    const Written written("povray", scales);
+    const std::string text = written.text("still.pov");
+    std::size_t at = text.find("object { Kind");
+    for (std::size_t k = 0; k < kBodies; ++k, at = text.find("object { Kind", at + 1)) {
+      std::array<double, 9> m{};
+      REQUIRE(std::sscanf(text.c_str() + text.find('<', at), "<%lf, %lf, %lf, %lf, %lf, %lf, %lf, %lf, %lf", &m[0], &m[1], &m[2],
+                          &m[3], &m[4], &m[5], &m[6], &m[7], &m[8]) == 9);
+      for (std::size_t row = 0; row < 9; row += 3) {
+        CHECK(std::hypot(m.at(row), m.at(row + 1), m.at(row + 2)) == doctest::Approx(scales[k]).epsilon(1e-9));
+      }
+    }
+  }
 }
 
 TEST_CASE("a file that cannot be written is named") {

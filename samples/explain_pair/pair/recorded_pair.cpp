@@ -10,11 +10,12 @@
 #include <supernormal/proximity/solve.hpp>
 #include <vector>
 
-#include "output/grain_shape.hpp"
 #include "pair/described_body.hpp"
+#include "scene/grain_shape.hpp"
 #include "scene/input_error.hpp"
 #include "scene/interval.hpp"
 #include "scene/scene.hpp"
+#include "simulation/placement.hpp"
 
 namespace explain_pair {
 namespace {
@@ -93,7 +94,13 @@ class Grains {
   Grains(const Recording& recording)
       : recording_(recording),
         scene_(falling_particles::load_scene(recording.scene_path)),
-        bodies_(nearest_frame(recording.trajectory_path, recording.time).bodies) {}
+        bodies_(nearest_frame(recording.trajectory_path, recording.time).bodies) {
+    if (!scene_.has_sizes()) return;
+    falling_particles::Random random(scene_.seed);  // as the run drew them
+    const auto placements = place(scene_, random);
+    scales_.reserve(placements.size());
+    for (const auto& placement : placements) scales_.push_back(placement.scale);
+  }
 
   const Scene& scene() const { return scene_; }
 
@@ -107,7 +114,10 @@ class Grains {
   PlacedBody body(std::size_t index) const {
     const Grain& grain = kind_of(index);
     std::string text = "body " + std::to_string(index) + ": " + grain.name;
-    return {text, falling_particles::shape_of(grain), bodies_[index].pose};
+    if (!grain.parts.empty()) {
+      throw InputError("--bodies: " + text + " is a compound; allowed: grains of one convex body");
+    }
+    return {text, falling_particles::shape_of(grain.all_parts().front().body, scale_of(index)), bodies_[index].pose};
   }
 
   /// The body with the least gap to that one.
@@ -118,7 +128,7 @@ class Grains {
     for (std::size_t index = 0; index < bodies_.size(); ++index) {
       const double between = (bodies_[index].pose.position - body1.pose.position).norm();
       // Spheres around the two bodies bound their gap from below.
-      if (index == first || between - kind_of(first).bounding_radius() - kind_of(index).bounding_radius() > least) continue;
+      if (index == first || between - radius_of(first) - radius_of(index) > least) continue;
       const PlacedBody body2 = body(index);
       const double gap = supernormal::find_proximity(*body1.shape, body1.pose, *body2.shape, body2.pose).gap;
       if (gap < least) {
@@ -131,6 +141,9 @@ class Grains {
   }
 
  private:
+  double scale_of(std::size_t index) const { return index < scales_.size() ? scales_[index] : 1; }
+  double radius_of(std::size_t index) const { return scale_of(index) * kind_of(index).bounding_radius(); }
+
   const Grain& kind_of(std::size_t index) const {
     const std::string& name = bodies_[index].grain;
     const auto kind = std::ranges::find_if(scene_.grains, [&](const auto& one) { return one.grain.name == name; });
@@ -144,6 +157,7 @@ class Grains {
   const Recording& recording_;
   Scene scene_;
   std::vector<RecordedBody> bodies_;
+  std::vector<double> scales_;  // of the grains' lengths; none where all are 1
 };
 
 }  // namespace

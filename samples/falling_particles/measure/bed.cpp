@@ -22,11 +22,7 @@ class Columns {
  public:
   Columns(const World& world, const Rectangle& plan) : plan_(plan), cells_(kPerAxis * kPerAxis) {
     for (const Body& body : world.bodies()) {
-      Entry entry{&body, {}};
-      dGeomGetAABB(body.geom, entry.aabb.data());
-      for (std::size_t i = index(entry.aabb[0], 0); i <= index(entry.aabb[1], 0); ++i) {
-        for (std::size_t j = index(entry.aabb[2], 1); j <= index(entry.aabb[3], 1); ++j) cells_[i * kPerAxis + j].push_back(entry);
-      }
+      for (const dGeomID geom : body.geoms()) add(Entry{&body, geom, {}});
     }
   }
 
@@ -38,7 +34,7 @@ class Columns {
       const Aabb& a = entry.aabb;
       const bool near = x >= a[0] && x <= a[1] && y >= a[2] && y <= a[3] && z >= a[4] && z <= a[5];
       if (!near) return false;
-      const dReal depth = snGeomPointDepth(entry.body->geom, x, y, z);
+      const dReal depth = snGeomPointDepth(entry.geom, x, y, z);
       if (std::isnan(depth)) throw std::runtime_error(std::string("snGeomPointDepth: ") + snLastError());
       return depth > 0;
     });
@@ -48,9 +44,17 @@ class Columns {
  private:
   struct Entry {
     const Body* body;
+    dGeomID geom;
     Aabb aabb;
   };
   static constexpr std::size_t kPerAxis = 32;
+
+  void add(Entry entry) {
+    dGeomGetAABB(entry.geom, entry.aabb.data());
+    for (std::size_t i = index(entry.aabb[0], 0); i <= index(entry.aabb[1], 0); ++i) {
+      for (std::size_t j = index(entry.aabb[2], 1); j <= index(entry.aabb[3], 1); ++j) cells_[i * kPerAxis + j].push_back(entry);
+    }
+  }
 
   std::size_t index(double x, std::size_t axis) const {
     const double scaled = (x - plan_.corner[axis]) / plan_.width[axis] * static_cast<double>(kPerAxis);

@@ -59,12 +59,16 @@ Line fit(std::span<const double> x, std::span<const double> y) {
 }  // namespace
 
 Heap measure_heap(const World& world, const Point& centre, double radius) {
-  std::vector<Top> grains;
+  std::vector<Top> tops;
+  std::size_t grains = 0;
   for (const Body& body : world.bodies()) {
     const Point p = body.position();
     if (p[2] < centre[2] || std::hypot(p[0] - centre[0], p[1] - centre[1]) > radius) continue;
-    Top& top = grains.emplace_back(Top{body.geom, {}});
-    dGeomGetAABB(body.geom, top.aabb.data());
+    for (const dGeomID geom : body.geoms()) {
+      Top& top = tops.emplace_back(Top{geom, {}});
+      dGeomGetAABB(geom, top.aabb.data());
+    }
+    ++grains;
   }
   const std::unique_ptr<dxGeom, decltype(&dGeomDestroy)> ray(dCreateRay(nullptr, 1), dGeomDestroy);
   double sum = 0;
@@ -80,7 +84,7 @@ Heap measure_heap(const World& world, const Point& centre, double radius) {
         const double around = 2 * std::numbers::pi * (sector + (i + 0.5) / kRaysPerArc) / kSectors;
         const double x = centre[0] + distance * std::cos(around);
         const double y = centre[1] + distance * std::sin(around);
-        mean += (surface_height(grains, ray.get(), x, y, centre[2]) - centre[2]) / kRaysPerArc;
+        mean += (surface_height(tops, ray.get(), x, y, centre[2]) - centre[2]) / kRaysPerArc;
       }
       distances.push_back(distance);
       heights.push_back(mean);
@@ -93,7 +97,7 @@ Heap measure_heap(const World& world, const Point& centre, double radius) {
   }
   const double mean = sum / kSectors;
   const double variance = std::max(0.0, squares / kSectors - mean * mean) / (kSectors - 1);
-  return {mean, std::sqrt(variance), height, grains.size()};
+  return {mean, std::sqrt(variance), height, grains};
 }
 
 }  // namespace falling_particles

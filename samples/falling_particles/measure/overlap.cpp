@@ -19,7 +19,7 @@ void append(void* pairs, dGeomID g1, dGeomID g2) { static_cast<Pairs*>(pairs)->e
 
 double smallest_half_axis(dGeomID geom) {
   const Body* body = body_of(geom);
-  return body == nullptr ? INFINITY : body->grain->smallest_half_axis();
+  return body == nullptr ? INFINITY : body->smallest_half_axis();
 }
 
 std::array<dReal, 4> middle_of(const snProximity& proximity) {

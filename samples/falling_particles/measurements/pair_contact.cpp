@@ -69,7 +69,7 @@ bool is_same_contact(const ContactPoint& a, const ContactPoint& b) {
   if (a.order != b.order) return false;
   if (a.body2 == nullptr) return true;
   constexpr double kShare = 1e-3;  // of the grain's radius; images of another meeting are a cell away
-  const double tolerance = kShare * a.body1->grain->bounding_radius();
+  const double tolerance = kShare * a.body1->bounding_radius();
   return ((a.centre1 - a.centre2) - (b.centre1 - b.centre2)).norm() < tolerance;
 }
 

@@ -14,9 +14,9 @@ namespace falling_particles {
 
 using supernormal::Vector3;
 
-/// The contact of a grain with another one or with a wall: all points in which the two meet, up to kContactsPerPair, are one
-/// contact, and their forces are summed. In a periodic cell the bodies are those of the images that meet; where some points of a
-/// contact are on one side of the cell and some on the other, they are put together at the first.
+/// The contact of a grain with another one or with a wall: all points in which the two meet, up to kContactsPerPair for each
+/// pair of their bodies, are one contact, and their forces are summed. In a periodic cell the bodies are those of the images that
+/// meet; where some points of a contact are on one side of the cell and some on the other, they are put together at the first.
 struct PairContact {
   const Body* body1;  ///< of lower index; never a wall
   const Body* body2;  ///< null for a wall

@@ -111,8 +111,10 @@ class Surface final : public Measurement {
     for (const Body& body : world.bodies()) {
       const Point p = body.position();
       if (p[2] < bounds.lower[2] || p[2] >= bounds.upper[2]) continue;
-      Top& top = tops.emplace_back(Top{body.geom, {}});
-      dGeomGetAABB(body.geom, top.aabb.data());
+      for (const dGeomID geom : body.geoms()) {
+        Top& top = tops.emplace_back(Top{geom, {}});
+        dGeomGetAABB(geom, top.aabb.data());
+      }
     }
     return tops;
   }

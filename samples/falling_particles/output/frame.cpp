@@ -86,7 +86,8 @@ Contents contents_of(const World& world, const Scene& scene) {
     const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == body.grain; };
     const auto kind = std::ranges::find_if(scene.grains, is_kind);
     contents.kind_of_body.push_back(static_cast<std::size_t>(kind - scene.grains.begin()));
-    top = std::max(top, body.position()[2] + body.grain->bounding_radius());
+    top = std::max(top, body.position()[2] + body.bounding_radius());
+    if (scene.has_sizes()) contents.scale_of_body.push_back(body.scale);
   }
   contents.parts = parts_of(scene.container, top);
   for (const Part& part : scene.parts) contents.parts.push_back(picture_of(part, width_of_planes(scene)));

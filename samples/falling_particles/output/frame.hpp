@@ -66,10 +66,12 @@ Extent extent_of(const Frame& frame, double radius);
 /// What a run shows, which does not change from frame to frame. The scene must outlive it.
 struct Contents {
   const Scene* scene;
-  std::vector<std::size_t> kind_of_body;  ///< index into scene->grains
-  std::vector<ContainerPart> parts = {};  ///< of the container, then those of the scene
+  std::vector<std::size_t> kind_of_body;   ///< index into scene->grains
+  std::vector<ContainerPart> parts = {};   ///< of the container, then those of the scene
+  std::vector<double> scale_of_body = {};  ///< of the grain's lengths; none where all are 1
 
   const Grain& grain(std::size_t body) const { return scene->grains[kind_of_body[body]].grain; }
+  double scale(std::size_t body) const { return scale_of_body.empty() ? 1 : scale_of_body[body]; }
 };
 
 /// Of a run that has not started: walls without end are shown up to the highest grain.

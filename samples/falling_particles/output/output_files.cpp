@@ -94,4 +94,14 @@ void PartsFile::write(double time, const PartBodies& parts) {
   file_.write(frame);
 }
 
+void write_grains(const std::filesystem::path& path, const World& world) {
+  std::string text = "body,grain,scale,sieve_size_m,mass_kg\n";
+  std::size_t index = 0;
+  for (const Body& body : world.bodies()) {
+    text += line_of({std::to_string(index++), body.grain->name, shortest(body.scale),
+                     shortest(body.scale * body.grain->sieve_size()), shortest(body.mass.mass)});
+  }
+  write_file(path, text);
+}
+
 }  // namespace falling_particles

@@ -20,8 +20,9 @@ inline constexpr std::string_view kSummaryFile = "summary.toml";
 inline constexpr std::string_view kDischargeFile = "discharge.csv";
 inline constexpr std::string_view kCompressionFile = "compression.csv";
 inline constexpr std::string_view kPartsFile = "parts.csv";
+inline constexpr std::string_view kGrainsFile = "grains.csv";
 inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,    kStateFile, kSummaryFile,
-                                            kDischargeFile,  kCompressionFile, kPartsFile};
+                                            kDischargeFile,  kCompressionFile, kPartsFile, kGrainsFile};
 
 /// trajectory.csv has a line per frame and body. Numbers are the shortest text that reads back exactly. All files are handed over
 /// to the system frame by frame: a run that is killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
@@ -101,5 +102,8 @@ class PartsFile {
  private:
   OutputFile file_;
 };
+
+/// grains.csv, of a scene with sizes, has a line per grain: the factor on the lengths of its kind, its sieve size and its mass.
+void write_grains(const std::filesystem::path& path, const World& world);
 
 }  // namespace falling_particles

@@ -6,7 +6,7 @@
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
 
-#include "output/grain_shape.hpp"
+#include "output/grain_mesh.hpp"
 #include "output/palette.hpp"
 #include "output/write_file.hpp"
 #include "scene/interval.hpp"
@@ -29,12 +29,25 @@ std::string vector(const Numbers& numbers) {
 std::string vector(const Vector3& v) { return vector(std::array{v.x(), v.y(), v.z()}); }
 
 /// POV-Ray's superellipsoid has half-axes 1 and the exponents 2/e of its xy-section and 2/n along z.
-std::string superellipsoid(const Grain& grain) {
+std::string superellipsoid(const GrainBody& grain) {
   return "superellipsoid { " + vector(std::array{2 / grain.delta, 2 / grain.epsilon}) + " scale " + vector(grain.half_axes) + " }";
 }
 
+/// A capsule along z, exact.
+std::string capsule(const GrainBody& body) {
+  const double radius = body.half_axes[0];
+  const std::string top = vector(std::array{0.0, 0.0, body.half_axes[2] - radius});
+  const std::string bottom = vector(std::array{0.0, 0.0, radius - body.half_axes[2]});
+  std::string text = "merge { sphere { " + top + ", " + shortest(radius) + " }";
+  if (body.half_axes[2] > radius) {
+    text +=
+        " sphere { " + bottom + ", " + shortest(radius) + " } cylinder { " + bottom + ", " + top + ", " + shortest(radius) + " }";
+  }
+  return text + " }";
+}
+
 std::string mesh(const Grain& grain) {
-  const supernormal::Tessellation body = supernormal::tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
+  const supernormal::Tessellation body = mesh_of(grain, kChordError);
   const auto list = [](const char* name, const auto& items, const auto& text_of) {
     std::string text = std::string("  ") + name + " { " + std::to_string(items.size());
     for (const auto& item : items) text += ",\n    " + text_of(item);
@@ -44,6 +57,12 @@ std::string mesh(const Grain& grain) {
   const auto of_triangle = [](const std::array<std::uint32_t, 3>& corners) { return vector(corners); };
   return "mesh2 {\n" + list("vertex_vectors", body.points, of_vector) + list("normal_vectors", body.normals, of_vector) +
          list("face_indices", body.triangles, of_triangle) + "}";
+}
+
+std::string shape(const Grain& grain) {
+  if (!grain.parts.empty() || grain.rounding > 0) return mesh(grain);
+  const GrainBody body = grain.all_parts().front().body;
+  return grain.is_capsule ? capsule(body) : superellipsoid(body);
 }
 
 /// A part of the container: what carries grains is solid, and one sees through what surrounds them, of which a still of the last
@@ -112,8 +131,8 @@ void PovrayScene::finish(const std::string& /*summary*/) {
   }
   for (std::size_t kind = 0; kind < contents_.scene->grains.size(); ++kind) {
     const Grain& grain = contents_.scene->grains[kind].grain;
-    text += "\n// " + grain.name + "\n#declare Kind" + std::to_string(kind) + " = object {\n" +
-            (grain.rounding > 0 ? mesh(grain) : superellipsoid(grain)) + "\n  pigment { srgb " + vector(colour_of_kind(kind)) +
+    text += "\n// " + grain.name + "\n#declare Kind" + std::to_string(kind) + " = object {\n" + shape(grain) +
+            "\n  pigment { srgb " + vector(colour_of_kind(kind)) +
             " }\n  finish { ambient 0.1 diffuse 0.8 specular 0.15 roughness 0.03 }\n}\n";
   }
   text += '\n';
@@ -122,7 +141,10 @@ void PovrayScene::finish(const std::string& /*summary*/) {
     const auto& [w, x, y, z] = body.quaternion;
     const supernormal::Matrix3 R = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
     std::vector<double> rows;  // of POV-Ray's matrix: where the axes go, then the origin
-    for (const int axis : {0, 1, 2}) rows.insert(rows.end(), R.col(axis).begin(), R.col(axis).end());
+    for (const int axis : {0, 1, 2}) {
+      const Vector3 column = contents_.scale(k) * R.col(axis);
+      rows.insert(rows.end(), column.begin(), column.end());
+    }
     rows.insert(rows.end(), body.position.begin(), body.position.end());
     text += "object { Kind" + std::to_string(contents_.kind_of_body[k]) + " matrix " + vector(rows) + " }\n";
   }

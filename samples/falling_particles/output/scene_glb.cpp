@@ -10,7 +10,7 @@
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
 
-#include "output/grain_shape.hpp"
+#include "output/grain_mesh.hpp"
 #include "output/palette.hpp"
 #include "output/write_file.hpp"
 
@@ -131,7 +131,7 @@ class Builder {
   }
 
   void add_kind(const Grain& grain, std::size_t kind) {
-    const supernormal::Tessellation body = supernormal::tessellate(*shape_of(grain), kChordError * grain.smallest_half_axis());
+    const supernormal::Tessellation body = mesh_of(grain, kChordError);
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = static_cast<int>(kind);
@@ -212,6 +212,7 @@ class Builder {
       tinygltf::Node node;
       node.name = contents.grain(body).name + " " + std::to_string(body);
       node.mesh = static_cast<int>(contents.kind_of_body[body]);
+      if (const double scale = contents.scale(body); scale != 1) node.scale.assign(3, scale);
       model_.nodes.push_back(std::move(node));
       root.children.push_back(static_cast<int>(body));
     }

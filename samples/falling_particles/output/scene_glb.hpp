@@ -10,9 +10,9 @@
 namespace falling_particles {
 
 /// scene.glb: glTF 2.0, binary. A mesh per kind of grain, through its normals, shared by its bodies; a node per body, in the
-/// scene's order, whose translation and rotation are animated where the body moves; a node per part of the container, which is
-/// scaled where it changes; a root that turns z upwards. Lengths are in m. Written at the end of a run; until then a body and frame
-/// take 28 bytes.
+/// scene's order, scaled to its size, whose translation and rotation are animated where the body moves; a node per part of the
+/// container, which is scaled where it changes; a root that turns z upwards. Lengths are in m. Written at the end of a run; until
+/// then a body and frame take 28 bytes.
 class SceneGlb final : public Picture {
  public:
   SceneGlb(const std::filesystem::path& path, const Contents& contents);

@@ -55,6 +55,26 @@ void add_run(Lines& lines, const Summary& s) {
   lines.add("interrupted", s.interrupted, "stopped by Ctrl-C before the end");
 }
 
+void add_sizes(Lines& lines, const std::vector<DrawnSizes>& all) {
+  if (all.empty()) return;
+  lines.section("sizes");
+  for (const DrawnSizes& sizes : all) {
+    const auto add = [&](const char* key, auto value, const char* comment = "") {
+      lines.add((sizes.grain + '.' + key).c_str(), value, comment);
+    };
+    add("number", static_cast<unsigned long long>(sizes.number));
+    add("mass", sizes.mass, "kg, of all");
+    add("mean", sizes.mean, "m, of the sieve sizes: the middle one of a grain's three widths; by number");
+    add("standard_deviation", sizes.standard_deviation, "m");
+    add("smallest", sizes.smallest, "m");
+    add("largest", sizes.largest, "m");
+    add("median", sizes.median, "m, by number");
+    add("d10", sizes.by_mass[0], "m, below which a tenth of the mass is");
+    add("d50", sizes.by_mass[1], "m, half of the mass");
+    add("d90", sizes.by_mass[2], "m, nine tenths of the mass");
+  }
+}
+
 void add_queries(Lines& lines, const Summary& s) {
   const snStatistics& n = s.statistics;
   const auto steps = static_cast<unsigned long long>(s.steps);
@@ -198,6 +218,7 @@ void add_measurement_costs(Lines& lines, const Summary& s) {
 std::string to_toml(const Summary& summary) {
   Lines lines;
   add_run(lines, summary);
+  add_sizes(lines, summary.sizes);
   add_queries(lines, summary);
   add_end_state(lines, summary);
   if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);

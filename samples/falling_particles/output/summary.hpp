@@ -12,6 +12,7 @@
 #include "measure/energy.hpp"
 #include "measure/heap.hpp"
 #include "measure/overlap.hpp"
+#include "measure/sizes.hpp"
 #include "measurements/measuring.hpp"
 #include "scene/scene.hpp"
 #include "simulation/compression.hpp"
@@ -47,6 +48,7 @@ struct Summary {
   std::vector<supernormal::effects::Cost> effects;
   std::vector<MeasurementCost> measurements = {};
   double seconds_of_contacts = 0;  ///< s, to gather contacts for the measurements
+  std::vector<DrawnSizes> sizes = {};
 };
 
 /// Writes TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.

@@ -9,7 +9,7 @@
 #include <supernormal/shapes/tessellation.hpp>
 
 #include "output/base64.hpp"
-#include "output/grain_shape.hpp"
+#include "output/grain_mesh.hpp"
 #include "output/palette.hpp"
 #include "output/write_file.hpp"
 
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> indices(const std::vector<std::array<Item, N>>& tuple
 json meshes_of(const Grain& grain) {
   json meshes;
   for (const double chord_error : kChordErrors) {
-    const supernormal::Tessellation body = supernormal::tessellate(*shape_of(grain), chord_error * grain.smallest_half_axis());
+    const supernormal::Tessellation body = mesh_of(grain, chord_error);
     meshes.push_back({{"points", packed(coordinates(body.points))},
                       {"normals", packed(coordinates(body.normals))},
                       {"triangles", packed(indices(body.triangles))}});
@@ -64,10 +64,23 @@ json meshes_of(const Grain& grain) {
   return meshes;
 }
 
+const char* shape_name(const Grain& grain) {
+  if (!grain.parts.empty()) return "compound";
+  return grain.is_capsule ? "capsule" : "superellipsoid";
+}
+
 json describe(const Grain& grain, std::size_t index) {
-  return {{"name", grain.name},         {"halfAxes", grain.half_axes},       {"exponents", {grain.delta, grain.epsilon}},
-          {"rounding", grain.rounding}, {"radius", grain.bounding_radius()}, {"density", grain.density},
-          {"source", grain.source},     {"colour", colour_of_kind(index)},   {"meshes", meshes_of(grain)}};
+  return {{"shape", shape_name(grain)},
+          {"parts", grain.all_parts().size()},
+          {"name", grain.name},
+          {"halfAxes", grain.half_axes},
+          {"exponents", {grain.delta, grain.epsilon}},
+          {"rounding", grain.rounding},
+          {"radius", grain.bounding_radius()},
+          {"density", grain.density},
+          {"source", grain.source},
+          {"colour", colour_of_kind(index)},
+          {"meshes", meshes_of(grain)}};
 }
 
 json describe(const ContainerPart& part) {
@@ -126,6 +139,9 @@ void ViewPage::finish(const std::string& summary) {
               {"summary", summary}};
   for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) run["kinds"].push_back(describe(scene.grains[kind].grain, kind));
   run["kindOfBody"] = packed(std::vector<std::uint16_t>(contents_.kind_of_body.begin(), contents_.kind_of_body.end()));
+  if (!contents_.scale_of_body.empty()) {
+    run["scales"] = packed(std::vector<float>(contents_.scale_of_body.begin(), contents_.scale_of_body.end()));
+  }
   for (const ContainerPart& part : contents_.parts) run["parts"].push_back(describe(part));
   std::vector<std::string> contacts;
   for (PackedContacts::Packed& packed : contacts_.texts()) {

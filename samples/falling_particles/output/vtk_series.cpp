@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "output/shown_parts.hpp"
 #include "output/write_file.hpp"
 #include "scene/interval.hpp"
 
@@ -133,21 +134,26 @@ void VtkSeries::list(std::string& entries, double time, const std::string& name)
 }
 
 std::string VtkSeries::grains_of(const Frame& frame) const {
-  const std::size_t count = frame.bodies.size();
-  const auto grain = [&](std::size_t k) -> const Grain& { return contents_.grain(k); };
+  const std::vector<ShownPart> parts = shown_parts(frame, contents_);
+  const std::size_t count = parts.size();
+  const auto body = [&](std::size_t k) -> const GrainBody& { return parts[k].body; };
   const auto numbers = [&](std::string_view name, const auto& of) { return array(name, "Float64", count, of); };
   return cloud(
-      count, numbers("position", [&](std::size_t k) { return frame.bodies[k].position; }),
-      array("kind", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_body[k])}; }) +
-          numbers("quaternion", [&](std::size_t k) { return frame.bodies[k].quaternion; }) +
-          numbers("half_axes", [&](std::size_t k) { return grain(k).half_axes; }) +
+      count, numbers("position", [&](std::size_t k) { return parts[k].position; }),
+      array("kind", "Int32", count,
+            [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_body[parts[k].grain])}; }) +
+          (count == frame.bodies.size()
+               ? ""
+               : array("grain", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(parts[k].grain)}; })) +
+          numbers("quaternion", [&](std::size_t k) { return parts[k].quaternion; }) +
+          numbers("half_axes", [&](std::size_t k) { return body(k).half_axes; }) +
           numbers("exponents",
                   [&](std::size_t k) {
-                    return std::array{grain(k).delta, grain(k).epsilon};
+                    return std::array{body(k).delta, body(k).epsilon};
                   }) +
-          numbers("rounding", [&](std::size_t k) { return std::array{grain(k).rounding}; }) +
-          numbers("velocity", [&](std::size_t k) { return frame.bodies[k].velocity; }) +
-          numbers("angular_velocity", [&](std::size_t k) { return frame.bodies[k].angular_velocity; }));
+          numbers("rounding", [&](std::size_t k) { return std::array{body(k).rounding}; }) +
+          numbers("velocity", [&](std::size_t k) { return parts[k].velocity; }) +
+          numbers("angular_velocity", [&](std::size_t k) { return parts[k].angular_velocity; }));
 }
 
 }  // namespace falling_particles

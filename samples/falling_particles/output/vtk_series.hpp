@@ -16,7 +16,8 @@ namespace falling_particles {
 /// A grain is a point with its kind (from 0 on, in the order of the scene file), quaternion (w, x, y, z), half-axes (m), exponents
 /// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s); a contact one with its normal (unit, towards body
 /// 1), depth (m), the two bodies (-1: a wall) and, where the scene asks for forces, the force on body 1 (N). The container's
-/// triangles look at the grains; it has a new file when a part of it has changed.
+/// triangles look at the grains; it has a new file when a part of it has changed. A compound has a point per part; in scenes with
+/// compounds, grain is the number of the grain that a point belongs to. A capsule is the ellipsoid of its size.
 class VtkSeries final : public Picture {
  public:
   VtkSeries(const OutputFolder& folder, const Contents& contents);

@@ -10,6 +10,7 @@
 #include "load_container.hpp"
 #include "load_effects.hpp"
 #include "load_measurements.hpp"
+#include "load_sizes.hpp"
 #include "memory.hpp"
 #include "nearest_word.hpp"
 #include "output/picture.hpp"
@@ -86,9 +87,10 @@ std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTa
   return counts;
 }
 
-std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop, const std::string& scene_path) {
+std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop, const std::string& scene_path,
+                                    std::uint64_t seed) {
   const std::vector<Grain> catalogue = read_catalogue(root, scene_path);
-  const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction"});
+  const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction", "size"});
   const bool by_fraction = entries.front().has("fraction");
   std::vector<GrainCount> grains;
   std::set<std::string> seen;
@@ -104,9 +106,15 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   }
   const std::vector<int> counts = by_fraction ? read_fractions(entries, drop) : read_counts(entries, drop);
   std::int64_t sum = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i) sum += grains[i].count = counts[i];
+  for (const int count : counts) sum += count;
   if (sum > kMostBodies)
     root.fail("grain", "the scene has " + std::to_string(sum) + " grains; allowed: up to " + std::to_string(kMostBodies));
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    GrainCount& kind = grains[i];
+    kind.count = counts[i];
+    kind.size = load_sizes(entries[i], kind.grain.sieve_size());
+    if (kind.size) kind.scales = draw_sizes(*kind.size, kind.count, seed_of_sizes(seed, i));
+  }
   return grains;
 }
 
@@ -202,7 +210,7 @@ Scene load_scene(const std::string& path) {
   scene.container = read_container(root, scene.time);
   scene.parts = load_parts(root, scene, path);
   const TomlTable drop = read_drop(root, scene);
-  scene.grains = read_grains(root, drop, path);
+  scene.grains = read_grains(root, drop, path, scene.seed);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   add_part_effects(scene.parts, scene.effects);

@@ -22,15 +22,25 @@ int Scene::bodies() const {
   return sum;
 }
 
+bool Scene::has_sizes() const {
+  return std::ranges::any_of(grains, [](const GrainCount& kind) { return kind.size.has_value(); });
+}
+
 double Scene::smallest_half_axis() const {
   double smallest = INFINITY;
-  for (const GrainCount& kind : grains) smallest = std::min(smallest, kind.grain.smallest_half_axis());
+  for (const GrainCount& kind : grains) {
+    const double scale = kind.scales.empty() ? 1 : std::ranges::min(kind.scales);
+    smallest = std::min(smallest, scale * kind.grain.smallest_half_axis());
+  }
   return smallest;
 }
 
 double Scene::largest_bounding_radius() const {
   double largest = 0;
-  for (const GrainCount& kind : grains) largest = std::max(largest, kind.grain.bounding_radius());
+  for (const GrainCount& kind : grains) {
+    const double scale = kind.scales.empty() ? 1 : std::ranges::max(kind.scales);
+    largest = std::max(largest, scale * kind.grain.bounding_radius());
+  }
   return largest;
 }
 

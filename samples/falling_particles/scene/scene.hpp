@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
@@ -11,12 +12,17 @@
 #include "measurements/request.hpp"
 #include "parts/part.hpp"
 #include "simulation/sweep_space.hpp"
+#include "size_distribution.hpp"
 
 namespace falling_particles {
 
 struct GrainCount {
   Grain grain;
   int count;
+  std::optional<SizeDistribution> size = {};  ///< of the factor on the grain's lengths; all are 1 without one
+  std::vector<double> scales = {};            ///< factors drawn, one a grain; none without a distribution
+
+  double scale(std::size_t index) const { return scales.empty() ? 1 : scales[index]; }
 };
 
 /// The start of the grains: on a lattice whose cells hold the largest grain in any attitude.
@@ -66,6 +72,7 @@ struct Scene {
   const supernormal::effects::Gravity* gravity() const;
 
   int bodies() const;
+  bool has_sizes() const;                  ///< whether any kind has a distribution of sizes
   double smallest_half_axis() const;       ///< m, over all grains
   double largest_bounding_radius() const;  ///< m, over all grains
   double smallest_cell() const;            ///< m, width and height of the cell that holds the largest grain

@@ -144,6 +144,15 @@ std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count, 
   return result;
 }
 
+std::size_t TomlTable::array_size(std::string_view key) const {
+  const std::string allowed = "an array";
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const toml::array* array = value->as_array();
+  if (array == nullptr) fail_value(key, allowed);
+  return array->size();
+}
+
 std::int64_t TomlTable::integer(std::string_view key, std::int64_t lowest, std::int64_t highest) const {
   const std::string allowed = "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
   const toml::node* value = node_->table->get(key);

@@ -20,6 +20,8 @@ class TomlTable {
   std::string text(std::string_view key) const;
   double number(std::string_view key, const Interval& allowed) const;
   std::vector<double> numbers(std::string_view key, std::size_t count, const Interval& allowed) const;
+  /// The number of elements of the array under `key`.
+  std::size_t array_size(std::string_view key) const;
   std::string choice(std::string_view key, const std::vector<std::string>& allowed) const;
   /// A list of different words of `allowed`, maybe empty.
   std::vector<std::string> choices(std::string_view key, const std::vector<std::string>& allowed) const;

@@ -15,11 +15,13 @@ MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts) {
   double sum = 0;
   std::size_t count = 0;
   for (const dContactGeom& contact : contacts) {
-    if (!(contact.depth > 0)) continue;  // a corner of a wide contact
-    const dReal* p1 = dGeomGetPosition(contact.g1);
-    const dReal* p2 = dGeomGetPosition(contact.g2);
+    if (!(contact.depth > 0)) continue;                            // a corner of a wide contact
+    const dReal* p1 = dBodyGetPosition(dGeomGetBody(contact.g1));  // of a compound, not of the part
+    const dReal* p2 = dBodyGetPosition(dGeomGetBody(contact.g2));
     double between = 0;  // distance of the centres along the normal, which points into g1
     for (int i = 0; i < 3; ++i) between += (p1[i] - p2[i]) * contact.normal[i];
+    // Where compounds are hooked into one another the normal may point the other way, and shrinking would not part them.
+    if (!(between > 0)) between = dCalcPointsDistance3(p1, p2);
     sum += contact.depth / (between + contact.depth);
     ++count;
   }

@@ -48,6 +48,13 @@ void set_motion(dBodyID to, dBodyID from) {
   dBodySetAngularVel(to, w[0], w[1], w[2]);
 }
 
+void for_each_geom(dBodyID body, void (*visit)(dGeomID)) {
+  for (dGeomID geom = dBodyGetFirstGeom(body), next = nullptr; geom != nullptr; geom = next) {
+    next = dBodyGetNextGeom(geom);
+    visit(geom);
+  }
+}
+
 }  // namespace
 
 PeriodicCell::PeriodicCell(const World& world, double side) : world_(world), side_(side), families_(world.bodies().size()) {}
@@ -58,7 +65,7 @@ PeriodicCell::~PeriodicCell() {
       if (!image) continue;
       dJointDestroy(image->same_velocity);
       dJointDestroy(image->same_spin);
-      dGeomDestroy(image->geom);
+      for_each_geom(image->body, dGeomDestroy);
       dBodyDestroy(image->body);
     }
   }
@@ -70,11 +77,8 @@ bool PeriodicCell::contains(const dVector3 point) const {
 }
 
 PeriodicCell::Image PeriodicCell::make_image(const Body& body) const {
-  Image image{dBodyCreate(world_.id()), create_geom(world_.sweep().id(), *body.grain), nullptr, nullptr};
-  dGeomSetBody(image.geom, image.body);
-  dGeomSetData(image.geom, dGeomGetData(body.geom));
-  dGeomSetCategoryBits(image.geom, dGeomGetCategoryBits(body.geom));
-  dGeomSetCollideBits(image.geom, dGeomGetCollideBits(body.geom));
+  Image image{dBodyCreate(world_.id()), nullptr, nullptr};
+  attach_geoms(world_.sweep().id(), *body.grain, body.scale, image.body, dGeomGetData(body.geom));
   image.same_velocity = tie_velocities(world_.id(), body.body, image.body);
   image.same_spin = tie_spins(world_.id(), body.body, image.body);
   return image;
@@ -85,7 +89,7 @@ void PeriodicCell::show(const Body& body, Family& family, unsigned mask) {
   if (!image) image = make_image(body);
   if (dBodyIsEnabled(image->body) == 0) {
     dBodyEnable(image->body);
-    dGeomEnable(image->geom);
+    for_each_geom(image->body, dGeomEnable);
     dJointEnable(image->same_velocity);
     dJointEnable(image->same_spin);
   }
@@ -98,7 +102,7 @@ void PeriodicCell::show(const Body& body, Family& family, unsigned mask) {
 
 void PeriodicCell::hide(const Image& image) {
   dBodyDisable(image.body);
-  dGeomDisable(image.geom);
+  for_each_geom(image.body, dGeomDisable);
   dJointDisable(image.same_velocity);
   dJointDisable(image.same_spin);
 }
@@ -116,8 +120,7 @@ void PeriodicCell::share_mass(const Body& body, Family& family, unsigned size) {
 void PeriodicCell::place_images() {
   for (std::size_t i = 0; i < families_.size(); ++i) {
     const Body& body = world_.bodies()[i];
-    dReal aabb[6];
-    dGeomGetAABB(body.geom, aabb);
+    const std::array<dReal, 6> aabb = body.aabb();
     const dReal* p = dBodyGetPosition(body.body);
     unsigned sticks_out = 0;
     dReal inside[3];  // position with the lower corner of the bounding box in the cell

@@ -41,7 +41,6 @@ class PeriodicCell {
  private:
   struct Image {
     dBodyID body;
-    dGeomID geom;
     dJointID same_velocity;
     dJointID same_spin;
   };

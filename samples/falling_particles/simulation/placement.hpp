@@ -14,6 +14,7 @@ struct Placement {
   std::size_t kind;                  ///< index into Scene::grains
   Point position;                    ///< m
   std::array<double, 4> quaternion;  ///< w, x, y, z
+  double scale = 1;                  ///< of the grain's lengths
 };
 
 /// Places every grain: kinds are shuffled, layer upon layer on a jittered lattice, with random attitudes. No two touch, nor does

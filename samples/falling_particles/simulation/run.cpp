@@ -80,6 +80,7 @@ class Recorder {
         states_(folder.file(std::string(kStateFile))) {
     if (watches.discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
     if (watches.compressor) compression_file_.emplace(folder.file(std::string(kCompressionFile)));
+    if (scene.has_sizes()) write_grains(folder.file(std::string(kGrainsFile)), world);
     if (std::ranges::any_of(scene.parts, &Part::moves)) parts_file_.emplace(folder.file(std::string(kPartsFile)));
     for (const std::string& name : scene.pictures) {
       const PictureFormat& format = *find_picture_format(name);
@@ -226,7 +227,8 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         find_heap(world, scene.container),
                         world.effects().costs(),
                         measuring.costs(),
-                        measuring.seconds_of_contacts()};
+                        measuring.seconds_of_contacts(),
+                        measure_sizes(world, scene)};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);
   recorder.finish_pictures(text);

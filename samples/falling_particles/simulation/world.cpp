@@ -2,6 +2,8 @@
 
 #include <supernormal/supernormal.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -25,14 +27,73 @@ void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-dGeomID create_geom(dSpaceID space, const Grain& grain) {
-  const auto [a, b, c] = grain.core_half_axes();
-  dGeomID geom = grain.delta == 2 && grain.epsilon == 2 ? snCreateEllipsoid(space, a, b, c)
-                                                        : snCreateSuperellipsoid(space, a, b, c, grain.delta, grain.epsilon);
-  if (geom == nullptr || (grain.rounding > 0 && snGeomSetRounding(geom, grain.rounding) == 0)) {
-    throw std::runtime_error("grain \"" + grain.name + "\" was refused: " + snLastError());
+std::vector<dGeomID> Body::geoms() const {
+  std::vector<dGeomID> all;
+  all.reserve(grain->parts.size() + 1);
+  // ODE keeps the last one first.
+  for (dGeomID each = dBodyGetFirstGeom(body); each != nullptr; each = dBodyGetNextGeom(each)) all.push_back(each);
+  std::ranges::reverse(all);
+  return all;
+}
+
+std::array<dReal, 6> Body::aabb() const {
+  std::array<dReal, 6> box{};
+  dGeomGetAABB(geom, box.data());
+  if (grain->parts.empty()) return box;
+  for (const dGeomID each : geoms()) {
+    std::array<dReal, 6> other{};
+    dGeomGetAABB(each, other.data());
+    for (std::size_t i = 0; i < 6; i += 2) {
+      box[i] = std::min(box[i], other[i]);
+      box[i + 1] = std::max(box[i + 1], other[i + 1]);
+    }
+  }
+  return box;
+}
+
+dGeomID create_geom(dSpaceID space, const GrainBody& body, double scale) {
+  const std::array<double, 3> half_axes = body.core_half_axes();
+  const auto [a, b, c] = std::array{scale * half_axes[0], scale * half_axes[1], scale * half_axes[2]};
+  dGeomID geom = nullptr;
+  switch (body.shape) {
+    case GrainBody::Shape::Superellipsoid:
+      geom = body.delta == 2 && body.epsilon == 2 ? snCreateEllipsoid(space, a, b, c)
+                                                  : snCreateSuperellipsoid(space, a, b, c, body.delta, body.epsilon);
+      break;
+    case GrainBody::Shape::Superovoid:
+      geom = snCreateSuperovoid(space, a, b, c, body.delta, body.epsilon, body.taper[0], body.taper[1]);
+      break;
+    case GrainBody::Shape::Capsule:
+      geom = snCreateCapsule(space, a, 2 * (c - a));
+      break;
+  }
+  if (geom == nullptr || (body.rounding > 0 && snGeomSetRounding(geom, scale * body.rounding) == 0)) {
+    throw std::runtime_error(std::string("a grain was refused: ") + snLastError());
   }
   return geom;
+}
+
+dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID body, void* data) {
+  const auto create = [&](const GrainBody& part) {
+    dGeomID geom = create_geom(space, part, scale);
+    dGeomSetBody(geom, body);
+    dGeomSetData(geom, data);
+    dGeomSetCategoryBits(geom, kGrainBit);
+    dGeomSetCollideBits(geom, kGrainBit | kWallBit);
+    return geom;
+  };
+  dGeomID first = nullptr;
+  for (const GrainPart& part : grain.all_parts()) {
+    dGeomID geom = create(part.body);
+    if (first == nullptr) first = geom;
+    if (grain.parts.empty()) break;  // without an offset, which would cost time in every step
+    const auto [x, y, z] = part.position;
+    const auto [qw, qx, qy, qz] = part.quaternion;
+    const dQuaternion q = {qw, qx, qy, qz};
+    dGeomSetOffsetPosition(geom, scale * x, scale * y, scale * z);
+    dGeomSetOffsetQuaternion(geom, q);
+  }
+  return first;
 }
 
 World::World(const Scene& scene, const std::vector<Placement>& placements) {
@@ -87,16 +148,26 @@ void World::set_parameters(const Scene& scene) {
   effects_->set_up(world_);
 }
 
-void World::add_body(const Grain& grain, const Placement& placement) {
-  Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), create_geom(sweep_->id(), grain), &grain, {}});
-  if (snMassSet(&entry.mass, grain.density, entry.geom) == 0) {
-    throw std::runtime_error("mass of grain \"" + grain.name + "\" was refused: " + snLastError());
+dMass World::mass_of(const Body& body) {
+  dMass mass;
+  if (const auto& compound = body.grain->compound_mass) {
+    const double volume = std::pow(body.scale, 3);
+    const double second_moment = std::pow(body.scale, 5);
+    const auto& I = compound->inertia;
+    dMassSetParameters(&mass, volume * compound->mass, 0, 0, 0, second_moment * I[0][0], second_moment * I[1][1],
+                       second_moment * I[2][2], second_moment * I[0][1], second_moment * I[0][2], second_moment * I[1][2]);
+  } else if (snMassSet(&mass, body.grain->density, body.geom) == 0) {
+    throw std::runtime_error("mass of grain \"" + body.grain->name + "\" was refused: " + snLastError());
   }
+  return mass;
+}
+
+void World::add_body(const Grain& grain, const Placement& placement) {
+  // bodies_ is reserved: entries stay where they are, and geoms point to them.
+  Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), nullptr, &grain, {}, placement.scale});
+  entry.geom = attach_geoms(sweep_->id(), grain, entry.scale, entry.body, &entry);
+  entry.mass = mass_of(entry);
   dBodySetMass(entry.body, &entry.mass);
-  dGeomSetBody(entry.geom, entry.body);
-  dGeomSetData(entry.geom, &entry);  // bodies_ is reserved: entries stay where they are
-  dGeomSetCategoryBits(entry.geom, kGrainBit);
-  dGeomSetCollideBits(entry.geom, kGrainBit | kWallBit);
   const auto [x, y, z] = placement.position;
   dBodySetPosition(entry.body, x, y, z);
   const dQuaternion q = {placement.quaternion[0], placement.quaternion[1], placement.quaternion[2], placement.quaternion[3]};

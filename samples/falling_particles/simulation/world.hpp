@@ -21,12 +21,18 @@ namespace falling_particles {
 
 struct Body {
   dBodyID body;
-  dGeomID geom;
+  dGeomID geom;  ///< of a compound the first one; geoms() gives all
   const Grain* grain;
   dMass mass;
+  double scale = 1;  ///< of the grain's lengths
 
-  double volume() const { return mass.mass / grain->density; }  ///< m^3
-  Point position() const {                                      ///< m, of the centre
+  std::vector<dGeomID> geoms() const;
+  /// m; around all geoms: least and most x, y, z in turn.
+  std::array<dReal, 6> aabb() const;
+  double smallest_half_axis() const { return scale * grain->smallest_half_axis(); }  ///< m
+  double bounding_radius() const { return scale * grain->bounding_radius(); }        ///< m
+  double volume() const { return mass.mass / grain->density; }                       ///< m^3
+  Point position() const {                                                           ///< m, of the centre
     const dReal* p = dBodyGetPosition(body);
     return {p[0], p[1], p[2]};
   }
@@ -43,8 +49,12 @@ inline supernormal::effects::Material material_of(dGeomID geom) {
   return body_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;
 }
 
-/// The grain as a geom of ours. Throws std::runtime_error when the library refuses it.
-dGeomID create_geom(dSpaceID space, const Grain& grain);
+/// A body of a grain as a geom of ours, its lengths times `scale`. Throws std::runtime_error when the library refuses it.
+dGeomID create_geom(dSpaceID space, const GrainBody& body, double scale = 1);
+
+/// Gives `body` the geoms of a grain whose lengths are times `scale`, each in its place, with `data`; returns the first one. Throws
+/// std::runtime_error when the library refuses one.
+dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID body, void* data);
 
 /// The ODE world of a scene, which must outlive it.
 class World {
@@ -76,6 +86,7 @@ class World {
  private:
   void set_parameters(const Scene& scene);
   void add_body(const Grain& grain, const Placement& placement);
+  static dMass mass_of(const Body& body);
 
   dWorldID world_;
   std::unique_ptr<SweepSpace> sweep_;

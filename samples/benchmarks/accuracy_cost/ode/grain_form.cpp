@@ -26,7 +26,7 @@ GeomMaker grain_maker(const Form& form, const Grain& grain) {
   switch (form.kind) {
     case FormKind::Smooth:
       return [grain, tolerance = form.tolerance] {
-        OdeGeom geom(falling_particles::create_geom(nullptr, grain));
+        OdeGeom geom(falling_particles::create_geom(nullptr, grain.all_parts().front().body));
         if (snGeomSetSolver(geom.id(), SN_SOLVER_HYBRID, tolerance, kMostEvaluations) == 0)
           throw std::invalid_argument(snLastError());
         return geom;

@@ -74,7 +74,7 @@ GrainWorld::~GrainWorld() {
 void GrainWorld::add_geoms(const Form& form) {
   std::vector<GeomMaker> makers;
   makers.reserve(scene_.grains.size());
-  for (const auto& [grain, count] : scene_.grains) makers.push_back(grain_maker(form, grain));
+  for (const auto& kind : scene_.grains) makers.push_back(grain_maker(form, kind.grain));
   geoms_.reserve(kinds_.size());
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const falling_particles::Body& body = world_.bodies()[i];

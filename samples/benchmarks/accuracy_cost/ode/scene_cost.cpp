@@ -86,7 +86,7 @@ std::vector<std::string> time_forms(const Scene& scene) {
 
 /// The same grains in a box of half the plan, which is then repeated `columns` x `rows` times.
 Scene half_of(Scene scene) {
-  for (auto& [grain, count] : scene.grains) count = count / 2;
+  for (auto& kind : scene.grains) kind.count /= 2;
   std::get<falling_particles::Box>(scene.container).width[1] /= 2;
   return scene;
 }

@@ -19,8 +19,6 @@ import { geometryOf } from "./geometry";
 import { type Moment, type Run, type Vector } from "./run";
 import { ofFraction } from "./unpack";
 
-const unscaled = new Vector3(1, 1, 1);
-
 export interface Pose {
   position: Vector3;
   rotation: Quaternion;
@@ -77,7 +75,7 @@ export class Bodies {
     const longest = this.longestStep(frame);
     const [turned, end] = [new Quaternion(), new Quaternion()];
     const matrix = new Matrix4();
-    const goal = new Vector3();
+    const [goal, scale] = [new Vector3(), new Vector3()];
     for (let body = 0; body < count; ++body) {
       const { position, rotation } = this.poses[body];
       position.set(now.positions[body], now.positions[count + body], now.positions[2 * count + body]);
@@ -96,7 +94,7 @@ export class Bodies {
       }
       rotation.copy(turned).normalize();
       const kind = run.kindOfBody[body];
-      this.meshes[kind].setMatrixAt(this.slot[body], matrix.compose(position, rotation, unscaled));
+      this.meshes[kind].setMatrixAt(this.slot[body], matrix.compose(position, rotation, scale.setScalar(run.scaleOfBody[body])));
     }
     for (const mesh of this.meshes) {
       mesh.instanceMatrix.needsUpdate = true;
@@ -143,7 +141,7 @@ export class Bodies {
     if (body === null) return;
     const { position, rotation } = this.poses[body];
     this.outline.geometry = this.geometries[this.run.kindOfBody[body]][0];
-    this.outline.matrix.compose(position, rotation, new Vector3(1.08, 1.08, 1.08));
+    this.outline.matrix.compose(position, rotation, new Vector3().setScalar(1.08 * this.run.scaleOfBody[body]));
   }
 
   /** The body that the ray meets first. */

@@ -110,16 +110,26 @@ export class Marks {
   private drawBoxes(picked: number | null): void {
     const ends: Vector3[] = [];
     const bodies = picked === null ? this.bodies.poses.keys() : [picked];
-    for (const body of bodies) addBox(ends, this.bodies.poses[body].position, this.halfExtents(body));
+    for (const body of bodies) addBox(ends, this.middleOf(body), this.halfExtents(body));
     this.addLines(ends, boxColour);
   }
 
   private halfExtents(body: number): Vector3 {
+    return this.reach(body, 1).add(this.reach(body, -1)).multiplyScalar(0.5);
+  }
+
+  /** The middle of the box around a body: of a compound it is not the centre of mass. */
+  private middleOf(body: number): Vector3 {
+    return this.reach(body, 1).sub(this.reach(body, -1)).multiplyScalar(0.5).add(this.bodies.poses[body].position);
+  }
+
+  /** How far a body reaches from its centre along the axes of the world (sign 1) or against them (-1). */
+  private reach(body: number, sign: number): Vector3 {
     const kind = this.run.kindOf(body);
     const back = this.bodies.poses[body].rotation.clone().invert();
     const reach = [0, 1, 2].map((axis) => {
-      const { x, y, z } = new Vector3().setComponent(axis, 1).applyQuaternion(back);
-      return support(kind, x, y, z);
+      const { x, y, z } = new Vector3().setComponent(axis, sign).applyQuaternion(back);
+      return this.run.scaleOfBody[body] * support(kind, x, y, z);
     });
     return new Vector3(...reach);
   }

@@ -21,11 +21,16 @@ export function touches(run: Run, contacts: Contacts): Uint16Array {
 export class Painter {
   colouring: Colouring = "kind";
   private readonly fastest: number; // m/s
-  private readonly sizes: number[]; // m, of the kinds
+  private readonly sizes: number[]; // m, of the bodies
+  private readonly smallest: number;
+  private readonly largest: number;
 
   constructor(private readonly run: Run) {
     this.fastest = fastestOf(run);
-    this.sizes = run.kinds.map(({ halfAxes }) => 2 * Math.cbrt(halfAxes[0] * halfAxes[1] * halfAxes[2]));
+    const ofKind = run.kinds.map(({ halfAxes }) => 2 * Math.cbrt(halfAxes[0] * halfAxes[1] * halfAxes[2]));
+    this.sizes = Array.from(run.kindOfBody, (kind, body) => run.scaleOfBody[body] * ofKind[kind]);
+    this.smallest = this.sizes.reduce((least, size) => Math.min(least, size), Infinity);
+    this.largest = this.sizes.reduce((most, size) => Math.max(most, size), 0);
   }
 
   /** The colours of all bodies. `contacts` are needed when bodies are coloured by contacts. */
@@ -37,10 +42,8 @@ export class Painter {
         return of((body) => run.kindOf(body).colour);
       case "speed":
         return of((body) => rampAt(run.speed(body, frame) / this.fastest));
-      case "size": {
-        const [least, most] = [Math.min(...this.sizes), Math.max(...this.sizes)];
-        return of((body) => rampAt((this.sizes[run.kindOfBody[body]] - least) / (most - least || 1)));
-      }
+      case "size":
+        return of((body) => rampAt((this.sizes[body] - this.smallest) / (this.largest - this.smallest || 1)));
       case "contacts": {
         const counts = contacts ? touches(run, contacts) : new Uint16Array(run.bodies);
         return of((body) => rampAt(counts[body] / mostTouches));
@@ -66,7 +69,7 @@ export class Painter {
       case "speed":
         return ramp("0", `${withUnit(this.fastest, "m/s")} and more`);
       case "size":
-        return ramp(withUnit(Math.min(...this.sizes), "m"), withUnit(Math.max(...this.sizes), "m"));
+        return ramp(withUnit(this.smallest, "m"), withUnit(this.largest, "m"));
       case "contacts":
         return ramp("touches none", `${mostTouches} and more`);
       case "index":

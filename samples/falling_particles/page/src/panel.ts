@@ -56,9 +56,11 @@ export class Panel {
     const close = make("button", { type: "button", "aria-label": "Close" }, "✕");
     close.addEventListener("click", this.onClose);
     const rows = [
-      ["half-axes", kind.halfAxes.map((half) => digits(1000 * half)).join(" × ") + " mm"],
-      ["exponents", `${digits(kind.exponents[0])} in xy, ${digits(kind.exponents[1])} along z`],
-      ...(kind.rounding > 0 ? [["rounding", withUnit(kind.rounding, "m")]] : []),
+      ["half-axes", kind.halfAxes.map((half) => digits(1000 * run.scaleOfBody[body] * half)).join(" × ") + " mm"],
+      kind.shape === "superellipsoid"
+        ? ["exponents", `${digits(kind.exponents[0])} in xy, ${digits(kind.exponents[1])} along z`]
+        : ["shape", kind.shape === "capsule" ? "capsule" : `compound of ${kind.parts}`],
+      ...(kind.rounding > 0 ? [["rounding", withUnit(run.scaleOfBody[body] * kind.rounding, "m")]] : []),
       ["density", `${digits(kind.density)} kg/m³`],
       ["centre", position.map((x) => (1000 * x).toFixed(2)).join(", ") + " mm"],
       ["speed", withUnit(run.speed(body, frame), "m/s")],

@@ -11,9 +11,11 @@ export interface Mesh {
   edges?: Uint32Array;
 }
 
-/** A kind of grain; lengths in m. */
+/** A kind of grain; lengths in m, of a body of scale 1. Only a superellipsoid has exponents that say what it is. */
 export interface Kind {
   name: string;
+  shape: "superellipsoid" | "capsule" | "compound";
+  parts: number;
   halfAxes: Vector;
   exponents: [number, number];
   rounding: number;
@@ -69,6 +71,7 @@ interface Description {
   summary: string;
   kinds: (Omit<Kind, "meshes"> & { meshes: { points: string; normals: string; triangles: string }[] })[];
   kindOfBody: string;
+  scales?: string; // of the bodies' lengths; all are 1 without it
   parts: { name: string; points: string; triangles: string; edges: string; moves: boolean }[];
   contacts: { frame: number; count: number; length: number }[];
 }
@@ -112,6 +115,9 @@ export class Run {
   }));
   private readonly moving = this.parts.flatMap(({ moves }, part) => (moves ? [part] : []));
   readonly kindOfBody = new Uint16Array(bytesOf(this.description.kindOfBody).buffer);
+  readonly scaleOfBody = this.description.scales
+    ? floats(this.description.scales)
+    : new Float32Array(this.kindOfBody.length).fill(1);
   /** Those that have been unpacked. */
   readonly frames: Frame[] = [];
 
@@ -180,7 +186,7 @@ export class Run {
     const { positions } = this.frames[frame];
     for (let body = 0; body < this.bodies; ++body) {
       const centre = new Vector3(...[0, 1, 2].map((i) => positions[i * this.bodies + body]));
-      extent.union(new Box3().setFromCenterAndSize(centre, new Vector3().setScalar(2 * this.kindOf(body).radius)));
+      extent.union(new Box3().setFromCenterAndSize(centre, new Vector3().setScalar(2 * this.scaleOfBody[body] * this.kindOf(body).radius)));
     }
     return extent;
   }

@@ -1,0 +1,177 @@
+#include "compound.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <supernormal/proximity/solve.hpp>
+#include <supernormal/raycast/ray.hpp>
+#include <utility>
+
+#include "grain_shape.hpp"
+
+namespace falling_particles {
+namespace {
+
+using supernormal::Matrix3;
+using supernormal::Pose;
+using supernormal::Vector3;
+
+/// Integrals over a body of any density.
+struct Moments {
+  double volume = 0;                 // m^3
+  double mass = 0;                   // kg
+  Vector3 first = Vector3::Zero();   // kg m
+  Matrix3 second = Matrix3::Zero();  // kg m^2, of x x^T
+};
+
+struct PlacedPart {
+  std::shared_ptr<const supernormal::Shape> shape;
+  Pose pose;
+  double density;
+
+  Moments moments() const {
+    const supernormal::MassProperties own = shape->mass_properties();
+    const Matrix3& R = pose.rotation;
+    const Vector3& p = pose.position;
+    const Vector3 first = own.volume * (R * own.centroid);
+    const Matrix3 second =
+        R * own.second_moment * R.transpose() + first * p.transpose() + p * first.transpose() + own.volume * p * p.transpose();
+    return {own.volume, density * own.volume, density * (first + own.volume * p), density * second};
+  }
+
+  /// m, how far the part reaches along an axis of the grain, on both sides.
+  std::pair<double, double> range(int axis) const {
+    const Vector3 e = pose.rotation.row(axis).transpose();
+    return {pose.position[axis] - shape->support(-e), pose.position[axis] + shape->support(e)};
+  }
+};
+
+/// A stretch of a vertical; empty where its end is not above its start.
+struct Stretch {
+  double start = 0, end = 0;
+  double length() const { return std::max(0.0, end - start); }
+};
+
+/// Where the vertical through x and y is within a part.
+Stretch chord(const PlacedPart& part, double x, double y) {
+  const auto [bottom, top] = part.range(2);
+  const double margin = top - bottom;
+  const Vector3 below(x, y, bottom - margin);
+  const Vector3 above(x, y, top + margin);
+  const supernormal::RayHit up = find_ray_hit(*part.shape, part.pose, below, Vector3::UnitZ(), 3 * margin);
+  if (!up.hit) return {};
+  const supernormal::RayHit down = find_ray_hit(*part.shape, part.pose, above, -Vector3::UnitZ(), 3 * margin);
+  if (!down.hit) return {};
+  return {below.z() + up.distance, above.z() - down.distance};
+}
+
+/// The parts of a stretch that the others cover, together, without an overlap.
+std::vector<Stretch> covered(const Stretch& whole, std::vector<Stretch> others) {
+  std::ranges::sort(others, {}, &Stretch::start);
+  std::vector<Stretch> result;
+  double reached = whole.start;
+  for (const Stretch& other : others) {
+    const Stretch piece{std::max(reached, other.start), std::min(whole.end, other.end)};
+    if (piece.length() == 0) continue;
+    result.push_back(piece);
+    reached = piece.end;
+  }
+  return result;
+}
+
+bool overlaps(const PlacedPart& one, const PlacedPart& other) {
+  constexpr double kTouching = 1e-6;  // of the smaller body: parts that are placed to touch, with six digits
+  const double size = std::min(one.shape->half_extents().minCoeff(), other.shape->half_extents().minCoeff());
+  return find_proximity(*one.shape, one.pose, *other.shape, other.pose).gap < -kTouching * size;
+}
+
+/// Takes away from `sum` what a part shares with earlier ones.
+void subtract_shared(const PlacedPart& part, const std::vector<PlacedPart>& earlier, Moments& sum) {
+  constexpr int kLines = 160;  // along each axis
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<Stretch, 2> box{{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}}};  // that holds all that is shared, from above
+  for (const PlacedPart& other : earlier) {
+    for (const int axis : {0, 1}) {
+      const auto [low1, high1] = part.range(axis);
+      const auto [low2, high2] = other.range(axis);
+      Stretch& side = box[static_cast<std::size_t>(axis)];
+      side = {std::min(side.start, std::max(low1, low2)), std::max(side.end, std::min(high1, high2))};
+    }
+  }
+  const double dx = box[0].length() / kLines;
+  const double dy = box[1].length() / kLines;
+  for (int i = 0; i < kLines; ++i) {
+    for (int j = 0; j < kLines; ++j) {
+      const double x = box[0].start + (i + 0.5) * dx;
+      const double y = box[1].start + (j + 0.5) * dy;
+      const Stretch own = chord(part, x, y);
+      if (own.length() == 0) continue;
+      std::vector<Stretch> others;
+      others.reserve(earlier.size());
+      for (const PlacedPart& other : earlier) others.push_back(chord(other, x, y));
+      for (const Stretch& shared : covered(own, std::move(others))) {
+        const double volume = dx * dy * shared.length();
+        const double mass = part.density * volume;
+        const Vector3 middle(x, y, (shared.start + shared.end) / 2);
+        sum.volume -= volume;
+        sum.mass -= mass;
+        sum.first -= mass * middle;
+        sum.second -= mass * middle * middle.transpose();
+        const Vector3 spread(dx, dy, shared.length());
+        sum.second.diagonal() -= mass / 12 * spread.cwiseAbs2();
+      }
+    }
+  }
+}
+
+Moments moments_of(const std::vector<PlacedPart>& parts) {
+  Moments sum;
+  std::vector<PlacedPart> before;
+  before.reserve(parts.size());
+  for (const PlacedPart& part : parts) {
+    const Moments own = part.moments();
+    sum.volume += own.volume;
+    sum.mass += own.mass;
+    sum.first += own.first;
+    sum.second += own.second;
+    std::vector<PlacedPart> earlier;
+    std::ranges::copy_if(before, std::back_inserter(earlier), [&part](const PlacedPart& other) { return overlaps(other, part); });
+    if (!earlier.empty()) subtract_shared(part, earlier, sum);
+    before.push_back(part);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Grain make_compound(std::string name, std::vector<GrainPart> parts, std::string source) {
+  std::vector<PlacedPart> placed;
+  placed.reserve(parts.size());
+  for (const GrainPart& part : parts) placed.push_back({shape_of(part.body), pose_of(part), part.density});
+  const Moments moments = moments_of(placed);
+  const Vector3 centre = moments.first / moments.mass;
+  const Matrix3 central = moments.second - moments.mass * centre * centre.transpose();
+  const Matrix3 inertia = central.trace() * Matrix3::Identity() - central;
+
+  Grain grain{std::move(name), {}, 2, 2, 0, moments.mass / moments.volume, std::move(source)};
+  CompoundMass& mass = grain.compound_mass.emplace(CompoundMass{moments.mass, {}});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<int>(axis);
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const PlacedPart& part : placed) {
+      const auto [low, high] = part.range(i);
+      least = std::min(least, low);
+      most = std::max(most, high);
+    }
+    grain.half_axes[axis] = (most - least) / 2;
+    for (std::size_t other = 0; other < 3; ++other) mass.inertia[axis][other] = inertia(i, static_cast<int>(other));
+    for (GrainPart& part : parts) part.position[axis] -= centre[i];
+  }
+  grain.parts = std::move(parts);
+  return grain;
+}
+
+}  // namespace falling_particles
