@@ -27,8 +27,10 @@ enum ExitCode { Done = 0, Failed = 1, BadInput = 2, Leaked = 3, Interrupted = 13
 
 constexpr const char* kFooter =
     "Writes OUT/<scene>/trajectory.csv, energies.csv, state.csv, summary.toml, of a hopper discharge.csv, of a packing\n"
-    "compression.csv, of parts that move parts.csv, and the pictures that the scene asks for, view.html, scene.glb and a plot of\n"
-    "each table if it does not say; until the end they are in OUT/<scene>.unfinished-1. If the run is killed the tables stay\n"
+    "compression.csv, of parts that move parts.csv, of feeders and sinks feeders.csv and sinks.csv, and the pictures that the "
+    "scene\n"
+    "asks for, view.html, scene.glb and a plot of each table if it does not say; until the end they are in "
+    "OUT/<scene>.unfinished-1. If the run is killed the tables stay\n"
     "there, up to the last frame, until the next run of the scene.\n"
     "Exit code: 0 done; 1 failed (disk full, say, or stdout closed): results of an earlier run stay unless there are new ones;\n"
     "2 bad input, nothing written;\n"

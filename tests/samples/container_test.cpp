@@ -121,7 +121,7 @@ TEST_CASE("a leak is noticed once, and remembered") {
   scene.grains[0].count = 2;
   scene.grains.resize(1);
   const World world(scene, {{0, {0.02, 0.02, 0.02}, {1, 0, 0, 0}}, {0, {0.04, 0.04, 0.02}, {1, 0, 0, 0}}});
-  LeakWatch watch(world, scene.container);
+  LeakWatch watch(world, scene);
   watch.after_step(0.1);
   CHECK(watch.count() == 0);
   CHECK_FALSE(watch.first());

@@ -26,7 +26,8 @@ Scene scene_of_a_die() {
 
 /// Writes two frames of a die in a format.
 void write_picture(const PictureFormat& format, const Scene& scene, const OutputFolder& folder) {
-  const std::unique_ptr<Picture> picture = format.make(folder, format, Contents{&scene, {0}, {}});
+  const Contents contents{&scene, {0}, {}};
+  const std::unique_ptr<Picture> picture = format.make(folder, format, contents);
   Frame frame;
   frame.bodies = {{{0, 0, 0.1}, {1, 0, 0, 0}, {}, {}}};
   picture->add(frame);

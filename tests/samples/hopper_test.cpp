@@ -235,7 +235,7 @@ TEST_CASE("grains rest on the closed hopper, then run out of it, and none leaks"
   Random random(2);
   World world(scene, place(scene, random));
   Stepper stepper(world, scene);
-  LeakWatch leaks(world, scene.container);
+  LeakWatch leaks(world, scene);
   Discharge discharge(world, kHopper, random);
   constexpr int kSteps = 1600;  // 0.8 s
   for (int step = 1; step <= kSteps; ++step) {

@@ -97,7 +97,7 @@ TEST_CASE("base 64 as in RFC 4648, section 10") {
 
 TEST_CASE("bodies: positions are floats to the last bit, attitudes fractions, motions within 0.4 %") {
   constexpr int kFrames = 6;
-  PackedBodies packed(5);
+  PackedBodies packed;
   for (int index = 0; index < kFrames; ++index) packed.add(frame_at(index));
   REQUIRE(packed.texts().size() == kFrames);
   std::vector<std::vector<std::int64_t>> numbers(13, std::vector<std::int64_t>(5));
@@ -127,8 +127,31 @@ TEST_CASE("bodies: positions are floats to the last bit, attitudes fractions, mo
   }
 }
 
+TEST_CASE("bodies that are gone have no number for x, and those that come start from zeros") {
+  PackedBodies packed;
+  Frame frame;
+  frame.bodies = {body_at(0, 0.5)};
+  packed.add(frame);
+  frame.bodies.push_back(body_at(0, 1));
+  packed.add(frame);
+  frame.bodies[0] = {.is_present = false};
+  packed.add(frame);
+  std::uint32_t gone = 0, come = 0;
+  for (std::size_t index = 0; index < 3; ++index) {
+    const std::size_t count = index == 0 ? 1 : 2;
+    Reader reader(packed.texts()[index], count);
+    const std::vector<std::int64_t> changes = reader.differences(4);
+    gone += static_cast<std::uint32_t>(changes[0]);
+    if (count == 2) come += static_cast<std::uint32_t>(changes[1]);
+    for (std::size_t i = 1; i < 13; ++i) reader.differences(i < 3 ? 4 : 2);
+    CHECK(reader.is_at_end());
+    CHECK(std::isnan(std::bit_cast<float>(gone)) == (index == 2));
+  }
+  CHECK(std::bit_cast<float>(come) == static_cast<float>(body_at(0, 1).position[0]));
+}
+
 TEST_CASE("attitudes go on smoothly, although q and -q are the same") {
-  PackedBodies packed(1);
+  PackedBodies packed;
   Frame frame;
   frame.bodies = {body_at(0, 0)};
   packed.add(frame);
@@ -139,7 +162,7 @@ TEST_CASE("attitudes go on smoothly, although q and -q are the same") {
 }
 
 TEST_CASE("a motion that is no float's is the largest number, not an infinite one") {
-  PackedBodies packed(1);
+  PackedBodies packed;
   Frame frame;
   frame.bodies = {body_at(0, 0)};
   frame.bodies[0].velocity = {std::numeric_limits<float>::max(), -std::numeric_limits<float>::max(), 0};

@@ -73,8 +73,8 @@ class Written {
   explicit Written(std::string_view format, const std::vector<double>& scales = {})
       : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
     const PictureFormat& found = *find_picture_format(format);
-    const std::unique_ptr<Picture> picture =
-        found.make(out_, found, Contents{&scene_, {0, 1, 0, 1, 0}, parts_of_scene(scene_), scales});
+    const Contents contents{&scene_, {0, 1, 0, 1, 0}, parts_of_scene(scene_), scales};
+    const std::unique_ptr<Picture> picture = found.make(out_, found, contents);
     for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
     picture->finish(kSummary);
     for (const std::string_view file : found.files) CHECK(std::filesystem::exists(out_.file(std::string(file))));
@@ -321,7 +321,8 @@ TEST_CASE("a file that cannot be written is named") {
     const std::filesystem::path path = out.file(std::string(format.files.front()));
     std::filesystem::create_directory(path);  // in its place
     const auto write = [&] {
-      const std::unique_ptr<Picture> picture = format.make(out, format, Contents{&scene, {0, 1, 0, 1, 0}});
+      const Contents contents{&scene, {0, 1, 0, 1, 0}};
+      const std::unique_ptr<Picture> picture = format.make(out, format, contents);
       picture->add(frame_at(0));
       picture->finish("");
     };

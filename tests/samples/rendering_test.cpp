@@ -109,7 +109,8 @@ TEST_CASE("formats name all that other programs make for them, and plots have a 
   OutputFolder out(folder.path(), "pictures");
   std::size_t count = 0;
   for (const PictureFormat& format : picture_formats()) {
-    for (const Rendering& rendering : format.make(out, format, Contents{&scene, {}, {}})->renderings()) {
+    const Contents contents{&scene, {}, {}};
+    for (const Rendering& rendering : format.make(out, format, contents)->renderings()) {
       CAPTURE(rendering.file);
       CHECK(holds(format.rendered, rendering.file));
       ++count;

@@ -214,7 +214,9 @@ TEST_CASE("sizes: what was drawn is told by number and by mass") {
   CHECK(sizes.by_mass[1] == relative(7.5e-3).epsilon(1e-12));  // of 6.88 peas 1.55 are smaller, 3.5 with it
   CHECK(sizes.by_mass[2] == relative(9e-3).epsilon(1e-12));
   const TemporaryFolder folder;
-  write_grains(folder.path() / "grains.csv", world);
+  GrainsFile file(folder.path() / "grains.csv");
+  file.write(world);
+  file.close();
   std::ifstream stream(folder.path() / "grains.csv");
   std::string line;
   std::getline(stream, line);

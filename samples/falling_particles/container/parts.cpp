@@ -30,10 +30,11 @@ ContainerPart floor_of(const Rectangle& plan, double z) {
   return part;
 }
 
-ContainerPart walls_around(const Rectangle& plan, double bottom, double top) {
+ContainerPart walls_around(const Rectangle& plan, double bottom, double top, const PeriodicAxes& periodic = {}) {
   ContainerPart part{"walls", Role::Still, {corners_of(plan, bottom, top), {}}, {}};
   for (unsigned int side = 0; side < 4; ++side) {
     const unsigned int next = (side + 1) % 4;
+    if (periodic[(side + 1) % 2]) continue;                     // the first side is across y
     part.mesh.triangles.push_back({side, side + 4, next + 4});  // seen from inside
     part.mesh.triangles.push_back({side, next + 4, next});
     part.edges.push_back({side, side + 4});
@@ -42,8 +43,10 @@ ContainerPart walls_around(const Rectangle& plan, double bottom, double top) {
   return part;
 }
 
-std::vector<ContainerPart> parts_of(const Box& box, double top) {
-  return {floor_of(box.plan(), 0), walls_around(box.plan(), 0, top)};
+std::vector<ContainerPart> parts_of(const Box& box, double top, const PeriodicAxes& periodic = {}) {
+  std::vector<ContainerPart> parts = {floor_of(box.plan(), 0)};
+  if (!periodic[0] || !periodic[1]) parts.push_back(walls_around(box.plan(), 0, top, periodic));
+  return parts;
 }
 
 /// The edges of the rings that make_mesh() stacks, the first `rings` of them.
@@ -119,7 +122,8 @@ std::vector<ContainerPart> parts_of(const MadeOfParts&, double /*top*/) {
 
 }  // namespace
 
-std::vector<ContainerPart> parts_of(const Container& container, double top) {
+std::vector<ContainerPart> parts_of(const Container& container, double top, const PeriodicAxes& periodic) {
+  if (const Box* box = std::get_if<Box>(&container)) return parts_of(*box, top, periodic);
   return std::visit([top](const auto& kind) { return parts_of(kind, top); }, container);
 }
 

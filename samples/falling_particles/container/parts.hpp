@@ -21,7 +21,7 @@ struct ContainerPart {
   std::vector<std::array<unsigned int, 2>> edges;  ///< of vertices of the mesh, where a line makes the part easier to see
 };
 
-/// The parts of a container. Walls without upper end are shown up to z = top (m).
-std::vector<ContainerPart> parts_of(const Container& container, double top);
+/// The parts of a container. Walls without upper end are shown up to z = top (m); a box has none across periodic axes.
+std::vector<ContainerPart> parts_of(const Container& container, double top, const PeriodicAxes& periodic = {});
 
 }  // namespace falling_particles

@@ -25,7 +25,9 @@ std::vector<double> rows_along_z(const Terrain& terrain) {
 
 }  // namespace
 
-Walls::Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits) : space_(space) {
+Walls::Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
+             const PeriodicAxes& periodic)
+    : space_(space), periodic_(periodic) {
   std::visit([this](const auto& kind) { this->add(kind); }, container);
   for (dGeomID geom : geoms_) {
     dGeomSetCategoryBits(geom, category_bits);
@@ -45,12 +47,16 @@ void Walls::open_outlet() {
   lid_ = nullptr;
 }
 
-void Walls::add_sides(const Rectangle& plan) {
+void Walls::add_sides(const Rectangle& plan, const PeriodicAxes& periodic) {
   // A plane's solid side is the one opposite to its normal: a x + b y + c z < d.
-  add_plane(1, 0, 0, plan.corner[0]);
-  add_plane(-1, 0, 0, -(plan.corner[0] + plan.width[0]));
-  add_plane(0, 1, 0, plan.corner[1]);
-  add_plane(0, -1, 0, -(plan.corner[1] + plan.width[1]));
+  if (!periodic[0]) {
+    add_plane(1, 0, 0, plan.corner[0]);
+    add_plane(-1, 0, 0, -(plan.corner[0] + plan.width[0]));
+  }
+  if (!periodic[1]) {
+    add_plane(0, 1, 0, plan.corner[1]);
+    add_plane(0, -1, 0, -(plan.corner[1] + plan.width[1]));
+  }
 }
 
 void Walls::add_mesh(Mesh mesh) {
@@ -63,7 +69,7 @@ void Walls::add_mesh(Mesh mesh) {
 
 void Walls::add(const Box& box) {
   add_plane(0, 0, 1, 0);
-  add_sides(box.plan());
+  add_sides(box.plan(), periodic_);
 }
 
 void Walls::add(const Hopper& hopper) {

@@ -14,8 +14,9 @@ namespace falling_particles {
 class Walls {
  public:
   /// The geoms collide with those that have a bit of `collide_bits`, and have `category_bits`. The space must outlive this
-  /// object.
-  Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits);
+  /// object. A box has no walls across axes that are periodic.
+  Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
+        const PeriodicAxes& periodic = {});
   ~Walls();
   Walls(const Walls&) = delete;
   Walls& operator=(const Walls&) = delete;
@@ -29,7 +30,7 @@ class Walls {
 
  private:
   void add_plane(double a, double b, double c, double d) { geoms_.push_back(dCreatePlane(space_, a, b, c, d)); }
-  void add_sides(const Rectangle& plan);
+  void add_sides(const Rectangle& plan, const PeriodicAxes& periodic = {});
   void add_mesh(Mesh mesh);
   void add(const Box& box);
   void add(const Hopper& hopper);
@@ -39,6 +40,7 @@ class Walls {
   static void add(const MadeOfParts&) {}
 
   dSpaceID space_;
+  PeriodicAxes periodic_;
   std::vector<dGeomID> geoms_;
   dGeomID lid_ = nullptr;                     // one of geoms_
   std::deque<Mesh> meshes_;                   // ODE refers to them

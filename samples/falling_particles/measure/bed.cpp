@@ -21,9 +21,7 @@ using Aabb = std::array<dReal, 6>;  // x, x, y, y, z, z
 class Columns {
  public:
   Columns(const World& world, const Rectangle& plan) : plan_(plan), cells_(kPerAxis * kPerAxis) {
-    for (const Body& body : world.bodies()) {
-      for (const dGeomID geom : body.geoms()) add(Entry{&body, geom, {}});
-    }
+    world.for_each_grain_geom([this](dGeomID geom) { add(Entry{geom, {}}); });
   }
 
   /// The grain that holds the point, or null.
@@ -38,12 +36,11 @@ class Columns {
       if (std::isnan(depth)) throw std::runtime_error(std::string("snGeomPointDepth: ") + snLastError());
       return depth > 0;
     });
-    return found == column.end() ? nullptr : found->body;
+    return found == column.end() ? nullptr : body_of(found->geom);
   }
 
  private:
   struct Entry {
-    const Body* body;
     dGeomID geom;
     Aabb aabb;
   };
@@ -69,11 +66,11 @@ class Columns {
 double mean_z(const World& world) {
   double volume = 0;
   double moment = 0;
-  for (const Body& body : world.bodies()) {
+  for (const Body& body : world.present()) {
     volume += body.volume();
     moment += body.volume() * dBodyGetPosition(body.body)[2];
   }
-  return moment / volume;
+  return volume > 0 ? moment / volume : 0;  // without grains there is no bed
 }
 
 double bed_height(const World& world, const Box&) { return 2 * mean_z(world); }

@@ -16,8 +16,10 @@ void Discharge::after_step(double time) {
     if (time >= hopper_.opens_at) open(time);
     return;
   }
+  has_passed_.resize(world_.bodies().size(), false);
   for (std::size_t i = 0; i < has_passed_.size(); ++i) {
     const Body& body = world_.bodies()[i];
+    if (!body.is_present()) continue;
     const Point p = body.position();
     // A grain that comes down beside the outlet has not come through it: that is a leak (leaks.hpp).
     if (has_passed_[i] || !(p[2] < hopper_.clearance) || !hopper_.is_within(p[0], p[1], hopper_.outlet / 2)) continue;
@@ -29,11 +31,13 @@ void Discharge::after_step(double time) {
 void Discharge::open(double time) {
   double mass = 0;
   double volume = 0;
-  for (const Body& body : world_.bodies()) {
+  std::size_t grains = 0;
+  for (const Body& body : world_.present()) {
+    ++grains;
     mass += body.mass.mass;
     volume += body.volume();
   }
-  const double mean_volume = volume / static_cast<double>(world_.bodies().size());
+  const double mean_volume = volume / static_cast<double>(std::max<std::size_t>(grains, 1));
   charge_ = Charge{time, mass, std::cbrt(6 / std::numbers::pi * mean_volume), measure_bed(world_, hopper_, random_)};
   world_.open_outlet();
 }

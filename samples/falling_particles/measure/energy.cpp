@@ -19,10 +19,21 @@ double kinetic_energy(const Body& body) {
 
 }  // namespace
 
+double energy_of(const Body& body, const Scene& scene) {
+  double energy = kinetic_energy(body);
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr) return energy;
+  const Point position = body.position();
+  for (std::size_t i = 0; i < 3; ++i) {
+    energy -= body.mass.mass * gravity->acceleration[static_cast<Eigen::Index>(i)] * position[i];
+  }
+  return energy;
+}
+
 Energy measure_energy(const World& world, const Scene& scene) {
   Energy energy{0, 0};
   const auto* const gravity = scene.gravity();
-  for (const Body& body : world.bodies()) {
+  for (const Body& body : world.present()) {
     energy.kinetic += kinetic_energy(body);
     if (gravity == nullptr) continue;
     const dReal* position = dBodyGetPosition(body.body);
@@ -35,19 +46,24 @@ double kinetic_height(const World& world, const Scene& scene) {
   const auto* const gravity = scene.gravity();
   if (gravity == nullptr) return 0;
   double mass = 0;
-  for (const Body& body : world.bodies()) mass += body.mass.mass;
+  for (const Body& body : world.present()) mass += body.mass.mass;
   const double weight = mass * gravity->acceleration.norm();
   return weight > 0 ? measure_energy(world, scene).kinetic / weight : 0;
 }
 
 double largest_kinetic_energy(const World& world) {
   double largest = 0;
-  for (const Body& body : world.bodies()) largest = std::max(largest, kinetic_energy(body));
+  for (const Body& body : world.present()) largest = std::max(largest, kinetic_energy(body));
   return largest;
 }
 
 EnergyWatch::EnergyWatch(const World& world, const Scene& scene)
     : world_(world), scene_(scene), start_(measure_energy(world, scene).total()), least_(start_) {}
+
+void EnergyWatch::exchange(double energy) {
+  start_ += energy;
+  least_ += energy;
+}
 
 void EnergyWatch::after_step() {
   const double now = measure_energy(world_, scene_).total();

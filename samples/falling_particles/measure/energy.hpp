@@ -14,6 +14,9 @@ struct Energy {
 
 Energy measure_energy(const World& world, const Scene& scene);
 
+/// J, kinetic and potential.
+double energy_of(const Body& body, const Scene& scene);
+
 /// The height, m, to which the kinetic energy would lift all grains together; 0 without gravity.
 double kinetic_height(const World& world, const Scene& scene);
 
@@ -26,6 +29,8 @@ class EnergyWatch {
   EnergyWatch(const World& world, const Scene& scene);
 
   void after_step();
+  /// Grains have come with that energy (J), or gone with it (below 0): that is neither gain nor loss.
+  void exchange(double energy);
 
   double gained() const { return gained_; }        ///< J, the largest rise over any step before
   double lost() const { return start_ - least_; }  ///< J, from the start to the least

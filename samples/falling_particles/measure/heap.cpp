@@ -61,7 +61,7 @@ Line fit(std::span<const double> x, std::span<const double> y) {
 Heap measure_heap(const World& world, const Point& centre, double radius) {
   std::vector<Top> tops;
   std::size_t grains = 0;
-  for (const Body& body : world.bodies()) {
+  for (const Body& body : world.present()) {
     const Point p = body.position();
     if (p[2] < centre[2] || std::hypot(p[0] - centre[0], p[1] - centre[1]) > radius) continue;
     for (const dGeomID geom : body.geoms()) {

@@ -27,13 +27,14 @@ std::string describe(const Leak& leak) {
          in_brackets(leak.velocity) + " m/s";
 }
 
-LeakWatch::LeakWatch(const World& world, const Container& container)
-    : world_(world), container_(container), has_leaked_(world.bodies().size(), false) {}
+LeakWatch::LeakWatch(const World& world, const Scene& scene)
+    : world_(world), scene_(scene), has_leaked_(world.bodies().size(), false) {}
 
 void LeakWatch::after_step(double time) {
+  has_leaked_.resize(world_.bodies().size(), false);
   for (std::size_t i = 0; i < has_leaked_.size(); ++i) {
     const Body& body = world_.bodies()[i];
-    if (has_leaked_[i] || contains(container_, body.position())) continue;
+    if (has_leaked_[i] || !body.is_present() || is_inside(scene_, body.position())) continue;
     has_leaked_[i] = true;
     ++count_;
     if (!first_) first_ = leak_of(body, i, time);

@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "container/container.hpp"
+#include "scene/scene.hpp"
 #include "simulation/world.hpp"
 
 namespace falling_particles {
 
-/// A grain whose centre has left the container: through a wall, the floor or the ground, or over a hopper's rim.
+/// A grain whose centre has left the container: through a wall, the floor or the ground, or over a hopper's rim. In a sink it has
+/// not.
 struct Leak {
   double time;                       ///< s, of the first step after which it is outside
   std::size_t body;                  ///< index in World::bodies()
@@ -27,7 +28,7 @@ std::string describe(const Leak& leak);
 /// Watches all grains of a world in all steps.
 class LeakWatch {
  public:
-  LeakWatch(const World& world, const Container& container);
+  LeakWatch(const World& world, const Scene& scene);
 
   void after_step(double time);
 
@@ -36,7 +37,7 @@ class LeakWatch {
 
  private:
   const World& world_;
-  const Container& container_;
+  const Scene& scene_;
   std::vector<bool> has_leaked_;
   std::size_t count_ = 0;
   std::optional<Leak> first_;

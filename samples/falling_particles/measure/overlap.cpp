@@ -48,9 +48,12 @@ Overlap measure_overlap(const World& world) {
   return overlap;
 }
 
-std::size_t count_outside(const World& world, const Container& container) {
-  const auto inside = [&container](const Body& body) { return contains(container, body.position()); };
-  return world.bodies().size() - static_cast<std::size_t>(std::ranges::count_if(world.bodies(), inside));
+std::size_t count_outside(const World& world, const Scene& scene) {
+  std::size_t count = 0;
+  for (const Body& body : world.present()) {
+    if (!is_inside(scene, body.position())) ++count;
+  }
+  return count;
 }
 
 }  // namespace falling_particles

@@ -17,7 +17,7 @@ struct Overlap {
 /// Measures every pair whose bounding boxes meet (others cannot overlap), by snGeomProximity.
 Overlap measure_overlap(const World& world);
 
-/// The number of grains whose centre is beyond a wall or the floor, or not a number.
-std::size_t count_outside(const World& world, const Container& container);
+/// The number of grains whose centre is beyond a wall or the floor, or not a number, and in no sink.
+std::size_t count_outside(const World& world, const Scene& scene);
 
 }  // namespace falling_particles

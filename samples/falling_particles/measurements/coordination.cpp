@@ -76,7 +76,8 @@ class Coordination final : public Measurement {
     std::array<std::size_t, kMostCounted + 1> histogram{};
     std::size_t grains = 0, contacts = 0, rattlers = 0, lasting = 0;
     for (std::size_t grain = 0; grain < neighbours.size(); ++grain) {
-      if (!bounds.contains(place_of(sample.world.bodies()[grain], sample.world))) continue;
+      const Body& body = sample.world.bodies()[grain];
+      if (!body.is_present() || !bounds.contains(place_of(body, sample.world))) continue;
       ++grains;
       contacts += neighbours[grain].size();
       ++histogram[std::min(neighbours[grain].size(), kMostCounted)];

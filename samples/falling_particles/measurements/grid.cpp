@@ -51,10 +51,9 @@ class Grid final : public Measurement {
   void measure(const Sample& sample, TableText& table) const override {
     const Bounds bounds = region_.bounds(sample.world);
     std::vector<CellSums> all(number_of(cells_));
-    const std::vector<Body>& bodies = sample.world.bodies();
     // Moments are taken about the means of the cells, so that nothing cancels: two passes.
     for_each(
-        bodies, bounds, sample.world,
+        bounds, sample.world,
         [&](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
           sums.mass += body.mass.mass;
           sums.volume += body.volume();
@@ -64,7 +63,7 @@ class Grid final : public Measurement {
         },
         all);
     for_each(
-        bodies, bounds, sample.world,
+        bounds, sample.world,
         [](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
           const Vector3 x = place - sums.place / sums.mass;
           const Vector3 v = velocity - sums.velocity / sums.mass;
@@ -90,9 +89,8 @@ class Grid final : public Measurement {
 
  private:
   template <typename Visit>
-  void for_each(const std::vector<Body>& bodies, const Bounds& bounds, const World& world, Visit visit,
-                std::vector<CellSums>& all) const {
-    for (const Body& body : bodies) {
+  void for_each(const Bounds& bounds, const World& world, Visit visit, std::vector<CellSums>& all) const {
+    for (const Body& body : world.present()) {
       const Vector3 place = place_of(body, world);
       const dReal* v = dBodyGetLinearVel(body.body);
       if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], body, place, Vector3(v[0], v[1], v[2]));

@@ -27,7 +27,7 @@ class NematicOrder final : public Measurement {
     const Bounds bounds = region_.bounds(sample.world);
     Matrix3d sum = Matrix3d::Zero();
     std::size_t grains = 0;
-    for (const Body& body : sample.world.bodies()) {
+    for (const Body& body : sample.world.present()) {
       if (body.grain->name != grain_ || !bounds.contains(place_of(body, sample.world))) continue;
       const Vector3 axis = axis_in_world(body, axis_);
       sum += axis * axis.transpose();

@@ -46,26 +46,45 @@ SamplingRegion::SamplingRegion(const TomlTable& table, const Scene& scene, Witho
                             "; allowed: a number above " + table.full_name("lower") + "[" + std::to_string(axis) + "], " +
                             shortest(given_->lower[axis]) + " m");
   }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const std::optional<Period>& period = scene.periodic[axis];
+    if (!period || (given_->lower[i] >= period->lower && given_->upper[i] <= period->upper())) continue;
+    const bool is_below = given_->lower[i] < period->lower;
+    const char* const key = is_below ? "lower" : "upper";
+    table.fail(key, table.full_name(key) + "[" + std::to_string(axis) + "] is " +
+                        shortest(is_below ? given_->lower[i] : given_->upper[i]) + "; allowed: from " + shortest(period->lower) +
+                        " to " + shortest(period->upper()) + " m, within the periodic cell");
+  }
 }
 
 Bounds SamplingRegion::bounds(const World& world) const {
   if (given_) return *given_;
   if (is_cell_) return {Vector3::Zero(), periods_of(world)};
-  return {Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)};
+  Bounds everywhere{Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)};
+  if (world.cell() == nullptr) return everywhere;
+  for (int axis = 0; axis < 3; ++axis) {  // everything is once in a cell
+    const std::optional<Period>& period = world.cell()->axes()[static_cast<std::size_t>(axis)];
+    if (!period) continue;
+    everywhere.lower[axis] = period->lower;
+    everywhere.upper[axis] = period->upper();
+  }
+  return everywhere;
 }
 
 Vector3 periods_of(const World& world) {
-  return world.cell() != nullptr ? Vector3::Constant(world.cell()->side()) : Vector3::Zero();
+  Vector3 periods = Vector3::Zero();
+  if (world.cell() == nullptr) return periods;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::optional<Period>& period = world.cell()->axes()[static_cast<std::size_t>(axis)];
+    if (period) periods[axis] = period->length;
+  }
+  return periods;
 }
 
 Vector3 place_of(const Body& body, const World& world) {
-  const Point p = body.position();
-  Vector3 place(p[0], p[1], p[2]);
-  const Vector3 periods = periods_of(world);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (periods[axis] > 0) place[axis] -= periods[axis] * std::floor(place[axis] / periods[axis]);
-  }
-  return place;
+  const Point place = world.place_of(body);
+  return {place[0], place[1], place[2]};
 }
 
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods) {

@@ -72,7 +72,7 @@ class Stress final : public Measurement {
       const Bounds slice = slice_of(all, axis_, index, slices_);
       SliceSums sums;
       for (const PairContact& contact : sample.contacts) add_contact(sums, slice, contact, periods);
-      for (const Body& body : sample.world.bodies()) {
+      for (const Body& body : sample.world.present()) {
         if (slice.contains(place_of(body, sample.world))) add_grain(sums, body);
       }
       table.add(sample.time).add(index).add(slice.lower[axis]).add(slice.upper[axis]).add(sums.grains);

@@ -108,14 +108,12 @@ class Surface final : public Measurement {
  private:
   static std::vector<Top> tops_of(const World& world, const Bounds& bounds) {
     std::vector<Top> tops;
-    for (const Body& body : world.bodies()) {
-      const Point p = body.position();
-      if (p[2] < bounds.lower[2] || p[2] >= bounds.upper[2]) continue;
-      for (const dGeomID geom : body.geoms()) {
-        Top& top = tops.emplace_back(Top{geom, {}});
-        dGeomGetAABB(geom, top.aabb.data());
-      }
-    }
+    world.for_each_grain_geom([&](dGeomID geom) {
+      const dReal* p = dGeomGetPosition(geom);
+      if (p[2] < bounds.lower[2] || p[2] >= bounds.upper[2]) return;
+      Top& top = tops.emplace_back(Top{geom, {}});
+      dGeomGetAABB(geom, top.aabb.data());
+    });
     return tops;
   }
 

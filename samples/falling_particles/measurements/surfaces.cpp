@@ -26,6 +26,10 @@ struct Names {
 
 std::vector<std::string> surface_names(const Scene& scene) {
   std::vector<std::string> names = std::visit(Names{}, scene.container);
+  for (std::size_t axis : {0U, 1U}) {  // across which a box has no walls
+    if (!scene.periodic[axis]) continue;
+    std::erase_if(names, [axis](const std::string& name) { return name.starts_with(axis == 0 ? "x_" : "y_"); });
+  }
   for (const Part& part : scene.parts) names.push_back(part.name);
   return names;
 }

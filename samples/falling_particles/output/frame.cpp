@@ -67,9 +67,11 @@ Point PartPlace::operator()(const std::array<float, 3>& vertex) const {
 }
 
 Extent extent_of(const Frame& frame, double radius) {
+  if (std::ranges::none_of(frame.bodies, &BodyState::is_present)) return {{-radius, -radius, -radius}, {radius, radius, radius}};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Extent extent{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
   for (const BodyState& body : frame.bodies) {
+    if (!body.is_present) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       extent.least[axis] = std::min(extent.least[axis], body.position[axis] - radius);
       extent.most[axis] = std::max(extent.most[axis], body.position[axis] + radius);
@@ -80,18 +82,23 @@ Extent extent_of(const Frame& frame, double radius) {
 
 Contents contents_of(const World& world, const Scene& scene) {
   Contents contents{&scene, {}, {}};
-  contents.kind_of_body.reserve(world.bodies().size());
+  add_new_bodies(contents, world);
   double top = 0;
-  for (const Body& body : world.bodies()) {
-    const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == body.grain; };
-    const auto kind = std::ranges::find_if(scene.grains, is_kind);
-    contents.kind_of_body.push_back(static_cast<std::size_t>(kind - scene.grains.begin()));
-    top = std::max(top, body.position()[2] + body.bounding_radius());
-    if (scene.has_sizes()) contents.scale_of_body.push_back(body.scale);
-  }
-  contents.parts = parts_of(scene.container, top);
+  for (const Body& body : world.present()) top = std::max(top, body.position()[2] + body.bounding_radius());
+  for (const Feeder& feeder : scene.feeders) top = std::max(top, feeder.region.corner[2] + feeder.region.size[2]);
+  contents.parts = parts_of(scene.container, top, scene.periodic);
   for (const Part& part : scene.parts) contents.parts.push_back(picture_of(part, width_of_planes(scene)));
   return contents;
+}
+
+void add_new_bodies(Contents& contents, const World& world) {
+  const std::vector<GrainCount>& grains = contents.scene->grains;
+  contents.kind_of_body.reserve(world.bodies().capacity());
+  for (std::size_t i = contents.kind_of_body.size(); i < world.bodies().size(); ++i) {
+    const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == world.bodies()[i].grain; };
+    contents.kind_of_body.push_back(static_cast<std::size_t>(std::ranges::find_if(grains, is_kind) - grains.begin()));
+    if (contents.scene->has_sizes()) contents.scale_of_body.push_back(world.bodies()[i].scale);
+  }
 }
 
 Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper) {
@@ -106,6 +113,10 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
   }
   frame.bodies.reserve(world.bodies().size());
   for (const Body& body : world.bodies()) {
+    if (!body.is_present()) {
+      frame.bodies.push_back({{}, {1, 0, 0, 0}, {}, {}, false});
+      continue;
+    }
     frame.bodies.push_back(
         {body.position(), body.quaternion(), to_point(dBodyGetLinearVel(body.body)), to_point(dBodyGetAngularVel(body.body))});
   }

@@ -22,6 +22,7 @@ struct BodyState {
   std::array<double, 4> quaternion;  ///< w, x, y, z; unit: from the body's frame to the world's
   Point velocity;                    ///< m/s
   Point angular_velocity;            ///< rad/s
+  bool is_present = true;            ///< false for a grain that is gone, whose other numbers are 0
 };
 
 /// A contact of the last step, in the world's frame.
@@ -46,7 +47,7 @@ struct PartPlace {
   bool operator==(const PartPlace&) const = default;
 };
 
-/// One moment of a run. The bodies are those of the scene, always in the same order.
+/// One moment of a run. The bodies are all that there have been so far, by their indices, those that are gone included.
 struct Frame {
   double time = 0;  ///< s
   Energy energy{};
@@ -60,13 +61,13 @@ struct Extent {
   Point least, most;  ///< m
 };
 
-/// The least box around spheres of that radius (m) about the bodies.
+/// The least box around spheres of that radius (m) about the bodies that are there; about the origin when none is.
 Extent extent_of(const Frame& frame, double radius);
 
-/// What a run shows, which does not change from frame to frame. The scene must outlive it.
+/// What a run shows, which does not change from frame to frame but for the grains that come. The scene must outlive it.
 struct Contents {
   const Scene* scene;
-  std::vector<std::size_t> kind_of_body;   ///< index into scene->grains
+  std::vector<std::size_t> kind_of_body;   ///< index into scene->grains, of all that there have been so far
   std::vector<ContainerPart> parts = {};   ///< of the container, then those of the scene
   std::vector<double> scale_of_body = {};  ///< of the grain's lengths; none where all are 1
 
@@ -76,6 +77,9 @@ struct Contents {
 
 /// Of a run that has not started: walls without end are shown up to the highest grain.
 Contents contents_of(const World& world, const Scene& scene);
+
+/// Appends the grains that have come since.
+void add_new_bodies(Contents& contents, const World& world);
 
 /// `stepper`: null at the start, before the first step.
 Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper);

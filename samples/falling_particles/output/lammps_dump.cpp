@@ -27,19 +27,17 @@ LammpsDump::LammpsDump(const std::filesystem::path& path, const Contents& conten
 
 void LammpsDump::add(const Frame& frame) {
   const std::vector<ShownPart> parts = shown_parts(frame, contents_);
-  const bool has_compounds =
-      std::ranges::any_of(contents_.scene->grains, [](const GrainCount& kind) { return !kind.grain.parts.empty(); });
+  const bool has_compounds = contents_.scene->has_compounds();
   std::string text = "ITEM: TIMESTEP\n" + std::to_string(frames_++) + "\nITEM: TIME\n" + shortest(frame.time) +
                      "\nITEM: NUMBER OF ATOMS\n" + std::to_string(parts.size()) + "\nITEM: BOX BOUNDS ff ff ff\n" +
                      bounds_of(extent_of(frame, contents_.scene->largest_bounding_radius())) +
                      "ITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz quati quatj quatk quatw shapex shapey shapez "
                      "roundness_phi roundness_theta" +
                      (has_compounds ? " mol\n" : "\n");
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const ShownPart& part = parts[k];
+  for (const ShownPart& part : parts) {
     const auto& [a, b, c] = part.body.half_axes;
     const auto& [w, x, y, z] = part.quaternion;
-    text += std::to_string(k + 1) + ' ' + std::to_string(contents_.kind_of_body[part.grain] + 1);
+    text += std::to_string(part.index + 1) + ' ' + std::to_string(contents_.kind_of_body[part.grain] + 1);
     for (const Point* vector : {&part.position, &part.velocity, &part.angular_velocity})
       append(text, {(*vector)[0], (*vector)[1], (*vector)[2]});
     append(text, {x, y, z, w, 2 * a, 2 * b, 2 * c, 2 / part.body.delta, 2 / part.body.epsilon});

@@ -20,7 +20,7 @@ class LammpsDump final : public Picture {
   void finish(const std::string& summary) override;
 
  private:
-  Contents contents_;
+  const Contents& contents_;
   OutputFile file_;
   int frames_ = 0;
 };

@@ -22,12 +22,11 @@ Trajectory::Trajectory(const std::filesystem::path& path) : file_(path) {
 
 void Trajectory::write(double time, const World& world) {
   const std::string start = shortest(time) + ',';
-  std::size_t index = 0;
   std::string frame;
-  for (const Body& body : world.bodies()) {
+  for (const Body& body : world.present()) {
     const dReal* position = dBodyGetPosition(body.body);
     const dReal* quaternion = dBodyGetQuaternion(body.body);
-    frame += start + std::to_string(index++) + ',' + body.grain->name;
+    frame += start + std::to_string(world.index_of(body)) + ',' + body.grain->name;
     for (int i = 0; i < 3; ++i) frame += ',' + shortest(position[i]);
     for (int i = 0; i < 4; ++i) frame += ',' + shortest(quaternion[i]);
     frame += '\n';
@@ -74,6 +73,34 @@ void CompressionFile::write(double time, const Packing& packing) {
                shortest(packing.overlap.relative), shortest(packing.target_overlap), shortest(packing.contacts_per_grain)}));
 }
 
+FeedersFile::FeedersFile(const std::filesystem::path& path) : file_(path) { file_.write("time_s,feeder,grain,grains,kg\n"); }
+
+void FeedersFile::write(double time, const Population& population) {
+  std::string frame;
+  for (const Feeding& feeding : population.feeders()) {
+    const Feeder& feeder = feeding.feeder();
+    for (std::size_t i = 0; i < feeder.mixture.size(); ++i) {
+      const Amount& fed = feeding.state().fed[i];
+      frame += line_of({shortest(time), feeder.name, feeding.grain(i).name, std::to_string(fed.grains), shortest(fed.mass)});
+    }
+  }
+  file_.write(frame);
+}
+
+SinksFile::SinksFile(const std::filesystem::path& path) : file_(path) { file_.write("time_s,sink,grain,grains,kg\n"); }
+
+void SinksFile::write(double time, const Population& population, const Scene& scene) {
+  std::string frame;
+  for (std::size_t sink = 0; sink < scene.sinks.size(); ++sink) {
+    for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) {
+      const Amount& taken = population.taken(sink)[kind];
+      frame += line_of({shortest(time), scene.sinks[sink].name, scene.grains[kind].grain.name, std::to_string(taken.grains),
+                        shortest(taken.mass)});
+    }
+  }
+  file_.write(frame);
+}
+
 PartsFile::PartsFile(const std::filesystem::path& path) : file_(path) {
   file_.write("time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n");
 }
@@ -94,14 +121,16 @@ void PartsFile::write(double time, const PartBodies& parts) {
   file_.write(frame);
 }
 
-void write_grains(const std::filesystem::path& path, const World& world) {
-  std::string text = "body,grain,scale,sieve_size_m,mass_kg\n";
-  std::size_t index = 0;
-  for (const Body& body : world.bodies()) {
-    text += line_of({std::to_string(index++), body.grain->name, shortest(body.scale),
-                     shortest(body.scale * body.grain->sieve_size()), shortest(body.mass.mass)});
+GrainsFile::GrainsFile(const std::filesystem::path& path) : file_(path) { file_.write("body,grain,scale,sieve_size_m,mass_kg\n"); }
+
+void GrainsFile::write(const World& world) {
+  std::string lines;
+  for (; written_ < world.bodies().size(); ++written_) {
+    const Body& body = world.bodies()[written_];
+    lines += line_of({std::to_string(written_), body.grain->name, shortest(body.scale),
+                      shortest(body.scale * body.grain->sieve_size()), shortest(body.mass.mass)});
   }
-  write_file(path, text);
+  file_.write(lines);
 }
 
 }  // namespace falling_particles

@@ -8,6 +8,7 @@
 
 #include "measure/energy.hpp"
 #include "output/write_file.hpp"
+#include "population/population.hpp"
 #include "simulation/compression.hpp"
 #include "simulation/world.hpp"
 
@@ -21,11 +22,14 @@ inline constexpr std::string_view kDischargeFile = "discharge.csv";
 inline constexpr std::string_view kCompressionFile = "compression.csv";
 inline constexpr std::string_view kPartsFile = "parts.csv";
 inline constexpr std::string_view kGrainsFile = "grains.csv";
-inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,    kStateFile, kSummaryFile,
-                                            kDischargeFile,  kCompressionFile, kPartsFile, kGrainsFile};
+inline constexpr std::string_view kFeedersFile = "feeders.csv";
+inline constexpr std::string_view kSinksFile = "sinks.csv";
+inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,  kStateFile,       kSummaryFile, kFeedersFile,
+                                            kSinksFile,      kDischargeFile, kCompressionFile, kPartsFile,   kGrainsFile};
 
-/// trajectory.csv has a line per frame and body. Numbers are the shortest text that reads back exactly. All files are handed over
-/// to the system frame by frame: a run that is killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
+/// trajectory.csv has a line per frame and body that is there; a body keeps its index for the whole run, and no other gets it.
+/// Numbers are the shortest text that reads back exactly. All files are handed over to the system frame by frame: a run that is
+/// killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
 class Trajectory {
  public:
   explicit Trajectory(const std::filesystem::path& path);
@@ -91,6 +95,28 @@ class CompressionFile {
   OutputFile file_;
 };
 
+/// feeders.csv has a line per frame, feeder and kind that it feeds: what it has fed so far.
+class FeedersFile {
+ public:
+  explicit FeedersFile(const std::filesystem::path& path);
+  void write(double time, const Population& population);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+};
+
+/// sinks.csv has a line per frame, sink and kind of the scene: what it has taken so far.
+class SinksFile {
+ public:
+  explicit SinksFile(const std::filesystem::path& path);
+  void write(double time, const Population& population, const Scene& scene);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+};
+
 /// parts.csv, of a scene with parts that move, has a line per frame and such part: where it is, and its mean velocity in the step
 /// before, without that of a conveyor's surface.
 class PartsFile {
@@ -104,6 +130,16 @@ class PartsFile {
 };
 
 /// grains.csv, of a scene with sizes, has a line per grain: the factor on the lengths of its kind, its sieve size and its mass.
-void write_grains(const std::filesystem::path& path, const World& world);
+class GrainsFile {
+ public:
+  explicit GrainsFile(const std::filesystem::path& path);
+  /// Writes the grains that have come since the last call.
+  void write(const World& world);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+  std::size_t written_ = 0;
+};
 
 }  // namespace falling_particles

@@ -95,10 +95,9 @@ void Packer::append(const std::vector<std::uint32_t>& differences, unsigned widt
 
 std::string Packer::text() const { return to_base64(deflated(bytes_)); }
 
-PackedBodies::PackedBodies(std::size_t bodies)
-    : before_(kFloats + kHalves, std::vector<std::uint32_t>(bodies)), attitudes_(4 * bodies) {}
-
 void PackedBodies::add(const Frame& frame) {
+  for (std::vector<std::uint32_t>& numbers : before_) numbers.resize(frame.bodies.size());
+  attitudes_.resize(4 * frame.bodies.size());
   // Of the two quaternions of an attitude, the one on the side of the last: players interpolate between them.
   for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
     const auto& [w, x, y, z] = frame.bodies[k].quaternion;
@@ -112,7 +111,9 @@ void PackedBodies::add(const Frame& frame) {
   const auto add = [&](unsigned width, const auto& of_body) {
     packer.add(list_of(frame.bodies, of_body), before_[number++], width);
   };
-  for (std::size_t i = 0; i < 3; ++i) add(4, [i](const BodyState& body) { return bits_of(body.position[i]); });
+  for (std::size_t i = 0; i < 3; ++i) {
+    add(4, [i](const BodyState& body) { return bits_of(body.is_present ? body.position[i] : NAN); });
+  }
   for (std::size_t i = 0; i < 4; ++i) {
     add(2,
         [&](const BodyState& body) { return fraction(attitudes_[4 * static_cast<std::size_t>(&body - frame.bodies.data()) + i]); });

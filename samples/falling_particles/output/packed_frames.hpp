@@ -1,6 +1,7 @@
 // Frames as short text, for pages.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -28,20 +29,20 @@ class Packer {
   std::string bytes_;
 };
 
-/// The states of all bodies, frame by frame. One text a frame, of the differences to the frame before (to zeros at first), each of
-/// all bodies: x, y, z of the centre (m, bits of a float, 4 bytes); x, y, z, w of the quaternion, times 32767 (2 bytes); velocity
-/// (m/s) and angular velocity (rad/s), the upper halves of a float's bits (2 bytes: 0.4 %).
+/// The states of all bodies that there have been so far, frame by frame, with no number for x of those that are gone. One text a
+/// frame, of the differences to the frame before (to zeros at first), each of all bodies: x, y, z of the centre (m, bits of a
+/// float, 4 bytes); x, y, z, w of the quaternion, times 32767 (2 bytes); velocity (m/s) and angular velocity (rad/s), the upper
+/// halves of a float's bits (2 bytes: 0.4 %).
 class PackedBodies {
  public:
-  explicit PackedBodies(std::size_t bodies);
   void add(const Frame& frame);
   const std::vector<std::string>& texts() const { return texts_; }
 
  private:
   static constexpr std::size_t kFloats = 3, kHalves = 10;
 
-  std::vector<std::vector<std::uint32_t>> before_;  // of each number of a body
-  std::vector<float> attitudes_;                    // of the frame before: x, y, z, w of each body
+  std::array<std::vector<std::uint32_t>, kFloats + kHalves> before_;  // of each number of a body
+  std::vector<float> attitudes_;                                      // of the frame before: x, y, z, w of each body
   std::vector<std::string> texts_;
 };
 

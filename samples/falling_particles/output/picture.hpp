@@ -12,7 +12,8 @@
 
 namespace falling_particles {
 
-/// Writes a run in one format. A picture is told every frame as the run goes, and then that it has ended.
+/// Writes a run in one format. A picture is told every frame as the run goes, and then that it has ended. The contents must outlive
+/// it; before a frame they have the grains that have come.
 class Picture {
  public:
   Picture() = default;

@@ -15,7 +15,7 @@ class Plots final : public Picture {
   std::vector<Rendering> renderings() const override;
 
  private:
-  Contents contents_;
+  const Contents& contents_;
 };
 
 }  // namespace falling_particles

@@ -104,7 +104,9 @@ std::string camera_on(const Frame& frame, double radius, const std::vector<Conta
     width = std::max(width, (std::abs(from_eye.dot(right)) + around) / distance);
     height = std::max(height, (std::abs(from_eye.dot(up)) + around) / distance);
   };
-  for (const BodyState& body : frame.bodies) hold(to_vector(body.position), radius);
+  for (const BodyState& body : frame.bodies) {
+    if (body.is_present) hold(to_vector(body.position), radius);
+  }
   for (std::size_t part = 0; part < parts.size(); ++part) {
     if (parts[part].role != ContainerPart::Role::Cell) continue;
     for (const auto& vertex : parts[part].mesh.vertices) hold(to_vector(frame.part_places[part](vertex)), 0);
@@ -138,6 +140,7 @@ void PovrayScene::finish(const std::string& /*summary*/) {
   text += '\n';
   for (std::size_t k = 0; k < last_.bodies.size(); ++k) {
     const BodyState& body = last_.bodies[k];
+    if (!body.is_present) continue;
     const auto& [w, x, y, z] = body.quaternion;
     const supernormal::Matrix3 R = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
     std::vector<double> rows;  // of POV-Ray's matrix: where the axes go, then the origin

@@ -19,7 +19,7 @@ class PovrayScene final : public Picture {
 
  private:
   std::filesystem::path path_;
-  Contents contents_;
+  const Contents& contents_;
   Frame last_;
 };
 

@@ -20,8 +20,6 @@ namespace {
 // Of the smallest half-axis of a grain: a few hundred triangles for most, and no corners to be seen.
 constexpr double kChordError = 0.02;
 
-using Channel = std::vector<std::vector<float>>;
-
 /// The buffer of a file and what is in it.
 class Builder {
  public:
@@ -34,25 +32,28 @@ class Builder {
     add_nodes(contents);
   }
 
-  /// A track a node, those of the bodies before those of the parts, which have scales too; what does not move has none.
-  void animate(const std::vector<float>& times, const Channel& translations, const Channel& rotations, const Channel& scales) {
-    tinygltf::Animation animation;
-    animation.name = "run";
-    const std::size_t view = add_view(0);
-    const int input = add_accessor(view, times, TINYGLTF_TYPE_SCALAR);
-    model_.accessors[static_cast<std::size_t>(input)].minValues = {times.front()};
-    model_.accessors[static_cast<std::size_t>(input)].maxValues = {times.back()};
-    for (std::size_t node = 0; node < translations.size(); ++node) {
-      animate(animation, node, "translation", input, add_moving(view, translations[node], 3), "LINEAR");
-      animate(animation, node, "rotation", input, add_moving(view, rotations[node], 4), "LINEAR");
-    }
-    const std::size_t bodies = translations.size() - scales.size();
-    for (std::size_t part = 0; part < scales.size(); ++part) {
-      // A lid is there or not, a cell shrinks from frame to frame.
-      const bool vanishes = std::ranges::find(scales[part], 0) != scales[part].end();
-      animate(animation, bodies + part, "scale", input, add_moving(view, scales[part], 3), vanishes ? "STEP" : "LINEAR");
-    }
-    if (!animation.channels.empty()) model_.animations.push_back(std::move(animation));
+  void start_animation(const std::vector<float>& times) {
+    animation_.name = "run";
+    view_ = add_view(0);
+    input_ = add_accessor(view_, times, TINYGLTF_TYPE_SCALAR);
+    model_.accessors[static_cast<std::size_t>(input_)].minValues = {times.front()};
+    model_.accessors[static_cast<std::size_t>(input_)].maxValues = {times.back()};
+  }
+
+  /// The tracks of a node, whose numbers are those of all times; what does not move has none.
+  void move(std::size_t node, const std::vector<float>& translations, const std::vector<float>& rotations) {
+    animate(node, "translation", add_moving(translations, 3), "LINEAR");
+    animate(node, "rotation", add_moving(rotations, 4), "LINEAR");
+  }
+
+  /// A body or a lid is there or not, a cell shrinks from frame to frame.
+  void resize(std::size_t node, const std::vector<float>& scales) {
+    const bool vanishes = std::ranges::find(scales, 0) != scales.end();
+    animate(node, "scale", add_moving(scales, 3), vanishes ? "STEP" : "LINEAR");
+  }
+
+  void end_animation() {
+    if (!animation_.channels.empty()) model_.animations.push_back(std::move(animation_));
   }
 
   void place(std::size_t node, std::span<const float> translation, std::span<const float> rotation) {
@@ -97,27 +98,26 @@ class Builder {
   }
 
   /// -1 where the numbers of the first frame hold for all.
-  int add_moving(std::size_t view, const std::vector<float>& numbers, std::size_t components) {
+  int add_moving(const std::vector<float>& numbers, std::size_t components) {
     const auto repeats = [&](std::size_t k) { return numbers[k] == numbers[k % components]; };
     bool is_still = true;
     for (std::size_t k = 0; k < numbers.size() && is_still; ++k) is_still = repeats(k);
     if (is_still) return -1;
-    return add_accessor(view, numbers, components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4);
+    return add_accessor(view_, numbers, components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4);
   }
 
-  static void animate(tinygltf::Animation& animation, std::size_t node, const char* path, int input, int output,
-                      const char* interpolation) {
+  void animate(std::size_t node, const char* path, int output, const char* interpolation) {
     if (output < 0) return;
     tinygltf::AnimationSampler sampler;
-    sampler.input = input;
+    sampler.input = input_;
     sampler.output = output;
     sampler.interpolation = interpolation;
     tinygltf::AnimationChannel channel;
-    channel.sampler = static_cast<int>(animation.samplers.size());
+    channel.sampler = static_cast<int>(animation_.samplers.size());
     channel.target_node = static_cast<int>(node);
     channel.target_path = path;
-    animation.samplers.push_back(std::move(sampler));
-    animation.channels.push_back(std::move(channel));
+    animation_.samplers.push_back(std::move(sampler));
+    animation_.channels.push_back(std::move(channel));
   }
 
   int add_vectors(const std::vector<supernormal::Vector3>& vectors) {
@@ -232,49 +232,90 @@ class Builder {
   }
 
   tinygltf::Model model_;
+  tinygltf::Animation animation_;
+  std::size_t view_ = 0;  // of the animation
+  int input_ = 0;         // its times
 };
 
 }  // namespace
 
+void SceneGlb::Track::add(const Point& position, const std::array<double, 4>& quaternion, double scale) {
+  for (const double x : position) translations.push_back(static_cast<float>(x));
+  // w, x, y, z there; and of the two quaternions of an attitude the one on the side of the last, between which players interpolate.
+  const auto& [w, x, y, z] = quaternion;
+  const std::array<double, 4> now = {x, y, z, w};
+  double along = 0;
+  for (std::size_t i = 0; i < 4 && rotations.size() >= 4; ++i) along += now[i] * rotations[rotations.size() - 4 + i];
+  for (const double component : now) rotations.push_back(static_cast<float>(along < 0 ? -component : component));
+  scales.insert(scales.end(), 3, static_cast<float>(scale));
+}
+
+void SceneGlb::Track::repeat_last(double scale) {
+  const auto repeat = [](std::vector<float>& numbers, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back(numbers[numbers.size() - count]);
+  };
+  repeat(translations, 3);
+  repeat(rotations, 4);
+  scales.insert(scales.end(), 3, static_cast<float>(scale));
+}
+
+void SceneGlb::Track::precede(std::size_t frames) {
+  const std::vector<float> first_translation(translations.begin(), translations.begin() + 3);
+  const std::vector<float> first_rotation(rotations.begin(), rotations.begin() + 4);
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    translations.insert(translations.begin(), first_translation.begin(), first_translation.end());
+    rotations.insert(rotations.begin(), first_rotation.begin(), first_rotation.end());
+  }
+  scales.insert(scales.begin(), 3 * frames, 0);
+}
+
 SceneGlb::SceneGlb(const std::filesystem::path& path, const Contents& contents)
-    : path_(path),
-      contents_(contents),
-      translations_(contents.kind_of_body.size() + contents.parts.size()),
-      rotations_(translations_.size()),
-      scales_(contents.parts.size()) {}
+    : path_(path), contents_(contents), parts_(contents.parts.size()) {}
 
 void SceneGlb::add(const Frame& frame) {
   times_.push_back(static_cast<float>(frame.time));
-  for (std::size_t body = 0; body < frame.bodies.size(); ++body) {
-    add_pose(body, frame.bodies[body].position, frame.bodies[body].quaternion);
-  }
-  for (std::size_t part = 0; part < scales_.size(); ++part) {
+  for (std::size_t body = 0; body < frame.bodies.size(); ++body) add_body(body, frame.bodies[body]);
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
     const PartPlace& place = frame.part_places[part];
-    add_pose(frame.bodies.size() + part, place.position, place.quaternion);
-    scales_[part].insert(scales_[part].end(), 3, static_cast<float>(place.scale));
+    parts_[part].add(place.position, place.quaternion, place.scale);
   }
 }
 
-void SceneGlb::add_pose(std::size_t node, const Point& position, const std::array<double, 4>& quaternion) {
-  for (const double x : position) translations_[node].push_back(static_cast<float>(x));
-  // w, x, y, z there; and of the two quaternions of an attitude the one on the side of the last, between which players interpolate.
-  const auto& [w, x, y, z] = quaternion;
-  std::vector<float>& rotation = rotations_[node];
-  const std::array<double, 4> now = {x, y, z, w};
-  double along = 0;
-  for (std::size_t i = 0; i < 4 && rotation.size() >= 4; ++i) along += now[i] * rotation[rotation.size() - 4 + i];
-  for (const double component : now) rotation.push_back(static_cast<float>(along < 0 ? -component : component));
+void SceneGlb::add_body(std::size_t body, const BodyState& state) {
+  const double scale = contents_.scale(body);
+  if (body < bodies_.size()) {
+    if (state.is_present) return bodies_[body].add(state.position, state.quaternion, scale);
+    return bodies_[body].repeat_last(0);
+  }
+  Track& track = bodies_.emplace_back();
+  track.add(state.position, state.quaternion, state.is_present ? scale : 0);
+  track.precede(times_.size() - 1);
 }
 
 void SceneGlb::finish(const std::string& /*summary*/) {
   Builder builder(contents_);
-  for (std::size_t node = 0; node < translations_.size(); ++node) {
-    builder.place(node, std::span(translations_[node]).first(3), std::span(rotations_[node]).first(4));
+  std::size_t node = 0;
+  for (const std::vector<Track>* tracks : {&bodies_, &parts_}) {
+    for (const Track& track : *tracks) {
+      builder.place(node++, std::span(track.translations).first(3), std::span(track.rotations).first(4));
+    }
   }
-  for (std::size_t part = 0; part < scales_.size(); ++part) {
-    builder.scale(contents_.kind_of_body.size() + part, std::span(scales_[part]).first(3));
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    builder.scale(bodies_.size() + part, std::span(parts_[part].scales).first(3));
   }
-  if (times_.size() > 1) builder.animate(times_, translations_, rotations_, scales_);
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    if (bodies_[body].scales.front() == 0) builder.scale(body, std::span(bodies_[body].scales).first(3));
+  }
+  if (times_.size() > 1) {
+    builder.start_animation(times_);
+    node = 0;
+    for (const std::vector<Track>* tracks : {&bodies_, &parts_}) {
+      for (const Track& track : *tracks) builder.move(node++, track.translations, track.rotations);
+    }
+    for (std::size_t part = 0; part < parts_.size(); ++part) builder.resize(bodies_.size() + part, parts_[part].scales);
+    for (std::size_t body = 0; body < bodies_.size(); ++body) builder.resize(body, bodies_[body].scales);
+    builder.end_animation();
+  }
   builder.write(path_);
 }
 

@@ -9,10 +9,10 @@
 
 namespace falling_particles {
 
-/// scene.glb: glTF 2.0, binary. A mesh per kind of grain, through its normals, shared by its bodies; a node per body, in the
-/// scene's order, scaled to its size, whose translation and rotation are animated where the body moves; a node per part of the
-/// container, which is scaled where it changes; a root that turns z upwards. Lengths are in m. Written at the end of a run; until
-/// then a body and frame take 28 bytes.
+/// scene.glb: glTF 2.0, binary. A mesh per kind of grain, through its normals, shared by its bodies; a node per body, by its index,
+/// scaled to its size, whose translation and rotation are animated where the body moves, and which is scaled to nothing while it is
+/// not there; a node per part of the container, which is scaled where it changes; a root that turns z upwards. Lengths are in m.
+/// Written at the end of a run; until then a body and frame take 28 bytes.
 class SceneGlb final : public Picture {
  public:
   SceneGlb(const std::filesystem::path& path, const Contents& contents);
@@ -20,14 +20,24 @@ class SceneGlb final : public Picture {
   void finish(const std::string& summary) override;
 
  private:
-  void add_pose(std::size_t node, const Point& position, const std::array<double, 4>& quaternion);
+  /// The poses of a node, frame by frame.
+  struct Track {
+    std::vector<float> translations;  // x, y, z
+    std::vector<float> rotations;     // x, y, z, w
+    std::vector<float> scales;        // along x, y, z
+
+    void add(const Point& position, const std::array<double, 4>& quaternion, double scale);
+    void repeat_last(double scale);
+    /// Puts `frames` before the first one, in which the node is not there.
+    void precede(std::size_t frames);
+  };
+  void add_body(std::size_t body, const BodyState& state);
 
   std::filesystem::path path_;
-  Contents contents_;
+  const Contents& contents_;
   std::vector<float> times_;
-  std::vector<std::vector<float>> translations_;  // of each body: x, y, z of every frame
-  std::vector<std::vector<float>> rotations_;     // x, y, z, w
-  std::vector<std::vector<float>> scales_;        // of each part of the container, along x, y, z
+  std::vector<Track> bodies_;
+  std::vector<Track> parts_;  // of the container
 };
 
 }  // namespace falling_particles

@@ -26,12 +26,18 @@ std::vector<ShownPart> shown_parts(const Frame& frame, const Contents& contents)
   for (const GrainCount& kind : contents.scene->grains) parts_of_kind.push_back(kind.grain.all_parts());
   std::vector<ShownPart> shown;
   shown.reserve(frame.bodies.size());
+  std::size_t index = 0;
   for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
     const BodyState& state = frame.bodies[k];
+    const std::vector<GrainPart>& parts = parts_of_kind[contents.kind_of_body[k]];
+    if (!state.is_present) {
+      index += parts.size();
+      continue;
+    }
     const double scale = contents.scale(k);
-    for (const GrainPart& part : parts_of_kind[contents.kind_of_body[k]]) {
+    for (const GrainPart& part : parts) {
       ShownPart& body = shown.emplace_back(
-          ShownPart{k, scaled(part.body, scale), state.position, state.quaternion, state.velocity, state.angular_velocity});
+          ShownPart{index++, k, scaled(part.body, scale), state.position, state.quaternion, state.velocity, state.angular_velocity});
       if (contents.grain(k).parts.empty()) continue;  // to the last digit what the grain is
       const Quaterniond attitude = to_quaternion(state.quaternion);
       const Vector3d offset = attitude * (scale * to_vector(part.position));

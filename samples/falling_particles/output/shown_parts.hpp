@@ -9,6 +9,7 @@ namespace falling_particles {
 
 /// A body of a grain at one time, in the world's frame, at its true size.
 struct ShownPart {
+  std::size_t index;                 ///< its own for the whole run: of all parts, also of grains that are gone
   std::size_t grain;                 ///< index of the grain in the frame
   GrainBody body;                    ///< scaled
   Point position;                    ///< m, of the body's origin
@@ -17,7 +18,7 @@ struct ShownPart {
   Point angular_velocity;            ///< rad/s
 };
 
-/// In the order of the grains: one of each, but all of a compound.
+/// In the order of the grains that are there: one of each, but all of a compound.
 std::vector<ShownPart> shown_parts(const Frame& frame, const Contents& contents);
 
 }  // namespace falling_particles

@@ -46,7 +46,7 @@ void add_run(Lines& lines, const Summary& s) {
   lines.add("scene", toml_string(s.scene.name));
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
   lines.add("container", toml_string(kind_of(s.scene.container)));
-  lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()));
+  lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()), s.population == nullptr ? "" : "at the start");
   for (const GrainCount& kind : s.scene.grains) {
     lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));
   }
@@ -151,6 +151,31 @@ void add_discharge(Lines& lines, const Scene& scene, const Discharge& discharge)
   add_mass_flow(lines, scene, hopper, discharge);
 }
 
+void add_amount(Lines& lines, const std::string& name, const Amount& amount, const char* comment = "") {
+  lines.add((name + ".grains").c_str(), amount.grains, comment);
+  lines.add((name + ".mass").c_str(), amount.mass, "kg");
+}
+
+void add_population(Lines& lines, const Summary& s) {
+  const Population& population = *s.population;
+  lines.section("population");
+  add_amount(lines, "at_start", population.at_start());
+  add_amount(lines, "fed", population.fed(), "by all feeders");
+  add_amount(lines, "taken", population.taken(), "by all sinks");
+  add_amount(lines, "present", population.present(), "at the end: at_start + fed - taken");
+  for (const Feeding& feeding : population.feeders()) {
+    for (std::size_t i = 0; i < feeding.feeder().mixture.size(); ++i) {
+      add_amount(lines, "fed_by." + feeding.feeder().name + '.' + feeding.grain(i).name, feeding.state().fed[i]);
+    }
+  }
+  for (std::size_t sink = 0; sink < s.scene.sinks.size(); ++sink) {
+    for (std::size_t kind = 0; kind < s.scene.grains.size(); ++kind) {
+      const Amount& taken = population.taken(sink)[kind];
+      add_amount(lines, "taken_by." + s.scene.sinks[sink].name + '.' + s.scene.grains[kind].grain.name, taken);
+    }
+  }
+}
+
 void add_packing(Lines& lines, const Packing& packing) {
   lines.section("packing");
   lines.add("cell_side", packing.side, "m");
@@ -222,6 +247,7 @@ std::string to_toml(const Summary& summary) {
   add_queries(lines, summary);
   add_end_state(lines, summary);
   if (summary.discharge != nullptr) add_discharge(lines, summary.scene, *summary.discharge);
+  if (summary.population != nullptr) add_population(lines, summary);
   if (summary.packing) add_packing(lines, *summary.packing);
   if (summary.heap) add_heap(lines, *summary.heap);
   add_costs(lines, summary);

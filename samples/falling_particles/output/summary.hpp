@@ -14,6 +14,7 @@
 #include "measure/overlap.hpp"
 #include "measure/sizes.hpp"
 #include "measurements/measuring.hpp"
+#include "population/population.hpp"
 #include "scene/scene.hpp"
 #include "simulation/compression.hpp"
 #include "simulation/stepper.hpp"
@@ -49,6 +50,7 @@ struct Summary {
   std::vector<MeasurementCost> measurements = {};
   double seconds_of_contacts = 0;  ///< s, to gather contacts for the measurements
   std::vector<DrawnSizes> sizes = {};
+  const Population* population = nullptr;  ///< where grains come or go
 };
 
 /// Writes TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.

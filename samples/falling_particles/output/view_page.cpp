@@ -110,7 +110,7 @@ void write_lines(std::ostream& stream, const char* id, const Texts& texts) {
 }  // namespace
 
 ViewPage::ViewPage(const std::filesystem::path& path, const Contents& contents)
-    : path_(path), contents_(contents), bodies_(contents.kind_of_body.size()), contacts_(kContactBudget) {}
+    : path_(path), contents_(contents), contacts_(kContactBudget) {}
 
 void ViewPage::add(const Frame& frame) {
   times_.push_back(frame.time);
@@ -127,6 +127,7 @@ void ViewPage::add(const Frame& frame) {
     poses.insert(poses.end(), {x, y, z, w});
   }
   bodies_.add(frame);
+  body_counts_.push_back(frame.bodies.size());
   contacts_.add(frame);
 }
 
@@ -137,6 +138,10 @@ void ViewPage::finish(const std::string& summary) {
               {"potential", potential_},  {"partScales", part_scales_},
               {"partPoses", part_poses_}, {"forces", scene.forces},
               {"summary", summary}};
+  if (is_any(scene.periodic)) {
+    for (const std::optional<Period>& period : scene.periodic) run["periods"].push_back(period ? period->length : 0);
+  }
+  if (scene.changes_population()) run["bodyCounts"] = body_counts_;
   for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) run["kinds"].push_back(describe(scene.grains[kind].grain, kind));
   run["kindOfBody"] = packed(std::vector<std::uint16_t>(contents_.kind_of_body.begin(), contents_.kind_of_body.end()));
   if (!contents_.scale_of_body.empty()) {

@@ -20,11 +20,12 @@ class ViewPage final : public Picture {
 
  private:
   std::filesystem::path path_;
-  Contents contents_;
+  const Contents& contents_;
   std::vector<double> times_, kinetic_, potential_;
   std::vector<std::vector<double>> part_scales_;  // of each frame
   std::vector<std::vector<double>> part_poses_;   // of each frame: x, y, z of the position, x, y, z, w of each part that moves
   PackedBodies bodies_;
+  std::vector<std::size_t> body_counts_;  // of each frame
   PackedContacts contacts_;
 };
 

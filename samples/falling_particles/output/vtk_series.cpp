@@ -137,23 +137,18 @@ std::string VtkSeries::grains_of(const Frame& frame) const {
   const std::vector<ShownPart> parts = shown_parts(frame, contents_);
   const std::size_t count = parts.size();
   const auto body = [&](std::size_t k) -> const GrainBody& { return parts[k].body; };
+  const auto kind = [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_body[parts[k].grain])}; };
+  const auto grain = [&](std::size_t k) { return std::array{static_cast<double>(parts[k].grain)}; };
+  const auto exponents = [&](std::size_t k) { return std::array{body(k).delta, body(k).epsilon}; };
   const auto numbers = [&](std::string_view name, const auto& of) { return array(name, "Float64", count, of); };
-  return cloud(
-      count, numbers("position", [&](std::size_t k) { return parts[k].position; }),
-      array("kind", "Int32", count,
-            [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_body[parts[k].grain])}; }) +
-          (count == frame.bodies.size()
-               ? ""
-               : array("grain", "Int32", count, [&](std::size_t k) { return std::array{static_cast<double>(parts[k].grain)}; })) +
-          numbers("quaternion", [&](std::size_t k) { return parts[k].quaternion; }) +
-          numbers("half_axes", [&](std::size_t k) { return body(k).half_axes; }) +
-          numbers("exponents",
-                  [&](std::size_t k) {
-                    return std::array{body(k).delta, body(k).epsilon};
-                  }) +
-          numbers("rounding", [&](std::size_t k) { return std::array{body(k).rounding}; }) +
-          numbers("velocity", [&](std::size_t k) { return parts[k].velocity; }) +
-          numbers("angular_velocity", [&](std::size_t k) { return parts[k].angular_velocity; }));
+  const bool needs_index = contents_.scene->changes_population() || contents_.scene->has_compounds();
+  return cloud(count, numbers("position", [&](std::size_t k) { return parts[k].position; }),
+               array("kind", "Int32", count, kind) + (needs_index ? array("grain", "Int32", count, grain) : "") +
+                   numbers("quaternion", [&](std::size_t k) { return parts[k].quaternion; }) +
+                   numbers("half_axes", [&](std::size_t k) { return body(k).half_axes; }) + numbers("exponents", exponents) +
+                   numbers("rounding", [&](std::size_t k) { return std::array{body(k).rounding}; }) +
+                   numbers("velocity", [&](std::size_t k) { return parts[k].velocity; }) +
+                   numbers("angular_velocity", [&](std::size_t k) { return parts[k].angular_velocity; }));
 }
 
 }  // namespace falling_particles

@@ -16,8 +16,9 @@ namespace falling_particles {
 /// A grain is a point with its kind (from 0 on, in the order of the scene file), quaternion (w, x, y, z), half-axes (m), exponents
 /// (delta, epsilon), rounding (m), velocity (m/s) and angular velocity (rad/s); a contact one with its normal (unit, towards body
 /// 1), depth (m), the two bodies (-1: a wall) and, where the scene asks for forces, the force on body 1 (N). The container's
-/// triangles look at the grains; it has a new file when a part of it has changed. A compound has a point per part; in scenes with
-/// compounds, grain is the number of the grain that a point belongs to. A capsule is the ellipsoid of its size.
+/// triangles look at the grains; it has a new file when a part of it has changed. A compound has a point per part, and a capsule is
+/// the ellipsoid of its size. In scenes with compounds, or where grains come or go (those that are not there are left out), `grain`
+/// is the index of the grain that a point belongs to.
 class VtkSeries final : public Picture {
  public:
   VtkSeries(const OutputFolder& folder, const Contents& contents);
@@ -31,7 +32,7 @@ class VtkSeries final : public Picture {
   std::string grains_of(const Frame& frame) const;
 
   std::filesystem::path grains_file_, contacts_file_, container_file_, frames_folder_;
-  Contents contents_;
+  const Contents& contents_;
   std::string grains_, contacts_, containers_;  // entries of the lists
   std::string container_;                       // file of the container as it is
   std::vector<PartPlace> part_places_;          // of its parts as it was written

@@ -10,12 +10,14 @@
 #include "load_container.hpp"
 #include "load_effects.hpp"
 #include "load_measurements.hpp"
+#include "load_periodic.hpp"
 #include "load_sizes.hpp"
 #include "memory.hpp"
 #include "nearest_word.hpp"
 #include "output/picture.hpp"
 #include "parts/load_parts.hpp"
 #include "parts/part_material.hpp"
+#include "population/load_population.hpp"
 #include "scene.hpp"
 #include "toml_input.hpp"
 
@@ -79,11 +81,12 @@ std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const Tom
   return apportion(fractions, total);
 }
 
-std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTable& drop) {
+/// `least`: 0 where feeders bring grains.
+std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTable& drop, int least) {
   if (drop.has("total")) drop.fail("total", "drop.total is given besides counts; allowed: with fractions only");
   std::vector<int> counts;
   counts.reserve(entries.size());
-  for (const TomlTable& entry : entries) counts.push_back(static_cast<int>(entry.integer("count", 1, kMostBodies)));
+  for (const TomlTable& entry : entries) counts.push_back(static_cast<int>(entry.integer("count", least, kMostBodies)));
   return counts;
 }
 
@@ -104,7 +107,8 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
                             "; allowed: count for all grains or fraction for all grains");
     }
   }
-  const std::vector<int> counts = by_fraction ? read_fractions(entries, drop) : read_counts(entries, drop);
+  const std::vector<int> counts =
+      by_fraction ? read_fractions(entries, drop) : read_counts(entries, drop, root.has("feeder") ? 0 : 1);
   std::int64_t sum = 0;
   for (const int count : counts) sum += count;
   if (sum > kMostBodies)
@@ -112,10 +116,20 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   for (std::size_t i = 0; i < counts.size(); ++i) {
     GrainCount& kind = grains[i];
     kind.count = counts[i];
+    kind.is_fed = root.has("feeder");
     kind.size = load_sizes(entries[i], kind.grain.sieve_size());
     if (kind.size) kind.scales = draw_sizes(*kind.size, kind.count, seed_of_sizes(seed, i));
   }
   return grains;
+}
+
+/// Grains that a scene may have at once. How many its sinks leave cannot be told.
+int most_at_once(const Scene& scene) {
+  double most = scene.bodies();
+  if (scene.sinks.empty()) {
+    for (const Feeder& feeder : scene.feeders) most += most_grains(feeder, scene);
+  }
+  return static_cast<int>(most);
 }
 
 void check_memory(const TomlTable& root, int grains) {
@@ -145,8 +159,9 @@ Solver read_solver(const TomlTable& table) {
           table.number("cfm", Interval::closed(0, 1, "s/kg"))};
 }
 
-/// Grains in a periodic container do not drop: they start anywhere.
+/// Grains in a periodic container do not drop: they start anywhere. Where feeders bring all grains, none drops.
 TomlTable read_drop(const TomlTable& root, Scene& scene) {
+  if (root.has("feeder") && !root.has("drop")) return root;
   if (std::holds_alternative<Periodic>(scene.container)) {
     if (root.has("drop")) return root.table("drop", {"total"});
     return root;
@@ -193,8 +208,9 @@ void read_output(const TomlTable& root, Scene& scene) {
 
 /// The names of the sections at the top of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
-                                    "solver", "compression", "broad_phase", "output", "part",  "measurement"};
+  std::vector<std::string> names = {"seed", "catalogue",   "container",   "drop",        "grain",
+                                    "time", "solver",      "compression", "broad_phase", "output",
+                                    "part", "measurement", "feeder",      "sink",        "periodic"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -211,14 +227,18 @@ Scene load_scene(const std::string& path) {
   scene.parts = load_parts(root, scene, path);
   const TomlTable drop = read_drop(root, scene);
   scene.grains = read_grains(root, drop, path, scene.seed);
+  if (root.has("feeder") && scene.bodies() > 0) root.table("drop");  // says that it is missing
+  load_periodic(root, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   add_part_effects(scene.parts, scene.effects);
   scene.compression = read_compression(root, scene);
+  scene.feeders = load_feeders(root, scene);
+  scene.sinks = load_sinks(root, scene);
   scene.measurements = load_measurements(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
   read_output(root, scene);
-  check_memory(root, scene.bodies());
+  check_memory(root, most_at_once(scene));
   check_fit(root, scene);
   return scene;
 }

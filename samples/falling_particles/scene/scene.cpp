@@ -16,6 +16,16 @@ const supernormal::effects::Gravity* Scene::gravity() const {
   return nullptr;
 }
 
+double GrainCount::smallest_scale() const {
+  if (!size) return 1;
+  return is_fed ? size->smallest() : std::ranges::min(scales);
+}
+
+double GrainCount::largest_scale() const {
+  if (!size) return 1;
+  return is_fed ? size->largest() : std::ranges::max(scales);
+}
+
 int Scene::bodies() const {
   int sum = 0;
   for (const GrainCount& kind : grains) sum += kind.count;
@@ -26,24 +36,33 @@ bool Scene::has_sizes() const {
   return std::ranges::any_of(grains, [](const GrainCount& kind) { return kind.size.has_value(); });
 }
 
+bool Scene::has_compounds() const {
+  return std::ranges::any_of(grains, [](const GrainCount& kind) { return !kind.grain.parts.empty(); });
+}
+
 double Scene::smallest_half_axis() const {
   double smallest = INFINITY;
-  for (const GrainCount& kind : grains) {
-    const double scale = kind.scales.empty() ? 1 : std::ranges::min(kind.scales);
-    smallest = std::min(smallest, scale * kind.grain.smallest_half_axis());
-  }
+  for (const GrainCount& kind : grains) smallest = std::min(smallest, kind.smallest_scale() * kind.grain.smallest_half_axis());
   return smallest;
 }
 
 double Scene::largest_bounding_radius() const {
   double largest = 0;
-  for (const GrainCount& kind : grains) {
-    const double scale = kind.scales.empty() ? 1 : std::ranges::max(kind.scales);
-    largest = std::max(largest, scale * kind.grain.bounding_radius());
-  }
+  for (const GrainCount& kind : grains) largest = std::max(largest, kind.largest_scale() * kind.grain.bounding_radius());
   return largest;
 }
 
 double Scene::smallest_cell() const { return 2 * largest_bounding_radius() * (1 + drop.gap); }
+
+bool is_inside(const Scene& scene, const Point& point) {
+  // Along an axis on which the scene repeats everything is inside, but for a NaN.
+  Point within = point;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (scene.periodic[axis] && std::isfinite(point[axis])) within[axis] = scene.periodic[axis]->middle();
+  }
+  const Point image = wrapped(scene.periodic, point);
+  return contains(scene.container, within) ||
+         std::ranges::any_of(scene.sinks, [&](const Sink& sink) { return sink.contains(image); });
+}
 
 }  // namespace falling_particles

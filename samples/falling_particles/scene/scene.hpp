@@ -11,6 +11,7 @@
 #include "grain.hpp"
 #include "measurements/request.hpp"
 #include "parts/part.hpp"
+#include "population/feeder.hpp"
 #include "simulation/sweep_space.hpp"
 #include "size_distribution.hpp"
 
@@ -21,8 +22,11 @@ struct GrainCount {
   int count;
   std::optional<SizeDistribution> size = {};  ///< of the factor on the grain's lengths; all are 1 without one
   std::vector<double> scales = {};            ///< factors drawn, one a grain; none without a distribution
+  bool is_fed = false;                        ///< whether feeders may bring more, whose factors are drawn during the run
 
   double scale(std::size_t index) const { return scales.empty() ? 1 : scales[index]; }
+  double smallest_scale() const;
+  double largest_scale() const;
 };
 
 /// The start of the grains: on a lattice whose cells hold the largest grain in any attitude.
@@ -67,16 +71,25 @@ struct Scene {
   std::vector<Part> parts = {};                       ///< walls besides those of the container, or in its place
   std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen by the positions of the grains if empty
   std::vector<MeasurementRequest> measurements = {};  ///< those that the scene names, and no others
+  std::vector<Feeder> feeders = {};                   ///< from which grains come during the run
+  std::vector<Sink> sinks = {};                       ///< into which they go
+  PeriodicAxes periodic = {};                         ///< along which it repeats, beside a container that does in all directions
 
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;
 
-  int bodies() const;
+  int bodies() const;  ///< at the start
+  /// Whether grains come or go during the run.
+  bool changes_population() const { return !feeders.empty() || !sinks.empty(); }
   bool has_sizes() const;                  ///< whether any kind has a distribution of sizes
+  bool has_compounds() const;              ///< whether any kind is a union of bodies
   double smallest_half_axis() const;       ///< m, over all grains
   double largest_bounding_radius() const;  ///< m, over all grains
   double smallest_cell() const;            ///< m, width and height of the cell that holds the largest grain
 };
+
+/// Whether a point may be the centre of a grain: in the container, or in a sink, beyond it or not. False for a NaN.
+bool is_inside(const Scene& scene, const Point& point);
 
 /// Loads a scene file. Throws InputError.
 Scene load_scene(const std::string& path);

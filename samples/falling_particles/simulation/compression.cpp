@@ -30,7 +30,7 @@ MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts) {
 
 Compressor::Compressor(const World& world, PeriodicCell& cell, const Compression& compression, double duration)
     : world_(world), cell_(cell), compression_(compression), duration_(duration), packing_{} {
-  for (const Body& body : world.bodies()) grain_volume_ += body.volume();
+  for (const Body& body : world.present()) grain_volume_ += body.volume();
 }
 
 void Compressor::after_step(double time, std::span<const dContactGeom> contacts) {
@@ -44,7 +44,7 @@ void Compressor::after_step(double time, std::span<const dContactGeom> contacts)
               overlap, target,   2 * static_cast<double>(overlap.contacts) / bodies};
 
   const double kept = progress < 1 ? 1 - compression_.damping : 0;
-  for (const Body& body : world_.bodies()) {
+  for (const Body& body : world_.present()) {
     const dReal* v = dBodyGetLinearVel(body.body);
     const dReal* w = dBodyGetAngularVel(body.body);
     dBodySetLinearVel(body.body, kept * v[0], kept * v[1], kept * v[2]);

@@ -12,8 +12,6 @@ namespace {
 
 bool is_part_of(unsigned mask, unsigned whole) { return (mask & ~whole) == 0; }
 
-double shift_along(unsigned mask, unsigned axis, double side) { return ((mask >> axis) & 1U) != 0 ? side : 0; }
-
 /// Makes the velocities of the centres equal, in three rows: a ball joint whose anchors are the two centres, wherever these are.
 /// With ERP 0 it does not pull them together. (ODE's linear motor would give the bodies lever arms to the middle between them.)
 dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
@@ -57,23 +55,35 @@ void for_each_geom(dBodyID body, void (*visit)(dGeomID)) {
 
 }  // namespace
 
-PeriodicCell::PeriodicCell(const World& world, double side) : world_(world), side_(side), families_(world.bodies().size()) {}
+PeriodicCell::PeriodicCell(const World& world, const PeriodicAxes& axes)
+    : world_(world), axes_(axes), families_(world.bodies().size()) {}
 
 PeriodicCell::~PeriodicCell() {
-  for (const Family& family : families_) {
-    for (const std::optional<Image>& image : family.images) {
-      if (!image) continue;
-      dJointDestroy(image->same_velocity);
-      dJointDestroy(image->same_spin);
-      for_each_geom(image->body, dGeomDestroy);
-      dBodyDestroy(image->body);
-    }
-  }
+  for (Family& family : families_) destroy(family);
 }
 
+void PeriodicCell::destroy(Family& family) {
+  for (const std::optional<Image>& image : family.images) {
+    if (!image) continue;
+    dJointDestroy(image->same_velocity);
+    dJointDestroy(image->same_spin);
+    for_each_geom(image->body, dGeomDestroy);
+    dBodyDestroy(image->body);
+  }
+  family = {};
+}
+
+void PeriodicCell::remove(std::size_t index) { destroy(families_[index]); }
+
 bool PeriodicCell::contains(const dVector3 point) const {
-  const auto within = [this](dReal x) { return x >= 0 && x < side_; };
-  return within(point[0]) && within(point[1]) && within(point[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axes_[axis] && !(point[axis] >= axes_[axis]->lower && point[axis] < axes_[axis]->upper())) return false;
+  }
+  return true;
+}
+
+double PeriodicCell::shift_along(unsigned mask, std::size_t axis) const {
+  return ((mask >> axis) & 1U) != 0 ? axes_[axis]->length : 0;
 }
 
 PeriodicCell::Image PeriodicCell::make_image(const Body& body) const {
@@ -94,8 +104,7 @@ void PeriodicCell::show(const Body& body, Family& family, unsigned mask) {
     dJointEnable(image->same_spin);
   }
   const dReal* p = dBodyGetPosition(body.body);
-  dBodySetPosition(image->body, p[0] - shift_along(mask, 0, side_), p[1] - shift_along(mask, 1, side_),
-                   p[2] - shift_along(mask, 2, side_));
+  dBodySetPosition(image->body, p[0] - shift_along(mask, 0), p[1] - shift_along(mask, 1), p[2] - shift_along(mask, 2));
   dBodySetQuaternion(image->body, dBodyGetQuaternion(body.body));
   set_motion(image->body, body.body);
 }
@@ -120,19 +129,22 @@ void PeriodicCell::share_mass(const Body& body, Family& family, unsigned size) {
 void PeriodicCell::place_images() {
   for (std::size_t i = 0; i < families_.size(); ++i) {
     const Body& body = world_.bodies()[i];
+    if (!body.is_present()) continue;
     const std::array<dReal, 6> aabb = body.aabb();
     const dReal* p = dBodyGetPosition(body.body);
     unsigned sticks_out = 0;
-    dReal inside[3];  // position with the lower corner of the bounding box in the cell
+    dReal inside[3] = {p[0], p[1], p[2]};  // position with the lower corner of the bounding box in the cell
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const double shift = side_ * std::floor(aabb[2 * axis] / side_);
+      if (!axes_[axis]) continue;
+      const Period& period = *axes_[axis];
+      const double shift = period.length * std::floor((aabb[2 * axis] - period.lower) / period.length);
       inside[axis] = p[axis] - shift;
       const double width = aabb[2 * axis + 1] - aabb[2 * axis];
-      if (2 * width > side_) {
-        throw std::runtime_error("the periodic cell has shrunk to " + std::to_string(side_) +
+      if (2 * width > period.length) {
+        throw std::runtime_error("the periodic cell has shrunk to " + std::to_string(period.length) +
                                  " m; needed: twice the width of grain \"" + body.grain->name + "\"");
       }
-      if (aabb[2 * axis + 1] - shift > side_) sticks_out |= 1U << axis;
+      if (aabb[2 * axis + 1] - shift > period.upper()) sticks_out |= 1U << axis;
     }
     dBodySetPosition(body.body, inside[0], inside[1], inside[2]);
     Family& family = families_[i];
@@ -162,7 +174,7 @@ void PeriodicCell::gather() {
       if (!is_part_of(mask, family.shown)) continue;
       dBodyID body = mask == 0 ? grain : family.images[mask]->body;
       for (unsigned axis = 0; axis < 3; ++axis) {
-        position[axis] += (dBodyGetPosition(body)[axis] + shift_along(mask, axis, side_)) / family.size;
+        position[axis] += (dBodyGetPosition(body)[axis] + shift_along(mask, axis)) / family.size;
         velocity[axis] += dBodyGetLinearVel(body)[axis] / family.size;
         spin[axis] += dBodyGetAngularVel(body)[axis] / family.size;
       }
@@ -176,8 +188,8 @@ void PeriodicCell::gather() {
 }
 
 void PeriodicCell::scale(double factor) {
-  side_ *= factor;
-  for (const Body& body : world_.bodies()) {
+  for (std::optional<Period>& period : axes_) period->length *= factor;
+  for (const Body& body : world_.present()) {
     const dReal* p = dBodyGetPosition(body.body);
     dBodySetPosition(body.body, factor * p[0], factor * p[1], factor * p[2]);
   }

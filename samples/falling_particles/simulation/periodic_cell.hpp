@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "container/periodic.hpp"
+
 namespace falling_particles {
 
 class World;
@@ -15,27 +17,36 @@ struct Body;
 
 /// Periodic boundaries for ODE, which has none. A grain that sticks out of the cell gets an image, a body and a geom of its own, at
 /// every place where it comes in again, up to seven of them. Grain and images share mass and inertia evenly and are tied to one
-/// velocity and one spin by six constraint rows without lever arms; so forces on an image act on the grain, in the same step.
+/// velocity and one spin by six constraint rows without lever arms; so forces on an image act on the grain, in the same step. The
+/// cell may be periodic along some axes only.
 ///
 /// A point of contact lies in the cell exactly once, whichever grains and images meet there: only contacts in the cell count.
 class PeriodicCell {
  public:
-  /// Throws std::runtime_error when the side is below twice the width of a grain: a grain might meet itself.
-  PeriodicCell(const World& world, double side);
+  PeriodicCell(const World& world, const PeriodicAxes& axes);
   ~PeriodicCell();
   PeriodicCell(const PeriodicCell&) = delete;
   PeriodicCell& operator=(const PeriodicCell&) = delete;
 
-  double side() const { return side_; }  ///< m
+  const PeriodicAxes& axes() const { return axes_; }
+  double side() const { return axes_[0]->length; }  ///< m, of a cell that is a cube
 
   bool contains(const dVector3 point) const;
+  /// The image of the point in the cell.
+  Point wrapped(const Point& point) const { return falling_particles::wrapped(axes_, point); }
 
-  /// Moves grains that have left into the cell, and sets up the images; call it before collision.
+  /// Moves grains that have left into the cell, the lower ends of their bounding boxes that is, and sets up the images; call it
+  /// before collision. Throws std::runtime_error when the cell is below twice the width of a grain: a grain might meet itself.
   void place_images();
   /// Gives grains the mean motion of themselves and their images, between which the solver leaves a small difference; call it
   /// after a step.
   void gather();
-  /// Scales the cell and the centres of the grains in it, but not their sizes.
+  /// The world has a grain more.
+  void add_last() { families_.emplace_back(); }
+  /// The world's grain of that index goes, and its images with it.
+  void remove(std::size_t index);
+
+  /// Scales the cell, a cube from the origin, and the centres of the grains in it, but not their sizes.
   void scale(double factor);
 
  private:
@@ -44,6 +55,8 @@ class PeriodicCell {
     dJointID same_velocity;
     dJointID same_spin;
   };
+  double shift_along(unsigned mask, std::size_t axis) const;
+
   static constexpr unsigned kMasks = 8;  // axes along which an image is shifted: bit 0 for x, 1 for y, 2 for z
   struct Family {
     std::array<std::optional<Image>, kMasks> images;  // [0], the grain itself, stays empty; made when first needed
@@ -54,10 +67,11 @@ class PeriodicCell {
   Image make_image(const Body& body) const;
   void show(const Body& body, Family& family, unsigned mask);
   static void hide(const Image& image);
+  static void destroy(Family& family);
   static void share_mass(const Body& body, Family& family, unsigned size);
 
   const World& world_;
-  double side_;
+  PeriodicAxes axes_;
   std::vector<Family> families_;  // in the order of the world's bodies
 };
 

@@ -7,6 +7,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "output/summary.hpp"
 #include "output/write_file.hpp"
 #include "placement.hpp"
+#include "population/population.hpp"
 #include "progress.hpp"
 #include "random.hpp"
 #include "stepper.hpp"
@@ -33,7 +35,7 @@ namespace {
 
 /// The watches that run after every step.
 struct Watches {
-  Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene.container), energy(world, scene) {
+  Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene), energy(world, scene) {
     if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
     if (scene.compression) compressor.emplace(world, *world.cell(), *scene.compression, scene.time.duration);
   }
@@ -70,18 +72,21 @@ State state_of(const World& world, const Scene& scene, const Watches& watches, c
 /// Writes the frames of a run as it goes.
 class Recorder {
  public:
-  Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const Watches& watches)
+  Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const Watches& watches, const Population& population)
       : world_(world),
         scene_(scene),
         watches_(watches),
+        population_(population),
         contents_(scene.pictures.empty() ? Contents{&scene, {}} : contents_of(world, scene)),
         trajectory_(folder.file(std::string(kTrajectoryFile))),
         energies_(folder.file(std::string(kEnergiesFile))),
         states_(folder.file(std::string(kStateFile))) {
     if (watches.discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
     if (watches.compressor) compression_file_.emplace(folder.file(std::string(kCompressionFile)));
-    if (scene.has_sizes()) write_grains(folder.file(std::string(kGrainsFile)), world);
+    if (scene.has_sizes()) grains_file_.emplace(folder.file(std::string(kGrainsFile)));
     if (std::ranges::any_of(scene.parts, &Part::moves)) parts_file_.emplace(folder.file(std::string(kPartsFile)));
+    if (!scene.feeders.empty()) feeders_file_.emplace(folder.file(std::string(kFeedersFile)));
+    if (!scene.sinks.empty()) sinks_file_.emplace(folder.file(std::string(kSinksFile)));
     for (const std::string& name : scene.pictures) {
       const PictureFormat& format = *find_picture_format(name);
       pictures_.push_back(format.make(folder, format, contents_));
@@ -96,8 +101,12 @@ class Recorder {
     states_.write(time, state_of(world_, scene_, watches_, stepper));
     if (discharge_file_) discharge_file_->write(time, watches_.discharge->mass(), watches_.discharge->count());
     if (compression_file_ && stepper != nullptr) compression_file_->write(time, watches_.compressor->packing());
+    if (grains_file_) grains_file_->write(world_);
     if (parts_file_) parts_file_->write(time, *world_.parts());
+    if (feeders_file_) feeders_file_->write(time, population_);
+    if (sinks_file_) sinks_file_->write(time, population_, scene_);
     if (pictures_.empty()) return;
+    add_new_bodies(contents_, world_);
     const Frame frame = frame_of(time, energy, contents_, world_, stepper);
     for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
   }
@@ -111,7 +120,10 @@ class Recorder {
     states_.close();
     if (discharge_file_) discharge_file_->close();
     if (compression_file_) compression_file_->close();
+    if (grains_file_) grains_file_->close();
     if (parts_file_) parts_file_->close();
+    if (feeders_file_) feeders_file_->close();
+    if (sinks_file_) sinks_file_->close();
   }
 
   void finish_pictures(const std::string& summary) {
@@ -130,13 +142,17 @@ class Recorder {
   const World& world_;
   const Scene& scene_;
   const Watches& watches_;
+  const Population& population_;
   Contents contents_;
   Trajectory trajectory_;
   Energies energies_;
   StateFile states_;
   std::optional<DischargeFile> discharge_file_;
   std::optional<CompressionFile> compression_file_;
-  std::optional<PartsFile> parts_file_;  // where any part moves
+  std::optional<GrainsFile> grains_file_;  // where sizes differ
+  std::optional<PartsFile> parts_file_;    // where any part moves
+  std::optional<FeedersFile> feeders_file_;
+  std::optional<SinksFile> sinks_file_;
   std::vector<std::unique_ptr<Picture>> pictures_;
 };
 
@@ -150,10 +166,14 @@ struct NoMeasuring {
   static constexpr void after_step(int /*step*/, double /*time*/, const std::deque<MeasuredContact>& /*contacts*/) {}
 };
 
+/// Stands for Population in a scene whose grains neither come nor go.
+struct NoPopulation {};
+
 /// Steps until the end or until the user interrupts, with a frame at the start, at every interval and at the end. Returns the
 /// number of steps done.
-template <typename Measurements>
-int advance(Stepper& stepper, Watches& watches, Recorder& recorder, Measurements&& measuring, const Time& time, bool quiet) {
+template <typename Measurements, typename Changes>
+int advance(Stepper& stepper, Watches& watches, Recorder& recorder, Measurements&& measuring, Changes&& population,
+            const Time& time, bool quiet) {
   const int steps = time.steps();
   std::optional<Progress> progress;
   if (!quiet) progress.emplace(stderr, steps);
@@ -163,6 +183,9 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, Measurements
   while (step < steps && !interrupted()) {
     ++step;
     const bool is_frame = step == steps || step % time.steps_per_frame() == 0;
+    if constexpr (!std::is_same_v<std::remove_cvref_t<Changes>, NoPopulation>) {
+      watches.energy.exchange(population.before_step(time_after(step, time)));
+    }
     stepper.step((is_frame && recorder.wants_forces()) || measuring.wants_forces(step));
     const double now = time_after(step, time);
     measuring.after_step(step, now, stepper.measured_contacts());  // before a compression scales the cell
@@ -191,12 +214,18 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
   World world(scene, place(scene, random));
   Stepper stepper(world, scene, threads);
   Watches watches(world, scene, random);
-  Recorder recorder(folder, world, scene, watches);
+  Population population(world, scene);
+  Recorder recorder(folder, world, scene, watches, population);
   Measuring measuring(scene, world, folder);
   snResetStatistics();
   const auto start = std::chrono::steady_clock::now();
-  const int steps = scene.measurements.empty() ? advance(stepper, watches, recorder, NoMeasuring{}, scene.time, quiet)
-                                               : advance(stepper, watches, recorder, measuring, scene.time, quiet);
+  const auto advance_with = [&](auto&& measurements, auto&& changes) {
+    return advance(stepper, watches, recorder, measurements, changes, scene.time, quiet);
+  };
+  const auto advance_measuring = [&](auto&& changes) {
+    return scene.measurements.empty() ? advance_with(NoMeasuring{}, changes) : advance_with(measuring, changes);
+  };
+  const int steps = scene.changes_population() ? advance_measuring(population) : advance_measuring(NoPopulation{});
   measuring.close_tables();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   snStatistics statistics;  // taken before the measurements at the end add to them
@@ -219,7 +248,7 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         largest_kinetic_energy(world),
                         watches.energy,
                         measure_overlap(world),
-                        count_outside(world, scene.container),
+                        count_outside(world, scene),
                         watches.leaks.count(),
                         box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, random)),
                         watches.discharge ? &*watches.discharge : nullptr,
@@ -228,7 +257,8 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
                         world.effects().costs(),
                         measuring.costs(),
                         measuring.seconds_of_contacts(),
-                        measure_sizes(world, scene)};
+                        measure_sizes(world, scene),
+                        scene.changes_population() ? &population : nullptr};
   const std::string text = to_toml(summary);
   write_file(folder.file(std::string(kSummaryFile)), text);
   recorder.finish_pictures(text);
@@ -236,7 +266,7 @@ RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int
   std::fputs(text.c_str(), stdout);
   if (early) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", steps, scene.time.steps());
   if (watches.leaks.first()) {
-    std::fprintf(stderr, "Leak: %zu of %d grains; the first: %s\n", watches.leaks.count(), scene.bodies(),
+    std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", watches.leaks.count(), world.bodies().size(),
                  describe(*watches.leaks.first()).c_str());
   }
   if (!quiet) std::fprintf(stderr, "Results: %s\n", folder.path().c_str());

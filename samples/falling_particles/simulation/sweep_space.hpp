@@ -33,6 +33,16 @@ class SweepSpace {
   /// Chooses the axis in the first step and again now and then; call it before a step.
   void before_step();
 
+  /// Calls visit(geom) for all geoms but the marks.
+  template <typename Visit>
+  void for_each_body(const Visit& visit) const {
+    const int count = dSpaceGetNumGeoms(space_);
+    for (int i = 0; i < count; ++i) {
+      const dGeomID geom = dSpaceGetGeom(space_, i);
+      if (!is_end_marker(geom)) visit(geom);
+    }
+  }
+
   /// In the near callback of dSpaceCollide: whether this is no pair of bodies, but the mark after the last one.
   bool is_end_marker(dGeomID geom) const { return geom == markers_[0] || geom == markers_[1]; }
 

@@ -20,6 +20,13 @@ struct PairCallback {
   dNearCallback* callback;
 };
 
+/// Bodies stay where they are in memory, so the list has room for all from the start.
+std::size_t capacity(const Scene& scene, std::size_t at_start) {
+  double most = static_cast<double>(at_start);
+  for (const Feeder& feeder : scene.feeders) most += most_grains(feeder, scene);
+  return static_cast<std::size_t>(most);
+}
+
 void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
   const auto& [sweep, data, callback] = *static_cast<const PairCallback*>(to);
   if (!sweep.is_end_marker(g1)) callback(data, g1, g2);
@@ -96,7 +103,21 @@ dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID b
   return first;
 }
 
-World::World(const Scene& scene, const std::vector<Placement>& placements) {
+dMass mass_of(const Body& body) {
+  dMass mass;
+  if (const auto& compound = body.grain->compound_mass) {
+    const double volume = std::pow(body.scale, 3);
+    const double second_moment = std::pow(body.scale, 5);
+    const auto& I = compound->inertia;
+    dMassSetParameters(&mass, volume * compound->mass, 0, 0, 0, second_moment * I[0][0], second_moment * I[1][1],
+                       second_moment * I[2][2], second_moment * I[0][1], second_moment * I[0][2], second_moment * I[1][2]);
+  } else if (snMassSet(&mass, body.grain->density, body.geom) == 0) {
+    throw std::runtime_error("mass of grain \"" + body.grain->name + "\" was refused: " + snLastError());
+  }
+  return mass;
+}
+
+World::World(const Scene& scene, const std::vector<Placement>& placements) : scene_(scene) {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();
@@ -106,12 +127,13 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) {
   set_parameters(scene);
   // The walls are in no space: ODE pairs geoms without an upper end with all others, whatever their bounding boxes. Each wall is
   // compared with the grains instead, at the cost of the comparison of their boxes.
-  walls_.emplace(nullptr, scene.container, kWallBit, kGrainBit);
+  walls_.emplace(nullptr, scene.container, kWallBit, kGrainBit, scene.periodic);
   if (!scene.parts.empty()) parts_ = std::make_unique<PartBodies>(world_, scene.parts, scene.time.step, kWallBit, kGrainBit);
-  bodies_.reserve(placements.size());
-  for (const Placement& placement : placements) add_body(scene.grains[placement.kind].grain, placement);
-  if (const Periodic* periodic = std::get_if<Periodic>(&scene.container))
-    cell_ = std::make_unique<PeriodicCell>(*this, periodic->side);
+  bodies_.reserve(capacity(scene, placements.size()));
+  for (const Placement& placement : placements) add_body(placement);
+  PeriodicAxes axes = scene.periodic;
+  if (const Periodic* cube = std::get_if<Periodic>(&scene.container)) axes.fill(Period{0, cube->side});
+  if (is_any(axes)) cell_ = std::make_unique<PeriodicCell>(*this, axes);
 }
 
 World::~World() {
@@ -148,21 +170,26 @@ void World::set_parameters(const Scene& scene) {
   effects_->set_up(world_);
 }
 
-dMass World::mass_of(const Body& body) {
-  dMass mass;
-  if (const auto& compound = body.grain->compound_mass) {
-    const double volume = std::pow(body.scale, 3);
-    const double second_moment = std::pow(body.scale, 5);
-    const auto& I = compound->inertia;
-    dMassSetParameters(&mass, volume * compound->mass, 0, 0, 0, second_moment * I[0][0], second_moment * I[1][1],
-                       second_moment * I[2][2], second_moment * I[0][1], second_moment * I[0][2], second_moment * I[1][2]);
-  } else if (snMassSet(&mass, body.grain->density, body.geom) == 0) {
-    throw std::runtime_error("mass of grain \"" + body.grain->name + "\" was refused: " + snLastError());
-  }
-  return mass;
+std::size_t World::insert(const Placement& placement, const Point& velocity) {
+  if (bodies_.size() == bodies_.capacity()) throw std::logic_error("feeders bring more grains than they may");
+  add_body(placement);
+  dBodySetLinearVel(bodies_.back().body, velocity[0], velocity[1], velocity[2]);
+  if (cell_ != nullptr) cell_->add_last();
+  return bodies_.size() - 1;
 }
 
-void World::add_body(const Grain& grain, const Placement& placement) {
+void World::remove(std::size_t index) {
+  Body& entry = bodies_[index];
+  if (cell_ != nullptr) cell_->remove(index);
+  effects_->remove_body(entry.body);
+  std::ranges::for_each(entry.geoms(), dGeomDestroy);
+  dBodyDestroy(entry.body);
+  entry.geom = nullptr;
+  entry.body = nullptr;
+}
+
+void World::add_body(const Placement& placement) {
+  const Grain& grain = scene_.grains[placement.kind].grain;
   // bodies_ is reserved: entries stay where they are, and geoms point to them.
   Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), nullptr, &grain, {}, placement.scale});
   entry.geom = attach_geoms(sweep_->id(), grain, entry.scale, entry.body, &entry);

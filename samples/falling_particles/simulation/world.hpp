@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <supernormal/effects.hpp>
 #include <vector>
 
@@ -19,13 +20,15 @@
 
 namespace falling_particles {
 
+/// A grain of a world. Its index in the world's list is its own for good: that of a grain that is gone is not used again.
 struct Body {
-  dBodyID body;
+  dBodyID body;  ///< null for a grain that is gone, of which all but body and geom is left
   dGeomID geom;  ///< of a compound the first one; geoms() gives all
   const Grain* grain;
   dMass mass;
   double scale = 1;  ///< of the grain's lengths
 
+  bool is_present() const { return body != nullptr; }
   std::vector<dGeomID> geoms() const;
   /// m; around all geoms: least and most x, y, z in turn.
   std::array<dReal, 6> aabb() const;
@@ -42,6 +45,36 @@ struct Body {
   }
 };
 
+/// Those of a list of bodies that are there.
+class PresentBodies {
+ public:
+  class Iterator {
+   public:
+    Iterator(const Body* body, const Body* end) : body_(body), end_(end) { skip(); }
+    const Body& operator*() const { return *body_; }
+    Iterator& operator++() {
+      ++body_;
+      skip();
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return body_ == other.body_; }
+
+   private:
+    void skip() {
+      while (body_ != end_ && !body_->is_present()) ++body_;
+    }
+    const Body* body_;
+    const Body* end_;
+  };
+
+  explicit PresentBodies(std::span<const Body> bodies) : bodies_(bodies) {}
+  Iterator begin() const { return {bodies_.data(), bodies_.data() + bodies_.size()}; }
+  Iterator end() const { return {bodies_.data() + bodies_.size(), bodies_.data() + bodies_.size()}; }
+
+ private:
+  std::span<const Body> bodies_;
+};
+
 /// The body of a geom in a World; null for a wall.
 inline const Body* body_of(dGeomID geom) { return static_cast<const Body*>(dGeomGetData(geom)); }
 
@@ -56,6 +89,9 @@ dGeomID create_geom(dSpaceID space, const GrainBody& body, double scale = 1);
 /// std::runtime_error when the library refuses one.
 dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID body, void* data);
 
+/// The mass of a grain that has its geoms, about its centre. Throws std::runtime_error when the library refuses it.
+dMass mass_of(const Body& body);
+
 /// The ODE world of a scene, which must outlive it.
 class World {
  public:
@@ -67,9 +103,29 @@ class World {
   World& operator=(const World&) = delete;
 
   dWorldID id() const { return world_; }
+  const Scene& scene() const { return scene_; }
   /// The space of the grains and of their images; the walls are not in it.
   SweepSpace& sweep() const { return *sweep_; }
+  /// All that there have been so far, those that are gone included.
   const std::vector<Body>& bodies() const { return bodies_; }
+  /// Those of bodies() that are there.
+  PresentBodies present() const { return PresentBodies(bodies_); }
+  /// Calls visit(geom) for the geoms of all grains that are there, and of their images in a periodic world.
+  template <typename Visit>
+  void for_each_grain_geom(const Visit& visit) const {
+    if (cell_ == nullptr) {
+      for (const Body& body : present()) {
+        for (const dGeomID geom : body.geoms()) visit(geom);
+      }
+    } else {
+      sweep_->for_each_body([&visit](dGeomID geom) {
+        if (dGeomIsEnabled(geom) != 0) visit(geom);
+      });
+    }
+  }
+  /// m, the centre of a grain; in a periodic world the one within the cell.
+  Point place_of(const Body& body) const { return cell_ == nullptr ? body.position() : cell_->wrapped(body.position()); }
+  std::size_t index_of(const Body& body) const { return static_cast<std::size_t>(&body - bodies_.data()); }
   /// The effects that the scene names, compiled.
   supernormal::effects::Effects& effects() const { return *effects_; }
   const Walls& walls() const { return *walls_; }
@@ -77,17 +133,22 @@ class World {
   void name_wall_pairs(void* data, dNearCallback* callback) const;
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
   void name_pairs(void* data, dNearCallback* callback) const;
-  PeriodicCell* cell() const { return cell_.get(); }  ///< for a periodic container, otherwise null
+  PeriodicCell* cell() const { return cell_.get(); }  ///< for a scene that repeats along any axis, otherwise null
   PartBodies* parts() const { return parts_.get(); }  ///< null for a scene without parts
+
+  /// Puts a grain of a feeder's kind into the world and returns its index, that after the last one. Not during a step.
+  std::size_t insert(const Placement& placement, const Point& velocity);
+  /// Takes a grain out of the world. Not during a step, of whose contacts those of the grain are no longer valid.
+  void remove(std::size_t index);
 
   /// Takes the lid off a hopper's outlet; call it once.
   void open_outlet() { walls_->open_outlet(); }
 
  private:
   void set_parameters(const Scene& scene);
-  void add_body(const Grain& grain, const Placement& placement);
-  static dMass mass_of(const Body& body);
+  void add_body(const Placement& placement);
 
+  const Scene& scene_;
   dWorldID world_;
   std::unique_ptr<SweepSpace> sweep_;
   std::unique_ptr<supernormal::effects::Effects> effects_;

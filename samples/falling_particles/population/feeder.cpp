@@ -1,0 +1,35 @@
+#include "population/feeder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/grain_shape.hpp"
+#include "scene/scene.hpp"
+
+namespace falling_particles {
+namespace {
+
+/// Above the number of grains of the lightest kind that a quantity holds.
+double most_grains(const Quantity& quantity, double lightest) {
+  return quantity.of == Quantity::Of::Grains ? quantity.number : quantity.number / lightest + 1;
+}
+
+double smallest_mass(const GrainCount& kind) { return std::pow(kind.smallest_scale(), 3) * mass_of(kind.grain); }
+
+}  // namespace
+
+double mass_of(const Grain& grain) {
+  if (grain.compound_mass) return grain.compound_mass->mass;
+  return grain.density * shape_of(grain.all_parts().front().body)->mass_properties().volume;
+}
+
+double most_grains(const Feeder& feeder, const Scene& scene) {
+  double lightest = INFINITY;
+  for (const FedKind& fed : feeder.mixture) lightest = std::min(lightest, smallest_mass(scene.grains[fed.kind]));
+  const double on = std::max(0.0, std::min(feeder.until, scene.time.duration) - feeder.from);
+  double most = most_grains({feeder.rate.number * on, feeder.rate.of}, lightest);
+  if (feeder.total) most = std::min(most, most_grains(*feeder.total, lightest));
+  return std::ceil(1.001 * most) + 1;  // the mass of the geom may differ in the last digits
+}
+
+}  // namespace falling_particles
