@@ -19,6 +19,8 @@ import { geometryOf } from "./geometry";
 import { type Moment, type Run, type Vector } from "./run";
 import { ofFraction } from "./unpack";
 
+const nothing = new Matrix4().makeScale(0, 0, 0);
+
 export interface Pose {
   position: Vector3;
   rotation: Quaternion;
@@ -31,6 +33,7 @@ export class Bodies {
   private readonly bodiesOf: number[][]; // of each kind
   private readonly outline = new Mesh(undefined, new MeshBasicMaterial({ color: 0x101418, side: BackSide }));
   readonly poses: Pose[];
+  readonly isShown: boolean[]; // of each body
   private colours: Vector[] = [];
 
   constructor(
@@ -54,6 +57,7 @@ export class Bodies {
     this.outline.visible = false;
     this.outline.matrixAutoUpdate = false;
     world.add(this.outline);
+    this.isShown = Array.from({ length: run.bodies }, () => true);
     this.poses = Array.from({ length: run.bodies }, () => ({ position: new Vector3(), rotation: new Quaternion() }));
   }
 
@@ -78,9 +82,15 @@ export class Bodies {
     const [goal, scale] = [new Vector3(), new Vector3()];
     for (let body = 0; body < count; ++body) {
       const { position, rotation } = this.poses[body];
+      const kind = run.kindOfBody[body];
+      this.isShown[body] = run.isPresent(body, frame);
+      if (!this.isShown[body]) {
+        this.meshes[kind].setMatrixAt(this.slot[body], nothing);
+        continue;
+      }
       position.set(now.positions[body], now.positions[count + body], now.positions[2 * count + body]);
       rotationOf(now.rotations, count, body, turned);
-      if (share > 0) {
+      if (share > 0 && run.isPresent(body, frame + 1)) {
         goal.set(next.positions[body], next.positions[count + body], next.positions[2 * count + body]);
         rotationOf(next.rotations, count, body, end);
         // A grain that has left a periodic cell comes in again on the other side.
@@ -93,7 +103,6 @@ export class Bodies {
         );
       }
       rotation.copy(turned).normalize();
-      const kind = run.kindOfBody[body];
       this.meshes[kind].setMatrixAt(this.slot[body], matrix.compose(position, rotation, scale.setScalar(run.scaleOfBody[body])));
     }
     for (const mesh of this.meshes) {
@@ -104,7 +113,7 @@ export class Bodies {
 
   private longestStep(frame: number): number {
     const cell = this.run.parts.findIndex(({ name }) => name === "cell");
-    return cell < 0 ? Infinity : this.run.partScales[frame][cell] / 2;
+    return cell < 0 ? this.run.shortestPeriod / 2 : this.run.partScales[frame][cell] / 2;
   }
 
   paint(colours: Vector[]): void {
@@ -137,7 +146,7 @@ export class Bodies {
 
   /** Draws a dark line around a body; null: around none. */
   mark(body: number | null): void {
-    this.outline.visible = body !== null;
+    this.outline.visible = body !== null && this.isShown[body];
     if (body === null) return;
     const { position, rotation } = this.poses[body];
     this.outline.geometry = this.geometries[this.run.kindOfBody[body]][0];

@@ -289,7 +289,7 @@ function extentOf(run: Run): Box3 {
     const part = new Box3().setFromArray(mesh.points as unknown as number[]);
     extent.union(part.applyMatrix4(new Matrix4().compose(position, rotation, new Vector3().setScalar(scale))));
   });
-  return extent.union(run.extentOfBodies(0));
+  return extent.union(run.extentOfBodies(0) ?? new Box3());
 }
 
 async function start(): Promise<Page> {

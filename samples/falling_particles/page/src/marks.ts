@@ -110,7 +110,7 @@ export class Marks {
   private drawBoxes(picked: number | null): void {
     const ends: Vector3[] = [];
     const bodies = picked === null ? this.bodies.poses.keys() : [picked];
-    for (const body of bodies) addBox(ends, this.middleOf(body), this.halfExtents(body));
+    for (const body of bodies) if (this.bodies.isShown[body]) addBox(ends, this.middleOf(body), this.halfExtents(body));
     this.addLines(ends, boxColour);
   }
 

@@ -55,6 +55,12 @@ export class Panel {
     const position = [0, 1, 2].map((i) => positions[i * run.bodies + body]);
     const close = make("button", { type: "button", "aria-label": "Close" }, "✕");
     close.addEventListener("click", this.onClose);
+    const isPresent = run.isPresent(body, frame);
+    const state = [
+      ["centre", position.map((x) => (1000 * x).toFixed(2)).join(", ") + " mm"],
+      ["speed", withUnit(run.speed(body, frame), "m/s")],
+      ["spin", withUnit(Math.hypot(...run.spin(body, frame)), "rad/s")],
+    ];
     const rows = [
       ["half-axes", kind.halfAxes.map((half) => digits(1000 * run.scaleOfBody[body] * half)).join(" × ") + " mm"],
       kind.shape === "superellipsoid"
@@ -62,12 +68,10 @@ export class Panel {
         : ["shape", kind.shape === "capsule" ? "capsule" : `compound of ${kind.parts}`],
       ...(kind.rounding > 0 ? [["rounding", withUnit(run.scaleOfBody[body] * kind.rounding, "m")]] : []),
       ["density", `${digits(kind.density)} kg/m³`],
-      ["centre", position.map((x) => (1000 * x).toFixed(2)).join(", ") + " mm"],
-      ["speed", withUnit(run.speed(body, frame), "m/s")],
-      ["spin", withUnit(Math.hypot(...run.spin(body, frame)), "rad/s")],
+      ...(isPresent ? state : [["centre", "not there"]]),
     ];
     this.body.replaceChildren(make("header", {}, make("h2", {}, `${kind.name} ${body}`), close), makeTable(rows));
-    if (contacts !== null) this.body.append(this.contactsOf(body, contacts));
+    if (contacts !== null && isPresent) this.body.append(this.contactsOf(body, contacts));
   }
 
   private contactsOf(body: number, contacts: Contacts): HTMLElement {

@@ -40,6 +40,7 @@ export interface Place {
 
 /** The states of all bodies at one time. Of the numbers of a body, all first ones come before all second ones. */
 export interface Frame {
+  count: number; // of the bodies that there have been so far; those that are gone have no number for x
   positions: Float32Array;
   rotations: Uint16Array;
   motions: Uint16Array;
@@ -72,6 +73,8 @@ interface Description {
   kinds: (Omit<Kind, "meshes"> & { meshes: { points: string; normals: string; triangles: string }[] })[];
   kindOfBody: string;
   scales?: string; // of the bodies' lengths; all are 1 without it
+  bodyCounts?: number[]; // of each frame, where bodies come or go
+  periods?: number[]; // m, along x, y and z, of a scene that repeats along some; 0 where it does not
   parts: { name: string; points: string; triangles: string; edges: string; moves: boolean }[];
   contacts: { frame: number; count: number; length: number }[];
 }
@@ -113,6 +116,8 @@ export class Run {
     moves,
     mesh: { points: floats(points), triangles: indices(triangles), edges: indices(edges) },
   }));
+  /** m; a step longer than half of it leads out of the cell and in again on the other side. */
+  readonly shortestPeriod = Math.min(...(this.description.periods ?? []).filter((period) => period > 0));
   private readonly moving = this.parts.flatMap(({ moves }, part) => (moves ? [part] : []));
   readonly kindOfBody = new Uint16Array(bytesOf(this.description.kindOfBody).buffer);
   readonly scaleOfBody = this.description.scales
@@ -143,11 +148,18 @@ export class Run {
     const rotations = before ? before.rotations.slice() : new Uint16Array(4 * count);
     const motions = before ? before.motions.slice() : new Uint16Array(6 * count);
     const bits = new Uint32Array(positions.buffer);
-    for (let i = 0; i < 3; ++i) unpacker.change(bits.subarray(i * count, (i + 1) * count));
-    for (let i = 0; i < 4; ++i) unpacker.change(rotations.subarray(i * count, (i + 1) * count));
-    for (let i = 0; i < 6; ++i) unpacker.change(motions.subarray(i * count, (i + 1) * count));
-    this.frames.push({ positions, rotations, motions });
+    const known = this.description.bodyCounts?.[index] ?? count;
+    for (let i = 0; i < 3; ++i) unpacker.change(bits.subarray(i * count, i * count + known));
+    for (let i = 0; i < 4; ++i) unpacker.change(rotations.subarray(i * count, i * count + known));
+    for (let i = 0; i < 6; ++i) unpacker.change(motions.subarray(i * count, i * count + known));
+    this.frames.push({ count: known, positions, rotations, motions });
     return true;
+  }
+
+  /** Whether a body has come, and is not gone. */
+  isPresent(body: number, frame: number): boolean {
+    const { count, positions } = this.frames[frame];
+    return body < count && !Number.isNaN(positions[body]);
   }
 
   /** The frames whose contacts are kept. */
@@ -180,15 +192,16 @@ export class Run {
     return { frame: kept[at].frame, list };
   }
 
-  /** m, of the spheres around all bodies. */
-  extentOfBodies(frame: number): Box3 {
+  /** m, of the spheres around all bodies; nothing when there are none. */
+  extentOfBodies(frame: number): Box3 | undefined {
     const extent = new Box3();
     const { positions } = this.frames[frame];
     for (let body = 0; body < this.bodies; ++body) {
+      if (!this.isPresent(body, frame)) continue;
       const centre = new Vector3(...[0, 1, 2].map((i) => positions[i * this.bodies + body]));
       extent.union(new Box3().setFromCenterAndSize(centre, new Vector3().setScalar(2 * this.scaleOfBody[body] * this.kindOf(body).radius)));
     }
-    return extent;
+    return extent.isEmpty() ? undefined : extent;
   }
 
   /** Where a part is at a frame: its mesh is scaled, turned and moved. */
