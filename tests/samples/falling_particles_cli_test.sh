@@ -109,6 +109,37 @@ other_containers() {
     fail "compression.csv does not end as the summary does"
 }
 
+# Grains come and go, the sums balance, and the files are the same with any number of threads.
+feeders_and_sinks() {
+  shortened feeder -e 's/^duration = .*/duration = 1.2/'
+  for threads in 1 2; do
+    expect 0 "$program" -q -t $threads --check-leaks --scene "$work/scenes/feeder.toml" --out "$work/fed$threads"
+  done
+  for file in trajectory.csv energies.csv state.csv feeders.csv sinks.csv scene.glb; do
+    cmp "$work/fed1/feeder/$file" "$work/fed2/feeder/$file" || fail "$file differs with two threads"
+  done
+  awk -F'[ =]+' '/^(at_start|fed|taken|present)\.(grains|mass) / { sum[$1] = $2 }
+    END {
+      mass = sum["fed.mass"] + sum["at_start.mass"] - sum["taken.mass"] - sum["present.mass"]
+      exit !(sum["taken.grains"] > 0 && mass ^ 2 < 1e-12 &&
+             sum["fed.grains"] + sum["at_start.grains"] == sum["taken.grains"] + sum["present.grains"])
+    }' "$work/fed1/feeder/summary.toml" || fail "the sums of [population] do not balance"
+  [ "$(tail -2 "$work/fed1/feeder/feeders.csv" | awk -F, '{ sum += $5 } END { print (sum > 0.0235 && sum < 0.0241) }')" = 1 ] ||
+    fail "not 0.02 kg/s in 1.2 s: $(tail -2 "$work/fed1/feeder/feeders.csv")"
+  local present
+  present=$(sed -n 's/^present.grains *= \([0-9]*\).*/\1/p' "$work/fed1/feeder/summary.toml")
+  [ "$(grep -c '^1.2,' "$work/fed1/feeder/trajectory.csv")" = "$present" ] || fail "the last frame has not the $present grains"
+
+  sed -e 's/^kg_per_second = .*/kg_per_second = 5/' -e 's/^until = .*/patience = 0.1/' "$samples/scenes/feeder.toml" \
+    >"$work/scenes/greedy.toml"
+  expect 1 "$program" -q --scene "$work/scenes/greedy.toml" --out "$work/greedy"
+  grep -q 'feeder "spout" has been behind its rate of 5 kg/s for 0.1[0-9]* s, .*allowed:' "$work/log" ||
+    fail "unclear message: $(cat "$work/log")"
+
+  shortened drum_periodic -e 's/^count = .*/count = 80/' -e 's/^turns_at = .*/turns_at = 0.2/' -e 's/^duration = .*/duration = 0.6/'
+  expect 0 "$program" -q --check-leaks --scene "$work/scenes/drum_periodic.toml" --out "$work/containers"
+}
+
 names_with_quotes() {
   local name='say "grains" \ 1'
   sed 's/^duration = .*/duration = 0.01/' "$samples/scenes/short.toml" >"$work/scenes/$name.toml"
@@ -240,6 +271,7 @@ measurements_are_written
 other_seed_other_result
 bad_input_leaves_nothing
 other_containers
+feeders_and_sinks
 names_with_quotes
 leaks_are_told
 many_grains_are_refused_or_run

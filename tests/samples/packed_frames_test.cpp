@@ -134,7 +134,7 @@ TEST_CASE("bodies that are gone have no number for x, and those that come start 
   packed.add(frame);
   frame.bodies.push_back(body_at(0, 1));
   packed.add(frame);
-  frame.bodies[0] = {.is_present = false};
+  frame.bodies[0] = {{}, {1, 0, 0, 0}, {}, {}, false};
   packed.add(frame);
   std::uint32_t gone = 0, come = 0;
   for (std::size_t index = 0; index < 3; ++index) {
