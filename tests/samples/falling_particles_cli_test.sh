@@ -128,7 +128,7 @@ feeders_and_sinks() {
     fail "not 0.02 kg/s in 1.2 s: $(tail -2 "$work/fed1/feeder/feeders.csv")"
   local present
   present=$(sed -n 's/^present.grains *= \([0-9]*\).*/\1/p' "$work/fed1/feeder/summary.toml")
-  [ "$(grep -c '^1.2,' "$work/fed1/feeder/trajectory.csv")" = "$present" ] || fail "the last frame has not the $present grains"
+  [ "$(grep -c '^1\.2,' "$work/fed1/feeder/trajectory.csv")" = "$present" ] || fail "the last frame has not the $present grains"
 
   sed -e 's/^kg_per_second = .*/kg_per_second = 5/' -e 's/^until = .*/patience = 0.1/' "$samples/scenes/feeder.toml" \
     >"$work/scenes/greedy.toml"
