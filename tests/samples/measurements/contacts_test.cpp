@@ -24,6 +24,51 @@ const std::vector<Placement>& column() {
 
 constexpr int kStepsToRest = 400;
 
+constexpr double kWidth = 0.03;  // m, of a box
+constexpr double kSlice = 0.01;  // m, height of a slice of its bed
+constexpr std::size_t kSlices = 3;
+
+struct BedAtRest {
+  double weight;                           // N, of all grains
+  double force_on_walls = 0;               // N, along z; means of samples from here on
+  std::array<double, kSlices> stress{};    // Pa, along z, of a slice
+  std::array<double, kSlices> expected{};  // Pa
+};
+
+/// Many grains in a box whose walls have next to no friction.
+std::string smooth_box() {
+  const std::string text = replaced(kSceneText, "width = [0.05, 0.06]", "width = [0.03, 0.03]");
+  const std::string bed = replaced(text, "count = 5", "count = 140");
+  return replaced(replaced(bed, "iterations = 20", "iterations = 100"), "coefficient = 0.4", "coefficient = 0.4\nwalls = 1e-6");
+}
+
+/// What a level transmits is the weight of the grains whose centres are above it, and the pressure (Pa) on the bed.
+BedAtRest rest(const std::string& text, double pressure, int steps) {
+  const Scene scene = scene_with("kind = \"stress\"\nlower = [0, 0, 0]\nupper = [0.03, 0.03, 0.03]\nslices = 3\n", text);
+  const Scene walls = scene_with("kind = \"part_force\"\n", text);
+  Random random(3);
+  const World world(scene, place(scene, random));
+  Stepper stepper(world, scene);
+  for (int step = 0; step < steps; ++step) stepper.step();
+  BedAtRest bed{};
+  for (const Body& body : world.bodies()) bed.weight += 9.81 * body.mass.mass;
+  constexpr int kSamples = 50;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    stepper.step(true);
+    const MeasuredTable table = measure(scene, world, &stepper);
+    bed.force_on_walls += measure(walls, world, &stepper).number("force_z_N") / kSamples;
+    for (std::size_t i = 0; i < kSlices; ++i) {
+      bed.stress[i] += table.number("contact_zz_Pa", i) / kSamples;
+      bed.expected[i] += pressure / kSamples;
+      for (const Body& body : world.bodies()) {
+        const double above = std::clamp(body.position()[2] - table.number("lower_m", i), 0.0, kSlice) / kSlice;
+        bed.expected[i] += 9.81 * body.mass.mass * above / (kWidth * kWidth) / kSamples;
+      }
+    }
+  }
+  return bed;
+}
+
 }  // namespace
 
 TEST_CASE("measurements: a pea at rest presses the floor with its weight, and turns it about a point") {
@@ -126,42 +171,24 @@ TEST_CASE("measurements: the kinetic stress is that of the velocities about thei
   CHECK(table.number("deviator_Pa") == relative(expected).epsilon(1e-9));
 }
 
-// The walls have next to no friction, so what a level transmits is the weight of the grains whose centres are above it.
 TEST_CASE("measurements: the stress of a bed at rest is the weight above, and the walls bear the weight") {
-  constexpr double kWidth = 0.03;
-  constexpr double kSlice = 0.01;
-  constexpr std::size_t kSlices = 4;
-  std::string text = replaced(kSceneText, "width = [0.05, 0.06]", "width = [0.03, 0.03]");
-  text = replaced(text, "count = 5", "count = 140");
-  text = replaced(text, "iterations = 20", "iterations = 100");
-  text = replaced(text, "coefficient = 0.4", "coefficient = 0.4\nwalls = 1e-6");
-  const Scene scene = scene_with("kind = \"stress\"\nlower = [0, 0, 0]\nupper = [0.03, 0.03, 0.04]\nslices = 4\n", text);
-  const Scene walls = scene_with("kind = \"part_force\"\n", text);
-  Random random(3);
-  const World world(scene, place(scene, random));
-  Stepper stepper(world, scene);
-  for (int step = 0; step < 2000; ++step) stepper.step();
-  std::array<double, kSlices> stress{};
-  std::array<double, kSlices> expected{};
-  double force = 0;
-  double weight = 0;
-  for (const Body& body : world.bodies()) weight += 9.81 * body.mass.mass;
-  constexpr int kSamples = 50;
-  for (int sample = 0; sample < kSamples; ++sample) {
-    stepper.step(true);
-    const MeasuredTable table = measure(scene, world, &stepper);
-    force += measure(walls, world, &stepper).number("force_z_N") / kSamples;
-    for (std::size_t i = 0; i < kSlices; ++i) {
-      stress[i] += table.number("contact_zz_Pa", i) / kSamples;
-      for (const Body& body : world.bodies()) {
-        const double above = std::clamp(body.position()[2] - table.number("lower_m", i), 0.0, kSlice) / kSlice;
-        expected[i] += 9.81 * body.mass.mass * above / (kWidth * kWidth) / kSamples;
-      }
-    }
-  }
-  CHECK(force == relative(-weight).epsilon(0.01));
+  const BedAtRest bed = rest(smooth_box(), 0, 2000);
+  CHECK(bed.force_on_walls == relative(-bed.weight).epsilon(0.01));
   for (std::size_t i = 0; i < kSlices; ++i) {
     CAPTURE(i);
-    CHECK(stress[i] == relative(expected[i]).epsilon(0.02));
+    CHECK(bed.stress[i] == relative(bed.expected[i]).epsilon(0.02));
+  }
+}
+
+TEST_CASE("measurements: the stress of a bed below a piston is the piston's pressure, and the weights above") {
+  constexpr double kMass = 1e-3;  // kg
+  const std::string peas = replaced(smooth_box(), "[[grain]]\nname = \"die\"\ncount = 2\n", "");
+  const std::string piston =
+      "[[part]]\nname = \"piston\"\nshape = \"box\"\nsize = [0.03, 0.03, 0.01]\nposition = [0.015, 0.015, 0.6]\n"
+      "friction = 1e-6\n[part.drive]\naxis = [0, 0, -1]\npressure = 2000\nmass = 1e-3\ndamping = 2\nfrom = 0.4\n";
+  const BedAtRest bed = rest(peas + piston, 2000 + 9.81 * kMass / (kWidth * kWidth), 3000);
+  for (std::size_t i = 0; i < kSlices; ++i) {
+    CAPTURE(i);
+    CHECK(bed.stress[i] == relative(bed.expected[i]).epsilon(0.02));
   }
 }
