@@ -22,7 +22,7 @@ struct PairCallback {
 
 /// Bodies stay where they are in memory, so the list has room for all from the start.
 std::size_t capacity(const Scene& scene, std::size_t at_start) {
-  double most = static_cast<double>(at_start);
+  auto most = static_cast<double>(at_start);
   for (const Feeder& feeder : scene.feeders) most += most_grains(feeder, scene);
   return static_cast<std::size_t>(most);
 }
