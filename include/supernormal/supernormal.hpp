@@ -7,7 +7,8 @@
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
-///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to()
+///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to(); hertz_correction(),
+///                  hertz_damping_ratio()
 ///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
 ///
 /// Units and frames: lengths in m, or in any other unit that is used throughout; x_world = rotation x_body + position; normals are
@@ -27,6 +28,7 @@
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
+#include "supernormal/contact/hertz.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/plane.hpp"

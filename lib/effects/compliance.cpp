@@ -12,10 +12,10 @@
 #include <numbers>
 
 #include "effects/elastic_geom.hpp"
-#include "effects/hertz.hpp"
 #include "effects/motion.hpp"
 #include "effects/pair_material.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
+#include "supernormal/contact/hertz.hpp"
 
 namespace supernormal::effects {
 namespace {

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "effects/hertz.hpp"
 #include "ode/geom/convert.hpp"
+#include "supernormal/contact/hertz.hpp"
 
 namespace supernormal::effects {
 namespace {

@@ -1,9 +1,9 @@
-#include "effects/hertz.hpp"
+#include "supernormal/contact/hertz.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace supernormal::effects {
+namespace supernormal {
 namespace {
 
 struct EllipticIntegrals {
@@ -91,4 +91,4 @@ double hertz_damping_ratio(double restitution) {
   return 0.5 * (low + high);
 }
 
-}  // namespace supernormal::effects
+}  // namespace supernormal
