@@ -1,0 +1,28 @@
+// A rigid body as contacts see it.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "supernormal/proximity/pose.hpp"
+#include "supernormal/shapes/shape.hpp"
+
+namespace granular {
+
+using supernormal::Matrix3;
+using supernormal::Vector3;
+
+/// A body at an instant, in the world's frame.
+struct Body {
+  const supernormal::Shape* shape = nullptr;
+  supernormal::Pose pose;
+  Vector3 velocity = Vector3::Zero();          ///< m/s; of the origin of the body's frame, its centre of mass
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
+  double inverse_mass = 0;                     ///< 1/kg; 0 for a body that forces do not move
+  Matrix3 inverse_inertia = Matrix3::Zero();   ///< 1/(kg m^2)
+  double width = 0;                            ///< m; the mean half-extent
+
+  /// The velocity, m/s, of the body's point with the given arm from its centre.
+  Vector3 velocity_at(const Vector3& arm) const { return velocity + angular_velocity.cross(arm); }
+};
+
+}  // namespace granular

@@ -1,0 +1,115 @@
+#include "kernel/contact_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace granular {
+namespace {
+
+constexpr double kRollingStiffness = 2.25;  // of the rolling spring, over that of the normal one times rolling_length^2 (Ai et al.,
+                                            // Powder Technology 206, 269 (2011))
+
+/// What a unit force at the contact changes of the relative velocity there: 1/kg.
+struct Mobility {
+  double normal = 0;      ///< along the normal
+  double tangential = 0;  ///< mean over the directions across it
+};
+
+/// Adds the share of one body.
+void add_mobility(const Body& body, const Vector3& arm, const Vector3& n, Mobility& mobility) {
+  const Vector3 lever = arm.cross(n);
+  const double along = lever.dot(body.inverse_inertia * lever);
+  // The trace of [arm]^T J [arm], in which [arm] x = arm cross x.
+  const double all = body.inverse_inertia.trace() * arm.squaredNorm() - arm.dot(body.inverse_inertia * arm);
+  mobility.normal += body.inverse_mass + along;
+  mobility.tangential += body.inverse_mass + 0.5 * (all - along);
+}
+
+/// Turns the springs from the contact's last frame into the present one: by the smallest turn that takes the normal along, and
+/// about the normal with the mean of both bodies.
+class FrameTurn {
+ public:
+  FrameTurn(const Vector3& from, const Vector3& to, double spin)
+      : axis_(from.cross(to)), cosine_(from.dot(to)), to_(to), spin_(spin) {}
+
+  Vector3 operator()(const Vector3& spring) const {
+    const Vector3 tilted = spring + axis_.cross(spring) + axis_.cross(axis_.cross(spring)) / (1 + std::max(cosine_, -0.5));
+    const Vector3 spun = tilted + spin_ * to_.cross(tilted);
+    // What rounding and the second order of the spin have changed is put right: the spring lies in the plane and keeps its length.
+    const Vector3 flat = spun - spun.dot(to_) * to_;
+    const double length = flat.norm();
+    return length > 0 ? Vector3(spring.norm() / length * flat) : Vector3(Vector3::Zero());
+  }
+
+ private:
+  Vector3 axis_;
+  double cosine_;
+  Vector3 to_;
+  double spin_;
+};
+
+/// Advances the springs by a step: turns them, lengthens them by the motion, and keeps their force where the contact grows stiffer:
+/// what comes into contact is not yet strained, so that loading never adds energy to them.
+void advance(const Contact& contact, const Vector3& sliding_rate, const Vector3& rolling_rate, double spin, double stiffness,
+             double step, ContactHistory& history) {
+  const FrameTurn turn(history.has_normal() ? history.normal : contact.normal, contact.normal, spin * step);
+  const double kept = history.stiffness > 0 && history.stiffness < stiffness ? history.stiffness / stiffness : 1;
+  history.sliding = kept * turn(history.sliding) + step * sliding_rate;
+  history.rolling = kept * turn(history.rolling) + step * rolling_rate;
+  history.stiffness = stiffness;
+}
+
+}  // namespace
+
+ContactForce contact_force(const Contact& contact, const NormalForce& elastic, const ContactMaterial& material, const Body& body1,
+                           const Body& body2, double step, ContactHistory& history) {
+  const Vector3& n = contact.normal;
+  Mobility mobility;
+  add_mobility(body1, contact.arm1, n, mobility);
+  add_mobility(body2, contact.arm2, n, mobility);
+  const auto damper = [&](double stiffness, double inverse_mass) {
+    return inverse_mass > 0 ? 2 * material.damping_ratio * std::sqrt(stiffness / inverse_mass) : 0;
+  };
+
+  const Vector3 velocity = body1.velocity_at(contact.arm1) - body2.velocity_at(contact.arm2);
+  const double approach = velocity.dot(n);
+  // The damper of hertz_damping_ratio() refers to 5/6 of the tangent.
+  const double damped_stiffness = material.law == NormalLaw::Hertz ? 5.0 / 6 * elastic.stiffness : elastic.stiffness;
+  ContactForce found;
+  found.normal = std::max(0.0, elastic.force + damper(damped_stiffness, mobility.normal) * approach);
+  found.force = -found.normal * n;
+  found.energy = elastic.energy;
+  if (material.friction == 0 && material.rolling_length == 0) return found;
+
+  const Vector3 sliding_rate = velocity - approach * n;
+  const Vector3 turning = body1.angular_velocity - body2.angular_velocity;
+  const Vector3 rolling_rate = turning - turning.dot(n) * n;
+  const double stiffness = material.tangential_ratio * elastic.stiffness;
+  if (step > 0) {
+    const double spin = 0.5 * (body1.angular_velocity + body2.angular_velocity).dot(n);
+    advance(contact, sliding_rate, rolling_rate, spin, stiffness, step, history);
+  }
+  const auto write = [&](const SliderForce& slider, Vector3& spring) {
+    if (step > 0) spring = slider.spring;
+  };
+  if (material.friction > 0 && stiffness > 0) {
+    const SliderForce friction =
+        slide(history.sliding, sliding_rate, stiffness, damper(stiffness, mobility.tangential), material.friction * found.normal);
+    write(friction, history.sliding);
+    found.force += friction.force;
+    found.energy += 0.5 * stiffness * friction.spring.squaredNorm();
+    found.slips = friction.slips;
+  }
+  if (material.rolling_length > 0 && elastic.stiffness > 0) {
+    const double k = kRollingStiffness * elastic.stiffness * material.rolling_length * material.rolling_length;
+    const double mean_mobility = (body1.inverse_inertia + body2.inverse_inertia).trace() / 3;
+    const SliderForce rolling =
+        slide(history.rolling, rolling_rate, k, damper(k, mean_mobility), material.rolling_length * found.normal);
+    write(rolling, history.rolling);
+    found.rolling_torque = rolling.force;
+    found.energy += 0.5 * k * rolling.spring.squaredNorm();
+  }
+  return found;
+}
+
+}  // namespace granular

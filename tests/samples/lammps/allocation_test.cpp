@@ -1,0 +1,46 @@
+// Tests that the kernel does not allocate. Its executable replaces operator new for everything in it.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "samples/lammps/two_bodies.hpp"
+
+using namespace granular;
+using namespace granular::test;
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  void* const memory = std::malloc(size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+
+TEST_CASE("lammps: a pair in contact and apart is solved without an allocation") {
+  for (const NormalLaw law : {NormalLaw::Hooke, NormalLaw::Hertz}) {
+    const ContactMaterial material{.law = law, .stiffness = 1e5, .restitution = 0.5, .friction = 0.3, .rolling_length = 1e-4};
+    TwoBodies pair{{{0.02, 0.015, 0.01}, 3, 1.5}, {{0.01, 0.01, 0.02}, 8, 8}, prepared(material)};
+    pair.settings.stop_when_apart = true;
+    // The first overlap that is not shallow takes the scratch memory of the thread.
+    pair.second.place({0.02, 0, 0}, Eigen::Quaterniond::Identity());
+    pair.find(1e-5);
+    int touching = 0;
+    const long before = allocations;
+    for (int i = 0; i < 400; ++i) {
+      pair.second.place({0.036 - 2e-5 * i, 0.008, 0.004}, {1, 0.2, 0.1 + 1e-3 * i, 0.3});
+      touching += pair.find(1e-5).state == PairState::Touching ? 1 : 0;
+    }
+    CHECK(allocations == before);
+    CHECK(touching > 50);
+    CHECK(touching < 350);
+  }
+}

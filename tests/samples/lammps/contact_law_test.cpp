@@ -1,0 +1,190 @@
+// What the law of a contact promises.
+#include "kernel/contact_law.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "kernel/damping_ratio.hpp"
+#include "relative.hpp"
+#include "samples/lammps/two_bodies.hpp"
+
+using namespace granular;
+using namespace granular::test;
+using supernormal::test::relative;
+
+namespace {
+
+std::string refusal(const ContactMaterial& material) {
+  try {
+    prepared(material);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Two superellipsoids that overlap by a few per cent of their size.
+TwoBodies overlapping(std::mt19937& random, const ContactMaterial& material) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&] { return Vector3(unit(random), unit(random), unit(random)); };
+  const auto attitude = [&] { return Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized(); };
+  TwoBodies pair{{{0.02, 0.015, 0.01}, 3, 1.7}, {{0.012, 0.015, 0.018}, 2.4, 4}, prepared(material)};
+  pair.first.place({0.1, 0.2, 0.3}, attitude());
+  const Vector3 direction = vector().normalized();
+  double distance = 0.05;
+  pair.second.place(pair.first.body.pose.position + distance * direction, attitude());
+  while (pair.find(0).state != PairState::Touching) {
+    distance -= 2e-4;
+    pair.second.place(pair.first.body.pose.position + distance * direction, pair.second.attitude);
+  }
+  pair.first.set_velocity(vector(), 20 * vector());
+  pair.second.set_velocity(vector(), 20 * vector());
+  return pair;
+}
+
+}  // namespace
+
+TEST_CASE("lammps: materials are refused by name, value and range") {
+  CHECK(refusal({.stiffness = 0}) == "stiffness = 0 is outside (0, inf)");
+  CHECK(refusal({.law = NormalLaw::Hertz, .stiffness = -1}) == "modulus = -1 is outside (0, inf)");
+  CHECK(refusal({.stiffness = 1, .restitution = 0.01}) == "restitution = 0.01 is outside [0.05, 1]");
+  CHECK(refusal({.stiffness = 1, .friction = std::nan("")}) == "friction = nan is outside [0, inf)");
+  CHECK(refusal({.stiffness = 1, .tangential_ratio = 2}) == "tangential = 2 is outside (0, 1]");
+  CHECK(refusal({.stiffness = 1, .rolling_length = -1}) == "rolling = -1 is outside [0, inf)");
+  CHECK(refusal({.stiffness = 1}).empty());
+}
+
+TEST_CASE("lammps: damping and restitution belong together on both sides of critical damping") {
+  CHECK(hooke_damping_ratio(1) == 0);
+  CHECK(hooke_damping_ratio(std::exp(-2.0)) == relative(1).epsilon(1e-6));
+  // At b = 1/sqrt(2) the force vanishes after pi/2 of the damped oscillation.
+  CHECK(hooke_damping_ratio(std::exp(-std::acos(-1.0) / 2)) == relative(std::sqrt(0.5)).epsilon(1e-9));
+  CHECK(hooke_damping_ratio(0.05) > 1);
+}
+
+TEST_CASE("lammps: Hertz's force passes into that of a flat punch without a jump, and is the slope of its energy") {
+  const ContactMaterial material{.law = NormalLaw::Hertz, .stiffness = 1e7};
+  const supernormal::ContactCurvature curvature{0.3, 200};
+  double last = 0;
+  for (double depth = 1e-6; depth < 0.05; depth *= 1.1) {
+    const double h = 1e-5 * depth;
+    const NormalForce here = hertz_force(material, depth, curvature, 0.01);
+    const double slope =
+        (hertz_force(material, depth + h, curvature, 0.01).energy - hertz_force(material, depth - h, curvature, 0.01).energy) /
+        (2 * h);
+    CHECK(here.force == relative(slope).epsilon(1e-4));
+    CHECK(here.force > last);
+    last = here.force;
+  }
+  // Deep down it is the punch, and for a flat contact it is nothing else.
+  CHECK(last == relative(hertz_force(material, 0.05 / 1.1, {}, 0.01).force).epsilon(0.1));
+  CHECK(hertz_force(material, 1e-3, {}, 0.01).force == relative(2e2).epsilon(1e-12));
+}
+
+TEST_CASE("lammps: elastic forces and torques are the slopes of the energy") {
+  std::mt19937 random(7);
+  for (int i = 0; i < 50; ++i) {
+    TwoBodies pair = overlapping(random, {.stiffness = 1e5});
+    const PairContact contact = pair.find(0);
+    const Vector3 position = pair.second.body.pose.position;
+    const Eigen::Quaterniond attitude = pair.second.attitude;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 e = Vector3::Unit(axis);
+      const auto shifted = [&](double h) {
+        pair.second.place(position + h * e, attitude);
+        return pair.find(0).force.energy;
+      };
+      const auto turned = [&](double h) {
+        pair.second.place(position, Eigen::Quaterniond(Eigen::AngleAxisd(h, e)) * attitude);
+        return pair.find(0).force.energy;
+      };
+      // `contact` is that of body 1.
+      CHECK((shifted(1e-8) - shifted(-1e-8)) / 2e-8 == doctest::Approx(contact.force.force[axis]).epsilon(1e-3));
+      CHECK(std::abs((turned(1e-6) - turned(-1e-6)) / 2e-6 + contact.torque2()[axis]) < 1e-3 * contact.force.normal * 0.02);
+    }
+  }
+}
+
+TEST_CASE("lammps: a contact changes neither momentum nor angular momentum") {
+  std::mt19937 random(8);
+  const ContactMaterial material{.stiffness = 1e5, .restitution = 0.5, .friction = 0.4, .rolling_length = 1e-3};
+  for (int i = 0; i < 50; ++i) {
+    TwoBodies pair = overlapping(random, material);
+    for (int step = 0; step < 3; ++step) {
+      const PairContact contact = pair.find(1e-5);
+      const Vector3 change = contact.torque1() + contact.torque2() +
+                             (pair.first.body.pose.position - pair.second.body.pose.position).cross(contact.force.force);
+      CHECK(change.norm() <= 1e-14 * contact.force.force.norm());
+    }
+  }
+}
+
+TEST_CASE("lammps: friction keeps within Coulomb's cone, and turns with the pair") {
+  std::mt19937 random(9);
+  const ContactMaterial material{.stiffness = 1e5, .restitution = 0.7, .friction = 0.4, .rolling_length = 1e-3};
+  for (int i = 0; i < 50; ++i) {
+    TwoBodies pair = overlapping(random, material);
+    const PairContact before = [&] {
+      PairContact last;
+      for (int step = 0; step < 5; ++step) last = pair.find(1e-6);
+      return last;
+    }();
+    const double friction = (before.force.force - before.force.force.dot(before.contact.normal) * before.contact.normal).norm();
+    CHECK(friction <= 0.4 * before.force.normal * (1 + 1e-12));
+    CHECK(before.force.rolling_torque.norm() <= 1e-3 * before.force.normal * (1 + 1e-12));
+    // Both bodies turn by half a revolution as one: the springs come along.
+    const Vector3 spin = 30 * Vector3(1, -2, 0.5).normalized();
+    pair.first.set_velocity(Vector3::Zero(), Vector3::Zero());
+    pair.second.set_velocity(Vector3::Zero(), Vector3::Zero());
+    const PairContact still = pair.find(0);
+    const int steps = 2000;
+    const double step = std::acos(-1.0) / spin.norm() / steps;
+    const Vector3 origin = pair.first.body.pose.position;
+    PairContact turned;
+    Eigen::Quaterniond rotation;
+    const Particle first = pair.first, second = pair.second;
+    for (int k = 1; k <= steps; ++k) {
+      rotation = Eigen::AngleAxisd(k * step * spin.norm(), spin.normalized());
+      pair.first.place(origin, rotation * first.attitude);
+      pair.second.place(origin + rotation * (second.body.pose.position - origin), rotation * second.attitude);
+      pair.first.set_velocity(Vector3::Zero(), spin);
+      pair.second.set_velocity(spin.cross(pair.second.body.pose.position - origin), spin);
+      turned = pair.find(step);
+    }
+    CHECK((turned.force.force - rotation * still.force.force).norm() < 2e-3 * still.force.force.norm());
+    CHECK((turned.force.rolling_torque - rotation * still.force.rolling_torque).norm() <= 2e-3 * still.force.rolling_torque.norm());
+  }
+}
+
+TEST_CASE("lammps: the springs of friction and rolling never give energy while the contact is loaded and unloaded") {
+  ContactMaterial material{.law = NormalLaw::Hertz, .stiffness = 1e7, .friction = 100};
+  TwoBodies pair = balls(0.01, 0, material);
+  const auto set_depth = [&](double depth) { pair.second.place({0.01 - depth, 0, 0}, Eigen::Quaterniond::Identity()); };
+  set_depth(1e-4);
+  pair.second.set_velocity({0, 0.01, 0}, Vector3::Zero());
+  for (int i = 0; i < 100; ++i) pair.find(1e-5);
+  pair.second.set_velocity(Vector3::Zero(), Vector3::Zero());
+  const auto spring_energy = [&] { return 0.5 * pair.history.stiffness * pair.history.sliding.squaredNorm(); };
+  double last = spring_energy();
+  REQUIRE(last > 0);
+  for (const double depth : {1.5e-4, 2e-4, 1.2e-4, 5e-5, 1e-4, 1.5e-4}) {
+    set_depth(depth);
+    pair.find(1e-5);
+    CHECK(spring_energy() <= last * (1 + 1e-12));
+    last = spring_energy();
+  }
+}
+
+TEST_CASE("lammps: a history is stored and read digit by digit") {
+  const ContactHistory history{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10};
+  double values[ContactHistory::kSize];
+  history.store(values);
+  for (int i = 0; i < ContactHistory::kSize; ++i) CHECK(values[i] == i + 1);
+  const ContactHistory read = ContactHistory::load(values);
+  CHECK(read.sliding == history.sliding);
+  CHECK(read.stiffness == history.stiffness);
+}

@@ -1,0 +1,76 @@
+// Shapes of particles and how they turn.
+#include "kernel/particle_shape.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "kernel/free_rotation.hpp"
+#include "kernel/shape_cache.hpp"
+#include "relative.hpp"
+
+using namespace granular;
+using supernormal::test::relative;
+
+TEST_CASE("lammps: the bounding radius is the farthest point's distance") {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (const auto& [delta, epsilon] : {std::pair(1.3, 1.6), {2.0, 2.0}, {2.5, 8.0}, {8.0, 1.5}, {1.5, 50.0}, {100.0, 100.0}}) {
+    const Vector3 axes(0.02, 0.015, 0.008);
+    const ParticleShape shape(axes, delta, epsilon);
+    // r(n) is the point itself where it is farthest away: climb there from many starts.
+    double farthest = 0;
+    for (int start = 0; start < 50; ++start) {
+      Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized();
+      for (int i = 0; i < 3000; ++i) n = (n + shape.body.point(n).normalized()).normalized();
+      farthest = std::max(farthest, shape.body.point(n).norm());
+    }
+    CAPTURE(delta);
+    CHECK(shape.bounding_radius == relative(farthest).epsilon(1e-4));
+    CHECK(shape.bounding_radius >= farthest * (1 - 1e-12));
+  }
+}
+
+TEST_CASE("lammps: an ellipsoid has its volume and inertia") {
+  const ParticleShape shape({0.3, 0.2, 0.1}, 2, 2);
+  CHECK(shape.volume == relative(4.0 / 3 * std::acos(-1.0) * 0.006).epsilon(1e-12));
+  CHECK(shape.unit_inertia.x() == relative((0.04 + 0.01) / 5).epsilon(1e-12));
+  CHECK(shape.unit_inertia.z() == relative((0.09 + 0.04) / 5).epsilon(1e-12));
+}
+
+TEST_CASE("lammps: shapes are made once") {
+  ShapeCache cache;
+  const ParticleShape& shape = cache.find({1, 2, 3}, 2, 4);
+  CHECK(&cache.find({1, 2, 3}, 2, 4) == &shape);
+  CHECK(&cache.find({1, 2, 3}, 4, 2) != &shape);
+  CHECK(cache.size() == 2);
+}
+
+TEST_CASE("lammps: a symmetric top precesses as Euler says") {
+  // With the moments I1 = I2, the axis turns about the angular momentum L at L/I1.
+  const Vector3 inertia(2, 2, 0.5), momentum(0.3, 0, 1);
+  const double period = 2 * std::acos(-1.0) / (momentum.norm() / inertia.x());
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
+  const int steps = 2000;
+  for (int i = 0; i < steps; ++i) attitude = rotate_freely(attitude, momentum, inertia, period / steps);
+  CHECK((attitude * Vector3::UnitZ() - Vector3::UnitZ()).norm() < 1e-5);
+}
+
+TEST_CASE("lammps: the energy of an asymmetric top does not drift") {
+  const Vector3 inertia(1, 2, 3), momentum(0.1, 2, 0.1);
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
+  const auto energy = [&] {
+    const Vector3 body = attitude.conjugate() * momentum;
+    return 0.5 * body.cwiseProduct(body).cwiseQuotient(inertia).sum();
+  };
+  const double start = energy();
+  double largest = 0, late = 0;
+  for (int i = 0; i < 200000; ++i) {
+    attitude = rotate_freely(attitude, momentum, inertia, 0.02);
+    const double error = std::abs(energy() - start) / start;
+    (i < 20000 ? largest : late) = std::max(i < 20000 ? largest : late, error);
+  }
+  CHECK(largest < 1e-4);
+  CHECK(late < 1.1 * largest);
+}

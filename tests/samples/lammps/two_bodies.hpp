@@ -1,0 +1,125 @@
+// Two bodies of the kernel of samples/lammps, and their motion.
+#pragma once
+
+#include <cmath>
+#include <memory>
+
+#include "kernel/free_rotation.hpp"
+#include "kernel/pair_contact.hpp"
+#include "kernel/particle_shape.hpp"
+
+namespace granular::test {
+
+constexpr double kDensity = 2500;  // kg/m^3
+
+/// A free body with its mass and momentum.
+class Particle {
+ public:
+  Particle(const Vector3& half_axes, double delta, double epsilon)
+      : shape(std::make_shared<ParticleShape>(half_axes, delta, epsilon)), mass(kDensity * shape->volume) {
+    place(Vector3::Zero(), Eigen::Quaterniond::Identity());
+  }
+
+  void place(const Vector3& position, const Eigen::Quaterniond& rotation) {
+    attitude = rotation.normalized();
+    body.pose.position = position;
+    update();
+  }
+  void set_velocity(const Vector3& linear, const Vector3& angular) {
+    body.velocity = linear;
+    momentum = inertia_tensor() * angular;
+    update();
+  }
+  void kick(const Vector3& force, const Vector3& torque, double step) {
+    body.velocity += step / mass * force;
+    momentum += step * torque;
+    update();
+  }
+  void drift(double step) {
+    body.pose.position += step * body.velocity;
+    attitude = rotate_freely(attitude, momentum, mass * shape->unit_inertia, step);
+    update();
+  }
+  double kinetic_energy() const { return 0.5 * mass * body.velocity.squaredNorm() + 0.5 * momentum.dot(body.angular_velocity); }
+
+  std::shared_ptr<const ParticleShape> shape;
+  double mass;  ///< kg
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
+  Vector3 momentum = Vector3::Zero();  ///< kg m^2/s; of the spin
+  Body body;
+
+ private:
+  Matrix3 inertia_tensor() const {
+    return body.pose.rotation * (mass * shape->unit_inertia).asDiagonal() * body.pose.rotation.transpose();
+  }
+  void update() {
+    body.shape = &shape->body;
+    body.width = shape->width;
+    body.pose.rotation = attitude.toRotationMatrix();
+    body.inverse_mass = 1 / mass;
+    body.inverse_inertia =
+        body.pose.rotation * (mass * shape->unit_inertia).cwiseInverse().asDiagonal() * body.pose.rotation.transpose();
+    body.angular_velocity = body.inverse_inertia * momentum;
+  }
+};
+
+/// Two bodies and what their contact remembers.
+struct TwoBodies {
+  Particle first, second;
+  ContactMaterial material;
+  ContactHistory history{};
+  supernormal::Settings settings{};
+
+  PairContact find(double step) { return find_pair_contact(first.body, second.body, material, settings, step, history); }
+
+  /// A step of velocity Verlet as LAMMPS takes it; `last` holds the contact before and after it.
+  void advance(double step, PairContact& last) {
+    const auto kick = [&] {
+      if (last.state != PairState::Touching) return;
+      first.kick(last.force.force, last.torque1(), 0.5 * step);
+      second.kick(-last.force.force, last.torque2(), 0.5 * step);
+    };
+    kick();
+    first.drift(step);
+    second.drift(step);
+    last = find(step);
+    kick();
+  }
+};
+
+/// Two balls of a radius (m) that are about to touch along x and come together with the speed (m/s).
+inline TwoBodies balls(double radius, double speed, const ContactMaterial& material) {
+  const Vector3 axes = Vector3::Constant(radius);
+  TwoBodies pair{{axes, 2, 2}, {axes, 2, 2}, prepared(material)};
+  pair.first.place({-radius, 0, 0}, Eigen::Quaterniond::Identity());
+  pair.second.place({radius, 0, 0}, Eigen::Quaterniond::Identity());
+  pair.first.set_velocity({0.5 * speed, 0, 0}, Vector3::Zero());
+  pair.second.set_velocity({-0.5 * speed, 0, 0}, Vector3::Zero());
+  return pair;
+}
+
+/// What an impact was.
+struct Impact {
+  double time = 0;     ///< s
+  double overlap = 0;  ///< m; the largest
+};
+
+/// Runs until the bodies part.
+inline Impact collide(TwoBodies& pair, double step) {
+  Impact impact;
+  PairContact last;
+  bool touched = false;
+  for (int i = 0; i < 1000000; ++i) {
+    pair.advance(step, last);
+    if (last.state == PairState::Touching) {
+      touched = true;
+      impact.time += step;
+      impact.overlap = std::max(impact.overlap, last.contact.depth);
+    } else if (touched) {
+      break;
+    }
+  }
+  return impact;
+}
+
+}  // namespace granular::test
