@@ -1,0 +1,85 @@
+#include "styles/coefficients.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "pointers.h"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "utils.h"
+
+namespace granular {
+namespace {
+
+/// The words one after the other.
+class Words {
+ public:
+  Words(std::span<char*> words, LAMMPS_NS::LAMMPS* lammps) : words_(words), lammps_(lammps) {}
+
+  bool is_empty() const { return words_.empty(); }
+  std::string next() {
+    const std::string word = words_.front();
+    words_ = words_.subspan(1);
+    return word;
+  }
+  double number(const std::string& keyword) {
+    if (is_empty()) throw std::invalid_argument(keyword + " takes another number");
+    return LAMMPS_NS::utils::numeric(FLERR, next().c_str(), false, lammps_);
+  }
+
+ private:
+  std::span<char*> words_;
+  LAMMPS_NS::LAMMPS* lammps_;
+};
+
+double exponent(double value) {
+  using supernormal::Superellipsoid;
+  if (!(value >= Superellipsoid::kMinExponent && value <= Superellipsoid::kMaxExponent)) {
+    throw std::invalid_argument("exponent = " + std::to_string(value) + " is outside [1.01, 1000]");
+  }
+  return value;
+}
+
+}  // namespace
+
+Coefficients read_coefficients(std::span<char*> arguments, LAMMPS_NS::LAMMPS* lammps) {
+  Words words(arguments, lammps);
+  Coefficients found;
+  ContactMaterial& material = found.material;
+  double tangential = 0;
+  bool has_parameters = false;
+  while (!words.is_empty()) {
+    const std::string keyword = words.next();
+    if (keyword == "hooke") {
+      material.law = NormalLaw::Hooke;
+      material.stiffness = words.number(keyword);
+      found.has_material = true;
+    } else if (keyword == "hertz") {
+      material.law = NormalLaw::Hertz;
+      const double modulus = words.number(keyword), poisson_ratio = words.number(keyword);
+      material.stiffness = effective_modulus(modulus, poisson_ratio);
+      material.tangential_ratio = mindlin_ratio(poisson_ratio);
+      found.has_material = true;
+    } else if (keyword == "exponents") {
+      found.delta = exponent(words.number(keyword));
+      found.epsilon = exponent(words.number(keyword));
+      found.has_exponents = true;
+    } else {
+      double* const parameter = keyword == "restitution"  ? &material.restitution
+                                : keyword == "friction"   ? &material.friction
+                                : keyword == "tangential" ? &tangential
+                                : keyword == "rolling"    ? &material.rolling_length
+                                                          : nullptr;
+      if (parameter == nullptr) {
+        throw std::invalid_argument(keyword + " is none of hooke, hertz, restitution, friction, tangential, rolling, exponents");
+      }
+      *parameter = words.number(keyword);
+      has_parameters = true;
+    }
+  }
+  if (has_parameters && !found.has_material) throw std::invalid_argument("the law is missing: hooke or hertz");
+  if (tangential != 0) material.tangential_ratio = tangential;
+  if (found.has_material) material = prepared(material);
+  return found;
+}
+
+}  // namespace granular

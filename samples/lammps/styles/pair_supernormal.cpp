@@ -1,0 +1,280 @@
+#include "styles/pair_supernormal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_neigh_history.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "styles/coefficients.hpp"
+#include "update.h"
+
+namespace granular {
+
+using namespace LAMMPS_NS;
+
+PairSupernormal::PairSupernormal(LAMMPS* lammps) : Pair(lammps) {
+  query_settings_.stop_when_apart = true;
+  single_enable = 1;
+  restartinfo = 1;
+  no_virial_fdotr_compute = 1;
+  // The history goes along with every pair of which anything is known, also of those that are apart.
+  beyond_contact = 1;
+  nondefault_history_transfer = 1;
+  nextra = kSums;
+  pvector = sums_.data();
+  single_extra = kSingles;
+  svector = singles_.data();
+  // The fix that keeps the history can be made when the run starts only; until then another one keeps its place in the list of
+  // fixes.
+  modify->add_fix("SUPERNORMAL_PLACE_" + std::to_string(instance_me) + " all DUMMY");
+}
+
+PairSupernormal::~PairSupernormal() {
+  const std::string number = std::to_string(instance_me);
+  modify->delete_fix((history_ == nullptr ? "SUPERNORMAL_PLACE_" : "SUPERNORMAL_HISTORY_") + number);
+  if (allocated != 0) {
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+  }
+}
+
+PairSupernormal& PairSupernormal::require(LAMMPS* lammps, const char* who) {
+  auto* pair = dynamic_cast<PairSupernormal*>(lammps->force->pair_match("supernormal", 1));
+  if (pair == nullptr || pair->bodies_ == nullptr) {
+    lammps->error->all(FLERR, std::string(who) + " takes a pair_style supernormal with its coefficients");
+  }
+  return *pair;
+}
+
+std::size_t PairSupernormal::index(int i, int j) const {
+  return static_cast<std::size_t>(i) * (static_cast<std::size_t>(atom->ntypes) + 1) + static_cast<std::size_t>(j);
+}
+
+void PairSupernormal::allocate() {
+  allocated = 1;
+  const int size = atom->ntypes + 1;
+  memory->create(setflag, size, size, "pair:setflag");
+  memory->create(cutsq, size, size, "pair:cutsq");
+  for (int i = 0; i < size; ++i) std::fill_n(setflag[i], size, 0);
+  materials_.resize(index(size, 0));
+  bodies_ = std::make_unique<BodyTable>(lmp, atom->ntypes);
+}
+
+void PairSupernormal::settings(int count, char** words) {
+  if (count == 0) return;
+  if (count != 2 || std::string(words[0]) != "tolerance") {
+    error->all(FLERR, "pair_style supernormal takes nothing, or: tolerance VALUE");
+  }
+  query_settings_.tolerance = utils::numeric(FLERR, words[1], false, lmp);
+  if (!(query_settings_.tolerance >= 1e-15 && query_settings_.tolerance <= 1)) {
+    error->all(FLERR, std::string("pair_style supernormal: tolerance = ") + words[1] + " is outside [1e-15, 1]");
+  }
+}
+
+void PairSupernormal::coeff(int count, char** words) {
+  if (allocated == 0) allocate();
+  if (count < 3) error->all(FLERR, "pair_coeff takes two types and what is set for them");
+  int low = 0, high = 0, low2 = 0, high2 = 0;
+  utils::bounds(FLERR, words[0], 1, atom->ntypes, low, high, error);
+  utils::bounds(FLERR, words[1], 1, atom->ntypes, low2, high2, error);
+  try {
+    const Coefficients found = read_coefficients({words + 2, words + count}, lmp);
+    if (found.has_exponents) {
+      if (low != low2 || high != high2) error->all(FLERR, "pair_coeff: exponents belong to a type: name the same one twice");
+      for (int type = low; type <= high; ++type) bodies_->exponents(type) = {found.delta, found.epsilon};
+    }
+    if (found.has_material) set_material(low, high, low2, high2, found.material);
+  } catch (const std::invalid_argument& refusal) {
+    error->all(FLERR, std::string("pair_coeff: ") + refusal.what());
+  }
+}
+
+void PairSupernormal::set_material(int low, int high, int low2, int high2, const ContactMaterial& material) {
+  for (int i = low; i <= high; ++i) {
+    for (int j = low2; j <= high2; ++j) {
+      materials_[index(i, j)] = materials_[index(j, i)] = material;
+      setflag[std::min(i, j)][std::max(i, j)] = 1;
+    }
+  }
+}
+
+void PairSupernormal::init_style() {
+  if (comm->ghost_velocity == 0) error->all(FLERR, "pair_style supernormal takes: comm_modify vel yes");
+  if (force->ftm2v != 1)
+    error->all(FLERR, "pair_style supernormal takes units in which force is mass times acceleration: si, cgs, lj");
+  if (atom->tag_enable == 0) error->all(FLERR, "pair_style supernormal takes atoms with tags");
+  const int request = neighbor->request(this, instance_me);
+  neighbor->requests[request]->history = 1;
+  if (history_ == nullptr) {
+    const std::string number = std::to_string(instance_me);
+    const std::string made = "SUPERNORMAL_HISTORY_" + number + " all NEIGH_HISTORY " + std::to_string(ContactHistory::kSize);
+    history_ = dynamic_cast<FixNeighHistory*>(modify->replace_fix("SUPERNORMAL_PLACE_" + number, made, 1));
+    history_->pair = this;
+  }
+  largest_radii_ = bodies_->find_largest_radii();
+}
+
+double PairSupernormal::init_one(int i, int j) {
+  if (setflag[std::min(i, j)][std::max(i, j)] == 0) {
+    error->all(FLERR, "pair_coeff: no contact law for types " + std::to_string(i) + " and " + std::to_string(j));
+  }
+  return largest_radii_[static_cast<std::size_t>(i)] + largest_radii_[static_cast<std::size_t>(j)];
+}
+
+void PairSupernormal::compute(int eflag, int vflag) {
+  ev_init(eflag, vflag);
+  sums_.fill(0);
+  if (neighbor->ago == 0) bodies_->assign_shapes();
+  bodies_->read_motion();
+  // What is computed before the first step is computed from a state whose springs are up to date.
+  const double step = update->setupflag != 0 ? 0 : update->dt;
+  for (int k = 0; k < list->inum; ++k) compute_neighbors(list->ilist[k], step);
+}
+
+void PairSupernormal::compute_neighbors(int i, double step) {
+  const int* neighbors = list->firstneigh[i];
+  int* known = history_->firstflag[i];
+  double* values = history_->firstvalue[i];
+  for (int k = 0; k < list->numneigh[i]; ++k) {
+    const int j = neighbors[k] & NEIGHMASK;
+    double* pair_values = values + k * ContactHistory::kSize;
+    const Vector3 apart = Vector3::Map(atom->x[i]) - Vector3::Map(atom->x[j]);
+    const double reach = bodies_->shape(i).bounding_radius + bodies_->shape(j).bounding_radius;
+    if (apart.squaredNorm() >= reach * reach) {
+      if (step > 0 && known[k] != 0) {
+        known[k] = 0;
+        ContactHistory().store(pair_values);
+      }
+      continue;
+    }
+    ContactHistory history = ContactHistory::load(pair_values);
+    const PairContact pair = solve(i, j, step, history);
+    if (step > 0) {
+      known[k] = 1;
+      history.store(pair_values);
+    }
+    // With newton off, two ranks count a pair of an owned particle and a ghost.
+    const double share = force->newton_pair != 0 || j < atom->nlocal ? 1 : 0.5;
+    sums_[kQueries] += share;
+    sums_[kEvaluations] += share * pair.evaluations;
+    if (pair.state == PairState::Apart) continue;
+    sums_[kContacts] += share;
+    sums_[kSlipping] += pair.force.slips ? share : 0;
+    apply(i, j, pair);
+  }
+}
+
+PairContact PairSupernormal::solve(int i, int j, double step, ContactHistory& history) const {
+  const bool ordered = atom->tag[i] < atom->tag[j];
+  const int first = ordered ? i : j, second = ordered ? j : i;
+  const PairContact pair = find_pair_contact(bodies_->body(first), bodies_->body(second), material(atom->type[i], atom->type[j]),
+                                             query_settings_, step, history);
+  if (pair.state == PairState::Failed) {
+    error->one(FLERR, "supernormal: the positions of atoms " + std::to_string(atom->tag[first]) + " and " +
+                          std::to_string(atom->tag[second]) + " are not finite; a smaller timestep may help");
+  }
+  return pair;
+}
+
+void PairSupernormal::apply(int i, int j, const PairContact& pair) {
+  const bool ordered = atom->tag[i] < atom->tag[j];
+  const Vector3 force_i = ordered ? pair.force.force : Vector3(-pair.force.force);
+  const Vector3 torque_i = ordered ? pair.torque1() : pair.torque2();
+  const Vector3 torque_j = ordered ? pair.torque2() : pair.torque1();
+  const bool newton = force->newton_pair != 0;
+  Vector3::Map(atom->f[i]) += force_i;
+  Vector3::Map(atom->torque[i]) += torque_i;
+  if (newton || j < atom->nlocal) {
+    Vector3::Map(atom->f[j]) -= force_i;
+    Vector3::Map(atom->torque[j]) += torque_j;
+  }
+  if (evflag != 0) {
+    const Vector3 apart = bodies_->body(i).pose.position - bodies_->body(j).pose.position;
+    ev_tally_xyz(i, j, atom->nlocal, newton ? 1 : 0, pair.force.energy, 0, force_i.x(), force_i.y(), force_i.z(), apart.x(),
+                 apart.y(), apart.z());
+  }
+}
+
+const double* PairSupernormal::find_history(int i, int j) const {
+  for (const auto& [owner, other] : {std::pair(i, j), std::pair(j, i)}) {
+    if (owner >= atom->nlocal) continue;
+    const int* begin = list->firstneigh[owner];
+    const int* end = begin + list->numneigh[owner];
+    const int* found = std::find_if(begin, end, [o = other](int entry) { return (entry & NEIGHMASK) == o; });
+    if (found != end) return history_->firstvalue[owner] + (found - begin) * ContactHistory::kSize;
+  }
+  return nullptr;
+}
+
+double PairSupernormal::single(int i, int j, int /*itype*/, int /*jtype*/, double square, double /*coul*/, double /*lj*/,
+                               double& force_over_distance) {
+  force_over_distance = 0;
+  singles_.fill(0);
+  const double* values = find_history(i, j);
+  ContactHistory history = values == nullptr ? ContactHistory() : ContactHistory::load(values);
+  const PairContact pair = solve(i, j, 0, history);
+  if (pair.state == PairState::Apart) return 0;
+  const double sign = atom->tag[i] < atom->tag[j] ? 1 : -1;
+  const Vector3 force_i = sign * pair.force.force;
+  const Vector3 point = bodies_->body(atom->tag[i] < atom->tag[j] ? i : j).pose.position + pair.contact.arm1;
+  Vector3::Map(&singles_[0]) = force_i;
+  Vector3::Map(&singles_[3]) = point;
+  Vector3::Map(&singles_[6]) = sign * pair.contact.normal;
+  singles_[9] = pair.contact.depth;
+  singles_[10] = pair.force.normal;
+  singles_[11] = pair.force.slips ? 1 : 0;
+  force_over_distance = force_i.dot(Vector3::Map(atom->x[i]) - Vector3::Map(atom->x[j])) / square;
+  return pair.force.energy;
+}
+
+void PairSupernormal::transfer_history(double* from, double* to) { std::copy_n(from, ContactHistory::kSize, to); }
+
+double PairSupernormal::memory_usage() { return Pair::memory_usage() + bodies_->bytes(); }
+
+void PairSupernormal::write_restart(FILE* file) { exchange_coefficients(file, true); }
+
+void PairSupernormal::read_restart(FILE* file) {
+  allocate();
+  exchange_coefficients(file, false);
+}
+
+void PairSupernormal::exchange_coefficients(FILE* file, bool write) {
+  const auto exchange = [&](double& value) {
+    if (write) {
+      fwrite(&value, sizeof(double), 1, file);
+    } else {
+      if (comm->me == 0) utils::sfread(FLERR, &value, sizeof(double), 1, file, nullptr, error);
+      MPI_Bcast(&value, 1, MPI_DOUBLE, 0, world);
+    }
+  };
+  exchange(query_settings_.tolerance);
+  for (int i = 1; i <= atom->ntypes; ++i) {
+    exchange(bodies_->exponents(i).delta);
+    exchange(bodies_->exponents(i).epsilon);
+    for (int j = i; j <= atom->ntypes; ++j) {
+      double is_set = setflag[i][j];
+      exchange(is_set);
+      ContactMaterial material = materials_[index(i, j)];
+      double law = material.law == NormalLaw::Hertz ? 1 : 0;
+      for (double* value : {&law, &material.stiffness, &material.restitution, &material.friction, &material.tangential_ratio,
+                            &material.rolling_length, &material.damping_ratio}) {
+        exchange(*value);
+      }
+      material.law = law != 0 ? NormalLaw::Hertz : NormalLaw::Hooke;
+      setflag[i][j] = static_cast<int>(is_set);
+      materials_[index(i, j)] = materials_[index(j, i)] = material;
+    }
+  }
+}
+
+}  // namespace granular

@@ -1,0 +1,66 @@
+// pair_style supernormal: superellipsoids that touch.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "kernel/pair_contact.hpp"
+#include "pair.h"
+#include "styles/body_table.hpp"
+
+namespace LAMMPS_NS {
+class FixNeighHistory;
+}
+
+namespace granular {
+
+/// The pair style (README.md has its commands). A pair is always solved with the particle of the smaller tag as body 1, so that
+/// every rank that solves it finds the same force, and its history means the same to both.
+class PairSupernormal : public LAMMPS_NS::Pair {
+ public:
+  explicit PairSupernormal(LAMMPS_NS::LAMMPS* lammps);
+  ~PairSupernormal() override;
+
+  void settings(int count, char** words) override;
+  void coeff(int count, char** words) override;
+  void init_style() override;
+  double init_one(int i, int j) override;
+  void compute(int eflag, int vflag) override;
+  double single(int i, int j, int itype, int jtype, double square, double coul, double lj, double& force_over_distance) override;
+  void transfer_history(double* from, double* to) override;
+  double memory_usage() override;
+
+  void write_restart(FILE* file) override;
+  void read_restart(FILE* file) override;
+
+  /// The style of a simulation, or an error of LAMMPS that names who needs it.
+  static PairSupernormal& require(LAMMPS_NS::LAMMPS* lammps, const char* who);
+
+  BodyTable& bodies() { return *bodies_; }
+  const ContactMaterial& material(int i, int j) const { return materials_[index(i, j)]; }
+  const supernormal::Settings& query_settings() const { return query_settings_; }
+
+ private:
+  enum Sum { kContacts, kSlipping, kQueries, kEvaluations, kSums };  // compute pair
+  static constexpr int kSingles = 12;                                // compute pair/local
+
+  void allocate();
+  std::size_t index(int i, int j) const;
+  PairContact solve(int i, int j, double step, ContactHistory& history) const;
+  void apply(int i, int j, const PairContact& pair);
+  void compute_neighbors(int i, double step);
+  void set_material(int low, int high, int low2, int high2, const ContactMaterial& material);
+  void exchange_coefficients(FILE* file, bool write);
+  const double* find_history(int i, int j) const;
+
+  std::unique_ptr<BodyTable> bodies_;
+  std::vector<double> largest_radii_;       // m; by type
+  std::vector<ContactMaterial> materials_;  // by pair of types
+  supernormal::Settings query_settings_;
+  LAMMPS_NS::FixNeighHistory* history_ = nullptr;
+  std::array<double, kSums> sums_{};
+  std::array<double, kSingles> singles_{};
+};
+
+}  // namespace granular

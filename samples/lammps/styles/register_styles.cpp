@@ -1,0 +1,33 @@
+#include "styles/register_styles.hpp"
+
+#include "force.h"
+#include "modify.h"
+#include "styles/fix_nve_supernormal.hpp"
+#include "styles/pair_supernormal.hpp"
+
+namespace granular {
+namespace {
+
+using LAMMPS_NS::Fix;
+using LAMMPS_NS::LAMMPS;
+using LAMMPS_NS::Pair;
+
+// LAMMPS takes plain pointers and deletes what they point to.
+template <typename Style>
+Pair* create_pair(LAMMPS* lammps) {
+  return new Style(lammps);
+}
+
+template <typename Style>
+Fix* create_fix(LAMMPS* lammps, int count, char** words) {
+  return new Style(lammps, count, words);
+}
+
+}  // namespace
+
+void register_styles(LAMMPS& lammps) {
+  (*lammps.force->pair_map)["supernormal"] = &create_pair<PairSupernormal>;
+  (*lammps.modify->fix_map)["nve/supernormal"] = &create_fix<FixNveSupernormal>;
+}
+
+}  // namespace granular
