@@ -1,0 +1,44 @@
+"""Forces do not depend on how many ranks share the particles, and a restarted run makes the same bytes."""
+
+import filecmp
+
+BED = "bed.restart"
+
+
+def largest_difference(rows, reference, columns):
+    """The largest difference of the vectors in these columns, over the longest of the reference."""
+    longest = max(sum(row[c] ** 2 for c in columns) ** 0.5 for row in reference)
+    return max(sum((row[c] - other[c]) ** 2 for c in columns) ** 0.5 for row, other in zip(rows, reference)) / longest
+
+
+def check_forces(driver):
+    """Against one rank with Newton's third law on; after 20 steps, springs of friction and rolling have grown."""
+    reference = None
+    for ranks in (1, 2, 4):
+        for newton in ("on", "off"):
+            dump = f"forces_{ranks}_{newton}.dump"
+            driver.run("dense_forces", ranks, newton=newton, bed=BED, steps=20, out=dump)
+            frames = driver.dump(dump)
+            if reference is None:
+                reference = frames
+                continue
+            for step, rows in frames.items():
+                for quantity, columns in (("forces", (7, 8, 9)), ("torques", (10, 11, 12))):
+                    difference = largest_difference(rows, reference[step], columns)
+                    yield f"{ranks} ranks, newton {newton}, step {step}: {quantity}", difference, 1e-10
+
+
+def check_restart(driver):
+    for ranks in (1, 2):
+        whole, again = f"whole_{ranks}", f"again_{ranks}"
+        driver.run("dense_restart", ranks, bed=BED, until=4400, every=100, out=whole)
+        driver.run("dense_restart", ranks, bed=f"{whole}.4200.restart", until=4400, every=100, out=again)
+        same = filecmp.cmp(driver.folder / f"{whole}.4400.restart", driver.folder / f"{again}.4400.restart", shallow=False)
+        yield f"{ranks} ranks: restarted run differs", 0 if same else 1, 0
+
+
+def check(driver):
+    """Yields the name, the value and the limit of each comparison."""
+    driver.run("dense", out=BED)
+    yield from check_forces(driver)
+    yield from check_restart(driver)
