@@ -8,9 +8,10 @@ import time
 import collision
 import gas
 import ranks
+import walls
 from driver import Driver
 
-CHECKS = {"collision": collision.check, "gas": gas.check, "ranks": ranks.check}
+CHECKS = {"collision": collision.check, "gas": gas.check, "ranks": ranks.check, "walls": walls.check}
 
 
 def main():

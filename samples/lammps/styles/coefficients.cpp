@@ -3,33 +3,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "pointers.h"
 #include "supernormal/shapes/superellipsoid.hpp"
-#include "utils.h"
 
 namespace granular {
 namespace {
-
-/// The words one after the other.
-class Words {
- public:
-  Words(std::span<char*> words, LAMMPS_NS::LAMMPS* lammps) : words_(words), lammps_(lammps) {}
-
-  bool is_empty() const { return words_.empty(); }
-  std::string next() {
-    const std::string word = words_.front();
-    words_ = words_.subspan(1);
-    return word;
-  }
-  double number(const std::string& keyword) {
-    if (is_empty()) throw std::invalid_argument(keyword + " takes another number");
-    return LAMMPS_NS::utils::numeric(FLERR, next().c_str(), false, lammps_);
-  }
-
- private:
-  std::span<char*> words_;
-  LAMMPS_NS::LAMMPS* lammps_;
-};
 
 double exponent(double value) {
   using supernormal::Superellipsoid;
@@ -41,14 +18,13 @@ double exponent(double value) {
 
 }  // namespace
 
-Coefficients read_coefficients(std::span<char*> arguments, LAMMPS_NS::LAMMPS* lammps) {
-  Words words(arguments, lammps);
+Coefficients read_coefficients(Words words) {
   Coefficients found;
   ContactMaterial& material = found.material;
   double tangential = 0;
   bool has_parameters = false;
   while (!words.is_empty()) {
-    const std::string keyword = words.next();
+    const std::string keyword = words.next("");
     if (keyword == "hooke") {
       material.law = NormalLaw::Hooke;
       material.stiffness = words.number(keyword);

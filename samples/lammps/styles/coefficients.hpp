@@ -1,10 +1,8 @@
 // The words of pair_coeff and of the walls that say what a contact is like.
 #pragma once
 
-#include <span>
-
 #include "kernel/contact_material.hpp"
-#include "lammps.h"
+#include "styles/words.hpp"
 
 namespace granular {
 
@@ -20,6 +18,6 @@ struct Coefficients {
 ///     hooke STIFFNESS | hertz YOUNGS_MODULUS POISSON_RATIO, restitution E, friction MU, tangential RATIO, rolling LENGTH,
 ///     exponents DELTA EPSILON
 /// in any order; all but the law have defaults. std::invalid_argument says what is wrong.
-Coefficients read_coefficients(std::span<char*> words, LAMMPS_NS::LAMMPS* lammps);
+Coefficients read_coefficients(Words words);
 
 }  // namespace granular

@@ -88,7 +88,7 @@ void PairSupernormal::coeff(int count, char** words) {
   utils::bounds(FLERR, words[0], 1, atom->ntypes, low, high, error);
   utils::bounds(FLERR, words[1], 1, atom->ntypes, low2, high2, error);
   try {
-    const Coefficients found = read_coefficients({words + 2, words + count}, lmp);
+    const Coefficients found = read_coefficients(Words({words + 2, words + count}, lmp));
     if (found.has_exponents) {
       if (low != low2 || high != high2) error->all(FLERR, "pair_coeff: exponents belong to a type: name the same one twice");
       for (int type = low; type <= high; ++type) bodies_->exponents(type) = {found.delta, found.epsilon};

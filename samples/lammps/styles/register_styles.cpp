@@ -3,6 +3,7 @@
 #include "force.h"
 #include "modify.h"
 #include "styles/fix_nve_supernormal.hpp"
+#include "styles/fix_wall_supernormal.hpp"
 #include "styles/pair_supernormal.hpp"
 
 namespace granular {
@@ -28,6 +29,7 @@ Fix* create_fix(LAMMPS* lammps, int count, char** words) {
 void register_styles(LAMMPS& lammps) {
   (*lammps.force->pair_map)["supernormal"] = &create_pair<PairSupernormal>;
   (*lammps.modify->fix_map)["nve/supernormal"] = &create_fix<FixNveSupernormal>;
+  (*lammps.modify->fix_map)["wall/supernormal"] = &create_fix<FixWallSupernormal>;
 }
 
 }  // namespace granular

@@ -1,0 +1,56 @@
+"""Walls carry what lies on them, and a drum turns what is in it."""
+
+import itertools
+
+WEIGHT_STEPS = 16000
+
+
+def write_pan(path, half, height, cells):
+    """An open box of triangles as an STL file: z = 0 to `height`, seen from inside."""
+    facets = []
+
+    def quad(a, b, c, d):
+        facets.extend([(a, b, c), (a, c, d)])
+
+    step = 2 * half / cells
+    for i, j in itertools.product(range(cells), repeat=2):
+        x, y = -half + i * step, -half + j * step
+        quad((x, y, 0), (x + step, y, 0), (x + step, y + step, 0), (x, y + step, 0))
+    low, high = (-half, half)
+    for (x1, y1), (x2, y2) in (((low, low), (low, high)), ((low, high), (high, high)), ((high, high), (high, low)), ((high, low), (low, low))):
+        quad((x1, y1, 0), (x2, y2, 0), (x2, y2, height), (x1, y1, height))
+    with open(path, "w", encoding="ascii") as file:
+        file.write("solid pan\n")
+        for facet in facets:
+            file.write("facet normal 0 0 0\nouter loop\n")
+            file.writelines(f"vertex {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in facet)
+            file.write("endloop\nendfacet\n")
+        file.write("endsolid pan\n")
+
+
+def check_weight(driver):
+    write_pan(driver.folder / "pan.stl", 0.035, 0.25, 7)
+    nothing = "plane 0 0 -1 0 0 1"
+    containers = {
+        "cylinder": ("cylinder 0 0 0 0 0 1 0.04", "plane 0 0 0 0 0 1"),
+        "box": ("box -0.035 -0.035 0 0.035 0.035 0.25", nothing),
+        "mesh": ("mesh pan.stl 1", nothing),
+    }
+    for name, (sides, floor) in containers.items():
+        (table,) = driver.run("bed", 1, sides=sides, floor=floor, steps=WEIGHT_STEPS, every=WEIGHT_STEPS // 20)
+        yield f"{name}: weight that is borne", max(abs(row["v_borne"] - 1) for row in table[-3:]), 1e-3
+
+
+def check_drum(driver):
+    (table,) = driver.run("drum", 1, rpm=40, steps=60000)
+    steady = table[len(table) // 3 :]
+    torque = sum(row["f_mean[1]"] for row in steady) / len(steady)
+    lever = sum(row["f_mean[2]"] for row in steady) / len(steady)
+    yield "drum: torque against the weight's", abs(torque / lever - 1), 0.03
+    yield "drum: particles lost", table[0]["Atoms"] - table[-1]["Atoms"], 0
+
+
+def check(driver):
+    """Yields the name, the value and the limit of each comparison."""
+    yield from check_weight(driver)
+    yield from check_drum(driver)

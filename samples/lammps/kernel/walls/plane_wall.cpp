@@ -1,0 +1,19 @@
+#include "kernel/walls/plane_wall.hpp"
+
+#include <stdexcept>
+
+#include "supernormal/proximity/plane.hpp"
+
+namespace granular {
+
+PlaneWall::PlaneWall(const Vector3& point, const Vector3& normal) : normal_(normal.normalized()), offset_(normal_.dot(point)) {
+  if (!(normal.norm() > 0)) throw std::invalid_argument("plane: the normal has no direction");
+}
+
+void PlaneWall::add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) {
+  if (normal_.dot(pose.position) - offset_ >= shape.bounding_radius) return;
+  const supernormal::Proximity found = supernormal::find_plane_proximity(shape.body, pose, normal_, offset_);
+  if (found.gap < 0) contacts.push_back({found.normal, found.contact, -found.gap});
+}
+
+}  // namespace granular

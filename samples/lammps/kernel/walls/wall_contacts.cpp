@@ -1,0 +1,67 @@
+#include "kernel/walls/wall_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "supernormal/contact/contact_curvature.hpp"
+
+namespace granular {
+namespace {
+
+const double kSameNormal = std::cos(std::numbers::pi / 8);
+
+/// Takes out of `old` the history whose normal is nearest to n: a new one where there is none.
+ContactHistory take_nearest(WallHistory& old, const Vector3& n) {
+  const auto begin = old.contacts.begin(), end = begin + old.count;
+  const auto nearest = std::max_element(
+      begin, end, [&](const ContactHistory& a, const ContactHistory& b) { return a.normal.dot(n) < b.normal.dot(n); });
+  if (nearest == end || nearest->normal.dot(n) < kSameNormal) return {};
+  const ContactHistory taken = *nearest;
+  *nearest = old.contacts.at(static_cast<std::size_t>(--old.count));
+  return taken;
+}
+
+NormalForce elastic_force(const ContactMaterial& material, const ParticleShape& shape, const Body& particle, const Vector3& n,
+                          double depth, const Matrix3& wall_curvature) {
+  if (material.law == NormalLaw::Hooke) return hooke_force(material, depth);
+  const Matrix3 sum = supernormal::find_curvature(shape.body, particle.pose, n) + wall_curvature;
+  return hertz_force(material, depth, supernormal::find_contact_curvature(sum, n), shape.width);
+}
+
+}  // namespace
+
+WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape& shape, const Body& particle,
+                          const ContactMaterial& material, double step, WallHistory& history, std::vector<WallContact>& contacts) {
+  const Matrix3& rotation = wall_body.pose.rotation;
+  const supernormal::Pose pose{rotation.transpose() * (particle.pose.position - wall_body.pose.position),
+                               rotation.transpose() * particle.pose.rotation};
+  contacts.clear();
+  wall.add_contacts(shape, pose, contacts);
+  WallForce sum;
+  if (contacts.empty()) {
+    if (step > 0) history.count = 0;
+    return sum;
+  }
+  WallHistory old = history, kept;
+  for (const WallContact& found : contacts) {
+    const Vector3 arm2 = rotation * found.point;
+    const Vector3 arm1 = wall_body.pose.position + arm2 - particle.pose.position;
+    const Contact contact{rotation * found.normal, arm1, arm2, found.depth};
+    const NormalForce elastic =
+        elastic_force(material, shape, particle, contact.normal, found.depth, rotation * found.curvature * rotation.transpose());
+    ContactHistory one = take_nearest(old, contact.normal);
+    const ContactForce force = contact_force(contact, elastic, material, particle, wall_body, step, one);
+    one.normal = contact.normal;
+    if (kept.count < WallHistory::kMost) kept.contacts.at(static_cast<std::size_t>(kept.count++)) = one;
+    sum.force += force.force;
+    sum.torque += arm1.cross(force.force) + force.rolling_torque;
+    sum.wall_torque -= arm2.cross(force.force) + force.rolling_torque;
+    sum.energy += force.energy;
+    ++sum.contacts;
+  }
+  if (step > 0) history = kept;
+  return sum;
+}
+
+}  // namespace granular

@@ -1,0 +1,57 @@
+// fix wall/supernormal: walls that stand or move as prescribed.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fix.h"
+#include "kernel/walls/wall_contacts.hpp"
+#include "styles/body_table.hpp"
+#include "styles/wall_command.hpp"
+
+namespace granular {
+
+/// Its scalar is the energy of the springs, J; its vector the force on the wall (N), the torque on it about its anchor (N m), which
+/// moves with it, and the number of contacts.
+class FixWallSupernormal : public LAMMPS_NS::Fix {
+ public:
+  FixWallSupernormal(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
+  ~FixWallSupernormal() override;
+
+  int setmask() override;
+  void init() override;
+  void setup(int vflag) override { post_force(vflag); }
+  void post_force(int vflag) override;
+  double compute_scalar() override { return total(0); }
+  double compute_vector(int index) override { return total(index + 1); }
+
+  void grow_arrays(int count) override { histories_.resize(static_cast<std::size_t>(count)); }
+  void copy_arrays(int from, int to, int deleted) override;
+  void set_arrays(int i) override { history(i).count = 0; }
+  int pack_exchange(int i, double* buffer) override;
+  int unpack_exchange(int i, double* buffer) override;
+  int pack_restart(int i, double* buffer) override;
+  void unpack_restart(int i, int set) override;
+  int size_restart(int i) override;
+  int maxsize_restart() override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+  double memory_usage() override { return static_cast<double>(histories_.capacity() * sizeof(WallHistory)); }
+
+ private:
+  static constexpr int kSums = 8;  // energy, force, torque, contacts
+
+  WallHistory& history(int i) { return histories_[static_cast<std::size_t>(i)]; }
+  Body wall_body(double step) const;
+  double total(int index);
+
+  WallCommand command_;
+  BodyTable* bodies_ = nullptr;
+  LAMMPS_NS::bigint first_step_;  // when the motions start
+  std::vector<WallHistory> histories_;
+  std::vector<WallContact> scratch_;
+  std::array<double, kSums> sums_{}, totals_{};  // of this rank, of all
+  LAMMPS_NS::bigint totals_step_ = -1;
+};
+
+}  // namespace granular

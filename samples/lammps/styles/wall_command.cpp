@@ -1,0 +1,88 @@
+#include "styles/wall_command.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "kernel/walls/box_wall.hpp"
+#include "kernel/walls/cylinder_wall.hpp"
+#include "kernel/walls/mesh_wall.hpp"
+#include "kernel/walls/plane_wall.hpp"
+#include "parts/load_mesh.hpp"
+#include "styles/coefficients.hpp"
+
+namespace granular {
+namespace {
+
+std::vector<supernormal::MeshTriangle> load_triangles(const std::string& file, double unit) {
+  const falling_particles::Mesh mesh = falling_particles::load_mesh(file, unit);
+  std::vector<supernormal::MeshTriangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& corners : mesh.triangles) {
+    supernormal::MeshTriangle triangle;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto& vertex = mesh.vertices.at(corners.at(k));
+      triangle.vertices.at(k) = Eigen::Vector3f(vertex[0], vertex[1], vertex[2]).cast<double>();
+    }
+    triangle.index = static_cast<int>(triangles.size());
+    triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+/// Each wall is made around its anchor, about which its torque is reported.
+void read_shape(Words& words, WallCommand& command) {
+  const std::string kind = words.next("wall/supernormal");
+  if (kind == "plane") {
+    command.anchor = words.vector(kind);
+    command.wall = std::make_unique<PlaneWall>(Vector3::Zero(), words.vector(kind));
+  } else if (kind == "box") {
+    const Vector3 low = words.vector(kind), high = words.vector(kind);
+    command.anchor = 0.5 * (low + high);
+    command.wall = std::make_unique<BoxWall>(low - command.anchor, high - command.anchor);
+  } else if (kind == "cylinder") {
+    command.anchor = words.vector(kind);
+    const Vector3 axis = words.vector(kind);
+    command.wall = std::make_unique<CylinderWall>(Vector3::Zero(), axis, words.number(kind));
+  } else if (kind == "mesh") {
+    const std::string file = words.next(kind);
+    command.wall = std::make_unique<MeshWall>(load_triangles(file, words.number(kind)));
+  } else {
+    throw std::invalid_argument(kind + " is none of plane, box, cylinder, mesh");
+  }
+}
+
+falling_particles::PartMotion read_motion(Words& words) {
+  const std::string kind = words.next("move");
+  if (kind == "linear") return {falling_particles::Translation{words.vector(kind)}};
+  if (kind == "conveyor") return {falling_particles::Conveyor{words.vector(kind), {Vector3::UnitZ(), Vector3::Zero(), 0}}};
+  if (kind == "rotate") {
+    const Vector3 axis = words.vector(kind), point = words.vector(kind);
+    if (!(axis.norm() > 0)) throw std::invalid_argument("move rotate: the axis has no direction");
+    return {falling_particles::Rotation{axis.normalized(), point, words.number(kind)}};
+  }
+  if (kind == "vibrate") {
+    const Vector3 amplitude = words.vector(kind);
+    const double frequency = words.number(kind);
+    return {falling_particles::Vibration{amplitude, frequency, words.number(kind)}};
+  }
+  throw std::invalid_argument("move " + kind + " is none of linear, rotate, vibrate, conveyor");
+}
+
+}  // namespace
+
+WallCommand read_wall_command(Words words) {
+  WallCommand command;
+  read_shape(words, command);
+  const Coefficients coefficients = read_coefficients(words.take_until("move"));
+  if (!coefficients.has_material) throw std::invalid_argument("the law is missing: hooke or hertz");
+  if (coefficients.has_exponents) throw std::invalid_argument("exponents belong to the particles' types: pair_coeff");
+  command.material = coefficients.material;
+  while (!words.is_empty()) {
+    words.next("move");
+    command.motions.push_back(read_motion(words));
+  }
+  return command;
+}
+
+}  // namespace granular

@@ -1,0 +1,33 @@
+#include "styles/words.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "pointers.h"
+#include "utils.h"
+
+namespace granular {
+
+std::string Words::next(const std::string& keyword) {
+  if (is_empty()) throw std::invalid_argument(keyword + " takes another word");
+  const std::string word = words_.front();
+  words_ = words_.subspan(1);
+  return word;
+}
+
+double Words::number(const std::string& keyword) { return LAMMPS_NS::utils::numeric(FLERR, next(keyword).c_str(), false, lammps_); }
+
+Vector3 Words::vector(const std::string& keyword) {
+  const double x = number(keyword), y = number(keyword), z = number(keyword);
+  return {x, y, z};
+}
+
+Words Words::take_until(const std::string& separator) {
+  const auto found = std::find(words_.begin(), words_.end(), separator);
+  const auto count = static_cast<std::size_t>(found - words_.begin());
+  const Words taken(words_.first(count), lammps_);
+  words_ = words_.subspan(count);
+  return taken;
+}
+
+}  // namespace granular

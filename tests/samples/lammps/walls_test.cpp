@@ -1,0 +1,181 @@
+// Walls: where particles touch them, and what the contacts remember.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include "kernel/walls/box_wall.hpp"
+#include "kernel/walls/cylinder_wall.hpp"
+#include "kernel/walls/mesh_wall.hpp"
+#include "kernel/walls/plane_wall.hpp"
+#include "kernel/walls/wall_contacts.hpp"
+#include "relative.hpp"
+#include "samples/lammps/two_bodies.hpp"
+
+using namespace granular;
+using namespace granular::test;
+using supernormal::Pose;
+using supernormal::test::relative;
+
+namespace {
+
+std::vector<WallContact> contacts_of(Wall& wall, const ParticleShape& shape, const Pose& pose) {
+  std::vector<WallContact> contacts;
+  wall.add_contacts(shape, pose, contacts);
+  return contacts;
+}
+
+Pose at(const Vector3& position, const Eigen::Quaterniond& rotation = Eigen::Quaterniond::Identity()) {
+  return {position, rotation.normalized().toRotationMatrix()};
+}
+
+/// A square floor of two triangles, z = 0.
+std::vector<supernormal::MeshTriangle> square(double half) {
+  return {{{Vector3(-half, -half, 0), Vector3(half, -half, 0), Vector3(half, half, 0)}, 0},
+          {{Vector3(-half, -half, 0), Vector3(half, half, 0), Vector3(-half, half, 0)}, 1}};
+}
+
+const Vector3 kAxes(0.02, 0.012, 0.008);  // m
+
+}  // namespace
+
+TEST_CASE("lammps: a ball touches the three walls of a corner, each as a plane") {
+  BoxWall box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
+  const ParticleShape ball(Vector3::Constant(0.01), 2, 2);
+  const auto contacts = contacts_of(box, ball, at({0.0905, -0.091, 0.092}));
+  REQUIRE(contacts.size() == 3);
+  for (const WallContact& contact : contacts) {
+    int axis = 0;
+    contact.normal.cwiseAbs().maxCoeff(&axis);
+    CHECK(contact.depth == relative(std::abs(Vector3(0.0005, 0.001, 0.002)[axis])).epsilon(1e-10));
+    CHECK(contact.point.cwiseAbs()[axis] >= 0.1);
+  }
+  CHECK(contacts_of(box, ball, at({0, 0.089, 0})).empty());
+  CHECK_THROWS_AS(BoxWall({0, 0, 0}, {1, 1, 0}), std::invalid_argument);
+}
+
+TEST_CASE("lammps: a ball in a drum is as deep as it sticks out") {
+  const ParticleShape ball(Vector3::Constant(0.01), 2, 2);
+  const Vector3 axis = Vector3(1, 2, 0.5).normalized(), point(0.3, 0.1, -0.2);
+  CylinderWall drum(point, axis, 0.1);
+  const Vector3 across = axis.unitOrthogonal();
+  for (const double angle : {0.0, 0.1, 1.0, 3.0}) {
+    const Vector3 u = Eigen::AngleAxisd(angle, axis) * across;
+    const auto contacts = contacts_of(drum, ball, at(point + 0.7 * axis + 0.0905 * u));
+    REQUIRE(contacts.size() == 1);
+    CHECK(contacts[0].depth == relative(0.0005).epsilon(1e-9));
+    CHECK((contacts[0].normal - u).norm() < 1e-9);
+    CHECK((contacts[0].point - (point + 0.7 * axis + 0.1005 * u)).norm() < 1e-9);
+    // The drum is hollow across its axis, and straight along it.
+    const Vector3 along = axis.cross(u);
+    CHECK(along.dot(contacts[0].curvature * along) == relative(-10).epsilon(1e-9));
+    CHECK((contacts[0].curvature * axis).norm() < 1e-9);
+  }
+  CHECK(contacts_of(drum, ball, at(point + 0.0899 * across)).empty());
+  CHECK_THROWS_AS(CylinderWall(point, Vector3::Zero(), 1), std::invalid_argument);
+  CHECK_THROWS_AS(CylinderWall(point, axis, 0), std::invalid_argument);
+}
+
+TEST_CASE("lammps: the deepest contact with a drum is the point of the body farthest from its axis") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const auto& [delta, epsilon] : {std::pair(2.0, 2.0), {1.4, 3.0}, {6.0, 6.0}, {20.0, 1.6}}) {
+    const ParticleShape shape(kAxes, delta, epsilon);
+    CylinderWall drum(Vector3::Zero(), Vector3::UnitZ(), 0.03);
+    int touching = 0;
+    for (int i = 0; i < 40; ++i) {
+      const Pose pose =
+          at({0.02 * unit(random), 0.02 * unit(random), unit(random)}, {unit(random), unit(random), unit(random), unit(random)});
+      double farthest = 0;
+      for (int k = 0; k < 20000; ++k) {
+        const double angle = 2 * std::numbers::pi * k / 20000;
+        const Vector3 u(std::cos(angle), std::sin(angle), 0);
+        farthest = std::max(farthest, u.dot(pose.position) + shape.body.support(pose.rotation.transpose() * u));
+      }
+      double deepest = 0;
+      for (const WallContact& contact : contacts_of(drum, shape, pose)) {
+        deepest = std::max(deepest, contact.depth);
+        // The normal is the body's there.
+        const Vector3 there = pose.position + pose.rotation * shape.body.point(pose.rotation.transpose() * contact.normal);
+        CHECK((there - contact.point).norm() < 1e-9);
+      }
+      CHECK(std::abs(deepest - std::max(0.0, farthest - 0.03)) < 1e-9);
+      touching += deepest > 0 ? 1 : 0;
+    }
+    CHECK(touching > 5);
+    CHECK(touching < 40);
+  }
+}
+
+TEST_CASE("lammps: a rod across a drum lies on both of its ends") {
+  const ParticleShape rod({0.03, 0.004, 0.004}, 2, 2);
+  CylinderWall drum(Vector3::Zero(), Vector3::UnitY(), 0.05);
+  const auto contacts = contacts_of(drum, rod, at({0, 0, -0.0402}));
+  REQUIRE(contacts.size() == 2);
+  CHECK(contacts[0].depth == relative(contacts[1].depth).epsilon(1e-9));
+  CHECK(contacts[0].normal.x() == relative(-contacts[1].normal.x()).epsilon(1e-9));
+}
+
+TEST_CASE("lammps: a floor of triangles is a plane") {
+  MeshWall mesh(square(0.5));
+  PlaneWall plane(Vector3::Zero(), Vector3::UnitZ());
+  const ParticleShape shape(kAxes, 3, 1.6);
+  for (const double height : {0.012, 0.010, 0.006, 0.004}) {
+    const Pose pose = at({0.01, 0.02, height}, {1, 0.3, 0.2, 0.5});
+    const auto on_mesh = contacts_of(mesh, shape, pose), on_plane = contacts_of(plane, shape, pose);
+    REQUIRE(on_mesh.size() == on_plane.size());
+    if (on_plane.empty()) continue;
+    CHECK(on_mesh[0].depth == relative(on_plane[0].depth).epsilon(1e-12));
+    CHECK((on_mesh[0].point - on_plane[0].point).norm() < 1e-12);
+    CHECK((on_mesh[0].normal + Vector3::UnitZ()).norm() < 1e-12);
+  }
+  CHECK_THROWS_AS(MeshWall({}), std::invalid_argument);
+}
+
+TEST_CASE("lammps: a belt drags a ball along, and a wall's force and torque are those on the particle turned round") {
+  PlaneWall plane(Vector3::Zero(), Vector3::UnitZ());
+  Particle ball(Vector3::Constant(0.01), 2, 2);
+  const ContactMaterial material = prepared({.stiffness = 1e4, .friction = 0.5});
+  Body belt;
+  belt.pose = at({0.5, 0.2, 0});
+  belt.velocity = {1, 0, 0};
+  WallHistory history;
+  std::vector<WallContact> scratch;
+  ball.place({0, 0, 0.0099}, Eigen::Quaterniond::Identity());
+  WallForce found;
+  for (int i = 0; i < 100; ++i) found = find_wall_force(plane, belt, *ball.shape, ball.body, material, 1e-5, history, scratch);
+  CHECK(found.contacts == 1);
+  CHECK(found.force.z() == relative(1e4 * 1e-4).epsilon(1e-9));
+  CHECK(found.force.x() == relative(0.5 * found.force.z()).epsilon(1e-9));
+  CHECK((found.torque + found.wall_torque + (ball.body.pose.position - belt.pose.position).cross(found.force)).norm() < 1e-15);
+  // Off the belt everything is forgotten.
+  CHECK(history.count == 1);
+  ball.place({0, 0, 0.011}, Eigen::Quaterniond::Identity());
+  CHECK(find_wall_force(plane, belt, *ball.shape, ball.body, material, 1e-5, history, scratch).contacts == 0);
+  CHECK(history.count == 0);
+}
+
+TEST_CASE("lammps: in a corner each wall has springs of its own, whatever the order of the contacts") {
+  BoxWall box({-0.1, -0.1, 0}, {0.1, 0.1, 0.2});
+  Particle ball(Vector3::Constant(0.01), 2, 2);
+  ball.set_velocity({0, 0.1, 0}, Vector3::Zero());
+  const ContactMaterial material = prepared({.stiffness = 1e4, .friction = 0.5});
+  Body walls;
+  walls.pose = at({0, 0, 0});
+  WallHistory history;
+  std::vector<WallContact> scratch;
+  // First on the floor alone, then against the wall x = -0.1 too, which the box names before the floor.
+  ball.place({0, 0, 0.0099}, Eigen::Quaterniond::Identity());
+  for (int i = 0; i < 10; ++i) find_wall_force(box, walls, *ball.shape, ball.body, material, 1e-5, history, scratch);
+  const Vector3 spring = history.contacts[0].sliding;
+  CHECK(spring.norm() == relative(1e-5).epsilon(1e-6));
+  ball.place({-0.0901, 0, 0.0099}, Eigen::Quaterniond::Identity());
+  find_wall_force(box, walls, *ball.shape, ball.body, material, 1e-5, history, scratch);
+  REQUIRE(history.count == 2);
+  for (int k = 0; k < 2; ++k) {
+    const ContactHistory& one = history.contacts.at(static_cast<std::size_t>(k));
+    CHECK(one.sliding.norm() == relative(one.normal.z() < -0.5 ? 1.1e-5 : 1e-6).epsilon(1e-6));
+  }
+}
