@@ -17,15 +17,19 @@ class Driver:
 
     def run(self, name, ranks=1, **variables):
         """Runs the input NAME.in and returns its tables of numbers, one for each `run`: lists of dictionaries by column."""
+        return read_tables(self.output(name, ranks, **variables))
+
+    def output(self, name, ranks=1, **variables):
+        """Runs the input NAME.in and returns what LAMMPS prints."""
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), str(self.program), "-in", str(INPUTS / f"{name}.in"), "-log", "none"]
-        for variable, value in variables.items():
+        for variable, value in {"inputs": INPUTS, **variables}.items():
             command += ["-var", variable, str(value)]
         # Open MPI refuses root without these; in a container there is no one else.
         environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError(f"{' '.join(command)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-        return read_tables(done.stdout)
+        return done.stdout
 
     def dump(self, name):
         """The rows of a dump of text, as lists of numbers, by step."""

@@ -1,5 +1,6 @@
 """Walls carry what lies on them, and a drum turns what is in it."""
 
+import filecmp
 import itertools
 
 WEIGHT_STEPS = 16000
@@ -42,7 +43,8 @@ def check_weight(driver):
 
 
 def check_drum(driver):
-    (table,) = driver.run("drum", 1, rpm=40, steps=60000)
+    steps = 60000
+    (table,) = driver.run("drum", 1, rpm=40, steps=steps, every=steps, out="drum")
     steady = table[len(table) // 3 :]
     torque = sum(row["f_mean[1]"] for row in steady) / len(steady)
     lever = sum(row["f_mean[2]"] for row in steady) / len(steady)
@@ -50,7 +52,19 @@ def check_drum(driver):
     yield "drum: particles lost", table[0]["Atoms"] - table[-1]["Atoms"], 0
 
 
+def check_restart(driver):
+    """A drum that goes on from a restart file: springs at the walls and the motion go on, too."""
+    common = dict(rpm=40, every=2000)
+    for ranks in (1, 2):
+        whole, again = f"whole_drum_{ranks}", f"again_drum_{ranks}"
+        driver.run("drum", ranks, steps=8000, out=whole, **common)
+        driver.run("drum_again", ranks, **{"from": f"{whole}.6000.restart"}, until=8000, out=again, **common)
+        same = filecmp.cmp(driver.folder / f"{whole}.8000.restart", driver.folder / f"{again}.8000.restart", shallow=False)
+        yield f"drum on {ranks} ranks: restarted run differs", 0 if same else 1, 0
+
+
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     yield from check_weight(driver)
     yield from check_drum(driver)
+    yield from check_restart(driver)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -108,6 +109,16 @@ void PairSupernormal::set_material(int low, int high, int low2, int high2, const
   }
 }
 
+void PairSupernormal::report_volumes() const {
+  // LAMMPS' `set density` makes masses of the volumes of ellipsoids.
+  for (int type = 1; type <= atom->ntypes && comm->me == 0; ++type) {
+    const BodyTable::Exponents& exponents = bodies_->exponents(type);
+    const double share = ParticleShape(Vector3::Ones(), exponents.delta, exponents.epsilon).volume / (4.0 / 3 * std::numbers::pi);
+    utils::logmesg(lmp, fmt::format("supernormal: type {}: exponents {} and {}, volume {:.10g} of the ellipsoid's\n", type,
+                                    exponents.delta, exponents.epsilon, share));
+  }
+}
+
 void PairSupernormal::init_style() {
   if (comm->ghost_velocity == 0) error->all(FLERR, "pair_style supernormal takes: comm_modify vel yes");
   if (force->ftm2v != 1)
@@ -120,6 +131,7 @@ void PairSupernormal::init_style() {
     const std::string made = "SUPERNORMAL_HISTORY_" + number + " all NEIGH_HISTORY " + std::to_string(ContactHistory::kSize);
     history_ = dynamic_cast<FixNeighHistory*>(modify->replace_fix("SUPERNORMAL_PLACE_" + number, made, 1));
     history_->pair = this;
+    report_volumes();
   }
   largest_radii_ = bodies_->find_largest_radii();
 }

@@ -46,6 +46,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   static constexpr int kSingles = 12;                                // compute pair/local
 
   void allocate();
+  void report_volumes() const;
   std::size_t index(int i, int j) const;
   PairContact solve(int i, int j, double step, ContactHistory& history) const;
   void apply(int i, int j, const PairContact& pair);
