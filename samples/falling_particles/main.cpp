@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "measurements/measurement.hpp"
+#include "output/lammps_input.hpp"
 #include "output/rendering.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene.hpp"
@@ -57,10 +58,15 @@ struct Options {
   bool quiet = false;
   bool check_leaks = false;
   bool no_pictures = false;
+  std::string to_lammps;
 };
 
 ExitCode simulate(const Options& options) {
   falling_particles::Scene scene = falling_particles::load_scene(options.scene_path);
+  if (!options.to_lammps.empty()) {
+    falling_particles::write_lammps_input(scene, options.to_lammps);
+    return Done;
+  }
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // what does not fit `ulimit -f` is an error of its write
@@ -83,6 +89,7 @@ ExitCode run_program(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("-q,--quiet", options.quiet, "no progress");
   app.add_flag("--check-leaks", options.check_leaks, "exit with 3 when a grain leaves its container");
+  app.add_option("--to-lammps", options.to_lammps, "write the scene as an input of samples/lammps to this folder, and run nothing");
   app.add_flag("--no-pictures", options.no_pictures, "leave nothing but the tables, whatever the scene asks for");
   const auto list_and_end = [] {
     list();

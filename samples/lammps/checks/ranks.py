@@ -17,7 +17,9 @@ def check_forces(driver):
     for ranks in (1, 2, 4):
         for newton in ("on", "off"):
             dump = f"forces_{ranks}_{newton}.dump"
-            driver.run("dense_forces", ranks, newton=newton, bed=BED, steps=20, out=dump)
+            (table,) = driver.run("dense_forces", ranks, newton=newton, bed=BED, steps=20, out=dump)
+            pairs = max(abs(row["c_sums[1]"] / row["PotEng"] - 1) for row in table)
+            yield f"{ranks} ranks, newton {newton}: energies of single pairs", pairs, 1e-10
             frames = driver.dump(dump)
             if reference is None:
                 reference = frames

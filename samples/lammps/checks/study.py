@@ -50,7 +50,7 @@ def study_scaling(driver):
     print("| particles | ranks | ms per step | us per particle and step | in pairs | MB per rank |\n|---:|---:|---:|---:|---:|---:|")
     for particles, copies in COPIES.items():
         for ranks in (1, 2):
-            settings = dict(zip(("nx", "ny", "nz"), copies), bed=bed, steps=200000 // (particles // 100))
+            settings = dict(zip(("nx", "ny", "nz"), copies), bed=bed, steps=20000 // (particles // 100))
             text = driver.output("cost_supernormal", ranks, **settings)
             step, pairs = processor_times(text)
             memory = float(re.findall(r"Maximum resident set size: (\S+) Mbyte", text)[-1])

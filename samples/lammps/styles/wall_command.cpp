@@ -81,6 +81,8 @@ WallCommand read_wall_command(Words words) {
   while (!words.is_empty()) {
     words.next("move");
     command.motions.push_back(read_motion(words));
+    if (words.accept("from")) command.motions.back().from = words.number("from");
+    if (words.accept("until")) command.motions.back().until = words.number("until");
   }
   return command;
 }

@@ -23,6 +23,7 @@ struct WallCommand {
 ///     plane POINT NORMAL | box LOW HIGH | cylinder POINT AXIS RADIUS | mesh FILE UNIT
 /// with three numbers for each but RADIUS and UNIT (m), then the contact law of pair_coeff, and any number of
 ///     move linear VELOCITY | rotate AXIS POINT RPM | vibrate AMPLITUDE FREQUENCY PHASE | conveyor VELOCITY
+/// each with from SECONDS and until SECONDS where it is not on all the time.
 /// std::invalid_argument or std::runtime_error says what is wrong.
 WallCommand read_wall_command(Words words);
 

@@ -15,6 +15,12 @@ std::string Words::next(const std::string& keyword) {
   return word;
 }
 
+bool Words::accept(const std::string& word) {
+  if (is_empty() || words_.front() != word) return false;
+  words_ = words_.subspan(1);
+  return true;
+}
+
 double Words::number(const std::string& keyword) { return LAMMPS_NS::utils::numeric(FLERR, next(keyword).c_str(), false, lammps_); }
 
 Vector3 Words::vector(const std::string& keyword) {

@@ -19,6 +19,9 @@ class Words {
   /// The next word; std::invalid_argument when there is none, with `keyword`, which wanted one.
   std::string next(const std::string& keyword);
 
+  /// Whether the next word is this one, which is then taken.
+  bool accept(const std::string& word);
+
   /// The next one, or the next three, as numbers. LAMMPS ends the program where they are none.
   double number(const std::string& keyword);
   Vector3 vector(const std::string& keyword);

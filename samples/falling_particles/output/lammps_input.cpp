@@ -1,0 +1,243 @@
+#include "output/lammps_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <supernormal/supernormal.hpp>
+#include <vector>
+
+#include "output/write_file.hpp"
+#include "parts/container_parts.hpp"
+#include "scene/input_error.hpp"
+#include "simulation/placement.hpp"
+#include "simulation/random.hpp"
+
+namespace falling_particles {
+namespace {
+
+namespace fx = supernormal::effects;
+
+constexpr double kOverlap = 0.01;  // of the smallest half-axis, in the fastest impact
+constexpr double kStepsPerImpact = 50;
+constexpr double kRigidRestitution = 0.1;  // of contacts that do not bounce
+constexpr double kHertzImpact =
+    2.9432675;  // duration of Hertz's impact of spheres, in largest depths over speeds (Johnson 1985, eq. 11.24)
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& what) {
+  throw InputError(scene.name + ": " + what + " has no counterpart in LAMMPS' input: leave it out");
+}
+
+/// The contact of all surfaces, collected from the effects.
+struct Law {
+  double friction = 0, rolling = 0, restitution = kRigidRestitution;
+  const fx::Hertz* hertz = nullptr;
+  const fx::Compliance* compliance = nullptr;
+};
+
+/// Reads one effect after the other. Those that only serve ODE's solver are left out.
+struct LawReader {
+  const Scene& scene;
+  Law law = {};
+
+  void require_all(const fx::MaterialSelector& on, const char* name) const {
+    if (!on.is_all()) refuse(scene, std::string("[") + name + "] of a material");
+  }
+  void operator()(const fx::Friction& friction) {
+    require_all(friction.on, "friction");
+    law.friction = friction.coefficient;
+  }
+  void operator()(const fx::RollingResistance& resistance) {
+    require_all(resistance.on, "rolling_resistance");
+    if (resistance.spinning > 0) refuse(scene, "rolling_resistance.spinning");
+    law.rolling = resistance.rolling;
+  }
+  void operator()(const fx::Restitution& restitution) {
+    require_all(restitution.on, "restitution");
+    law.restitution = std::max(restitution.coefficient, 0.05);
+  }
+  void operator()(const fx::Hertz& hertz) {
+    require_all(hertz.on, "hertz");
+    law.hertz = &hertz;
+    law.restitution = hertz.restitution;
+  }
+  void operator()(const fx::Compliance& compliance) {
+    require_all(compliance.on, "compliance");
+    law.compliance = &compliance;
+    if (compliance.damping == 0) law.restitution = 1;
+  }
+  void operator()(const fx::Gravity& /*gravity*/) {}
+  void operator()(const fx::AutoDisable& /*solver*/) {}
+  void operator()(const fx::MaxCorrectingVelocity& /*solver*/) {}
+  void operator()(const fx::SurfaceLayer& /*solver*/) {}
+  void operator()(const fx::AnisotropicFriction& /*effect*/) { refuse(scene, "anisotropic_friction"); }
+  void operator()(const fx::Adhesion& /*effect*/) { refuse(scene, "adhesion"); }
+  void operator()(const fx::QuadraticDrag& /*effect*/) { refuse(scene, "quadratic_drag"); }
+  void operator()(const fx::StokesDrag& /*effect*/) { refuse(scene, "stokes_drag"); }
+  void operator()(const fx::Buoyancy& /*effect*/) { refuse(scene, "buoyancy"); }
+  void operator()(const fx::Damping& /*effect*/) { refuse(scene, "damping"); }
+};
+
+double volume_of(const Grain& grain) {
+  const supernormal::Vector3 axes(grain.half_axes[0], grain.half_axes[1], grain.half_axes[2]);
+  return supernormal::Superellipsoid(axes, grain.delta, grain.epsilon).mass_properties().volume;
+}
+
+void refuse_what_lammps_has_not(const Scene& scene) {
+  if (scene.parts.size() > parts_in(scene.container).size()) refuse(scene, "[[part]]");
+  if (!scene.feeders.empty()) refuse(scene, "[[feeder]]");
+  if (!scene.sinks.empty()) refuse(scene, "[[sink]]");
+  if (is_any(scene.periodic)) refuse(scene, "[periodic]");
+  for (const GrainCount& kind : scene.grains) {
+    const GrainBody::Shape shape = kind.grain.all_parts().front().body.shape;
+    if (!kind.grain.parts.empty() || shape != GrainBody::Shape::Superellipsoid) {
+      refuse(scene, "grain \"" + kind.grain.name + "\", which is no superellipsoid,");
+    }
+  }
+}
+
+/// The words of a contact, and the step that it takes.
+struct Contacts {
+  std::string words;
+  double step;  // s
+};
+
+Contacts find_contacts(const Scene& scene, const Law& law, double fall) {
+  double lightest = INFINITY, heaviest = 0;
+  for (const GrainCount& kind : scene.grains) {
+    const double mass = kind.grain.density * volume_of(kind.grain);
+    lightest = std::min(lightest, std::pow(kind.smallest_scale(), 3) * mass);
+    heaviest = std::max(heaviest, std::pow(kind.largest_scale(), 3) * mass);
+  }
+  const double speed = std::sqrt(2 * fall * (scene.gravity() != nullptr ? scene.gravity()->acceleration.norm() : 0));
+  const double smallest = scene.smallest_half_axis();
+  std::ostringstream words;
+  words.precision(9);
+  double impact = 0;  // s, of the lightest pair
+  if (law.hertz != nullptr) {
+    words << "hertz " << law.hertz->youngs_modulus << ' ' << law.hertz->poisson_ratio;
+    const double modulus = law.hertz->youngs_modulus / (2 * (1 - law.hertz->poisson_ratio * law.hertz->poisson_ratio));
+    const double k = 4.0 / 3 * modulus * std::sqrt(smallest / 2);
+    const double fastest = std::max(speed, 0.1);
+    impact = kHertzImpact * std::pow(1.25 * lightest / 2 * fastest * fastest / k, 0.4) / fastest;
+  } else {
+    const double depth = kOverlap * smallest;
+    const double stiffness = law.compliance != nullptr ? law.compliance->stiffness : heaviest * speed * speed / (depth * depth);
+    if (!(stiffness > 0)) refuse(scene, "a scene without gravity, and with neither [hertz] nor [compliance],");
+    words << "hooke " << stiffness;
+    impact = std::numbers::pi * std::sqrt(lightest / 2 / stiffness);
+  }
+  words << " restitution " << law.restitution;
+  if (law.friction > 0) words << " friction " << law.friction;
+  if (law.rolling > 0) words << " rolling " << law.rolling;
+  return {words.str(), impact / kStepsPerImpact};
+}
+
+struct WallWriter {
+  const Scene& scene;
+  const std::string& law;
+  std::ostream& out;
+
+  void operator()(const Box& box) const {
+    out << "fix container all wall/supernormal box 0 0 0 " << box.width[0] << ' ' << box.width[1] << " 1e3 " << law << '\n';
+  }
+  void operator()(const Drum& drum) const {
+    const double z = drum.radius();
+    out << "fix container all wall/supernormal cylinder 0 0 " << z << " 0 1 0 " << drum.radius() << ' ' << law
+        << " move rotate 0 1 0 0 0 " << z << ' ' << drum.rpm << " from " << drum.turns_at << '\n';
+    for (const double y : {0.0, drum.length}) {
+      out << "fix end" << (y > 0 ? 2 : 1) << " all wall/supernormal plane 0 " << y << ' ' << z << " 0 " << (y > 0 ? -1 : 1) << " 0 "
+          << law << " move rotate 0 1 0 0 0 " << z << ' ' << drum.rpm << " from " << drum.turns_at << '\n';
+    }
+  }
+  template <typename Other>
+  void operator()(const Other& /*container*/) const {
+    refuse(scene, std::string("a container of kind ") + kind_of(scene.container));
+  }
+};
+
+std::string write_data(const Scene& scene, const std::vector<Placement>& grains) {
+  std::ostringstream out;
+  out.precision(17);
+  out << scene.name << "\n\n"
+      << grains.size() << " atoms\n"
+      << grains.size() << " ellipsoids\n"
+      << scene.grains.size() << " atom types\n\n";
+  const Rectangle plan = plan_of(scene.container);
+  const double margin = 2 * scene.largest_bounding_radius();
+  double top = 0;
+  for (const Placement& grain : grains) top = std::max(top, grain.position[2]);
+  const auto write_bounds = [&](std::size_t axis, const char* names) {
+    out << plan.corner.at(axis) - margin << ' ' << plan.corner.at(axis) + plan.width.at(axis) + margin << names;
+  };
+  write_bounds(0, " xlo xhi\n");
+  write_bounds(1, " ylo yhi\n");
+  out << lowest_start(scene.container) - margin << ' ' << top + margin << " zlo zhi\n\nAtoms # ellipsoid\n\n";
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const Grain& kind = scene.grains[grains[i].kind].grain;
+    // LAMMPS multiplies the density by the volume of the ellipsoid.
+    const double ellipsoid = 4.0 / 3 * std::numbers::pi * kind.half_axes[0] * kind.half_axes[1] * kind.half_axes[2];
+    out << i + 1 << ' ' << grains[i].kind + 1 << " 1 " << kind.density * volume_of(kind) / ellipsoid;
+    for (const double coordinate : grains[i].position) out << ' ' << coordinate;
+    out << '\n';
+  }
+  out << "\nEllipsoids\n\n";
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    out << i + 1;
+    for (const double half_axis : scene.grains[grains[i].kind].grain.half_axes) {
+      out << ' ' << 2 * grains[i].scale * half_axis;
+    }
+    for (const double component : grains[i].quaternion) out << ' ' << component;
+    out << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace
+
+LammpsInput lammps_input(const Scene& scene) {
+  refuse_what_lammps_has_not(scene);
+  LawReader reader{scene};
+  for (const fx::Effect& effect : scene.effects) std::visit(reader, effect);
+  Random random(scene.seed);
+  const std::vector<Placement> grains = place(scene, random);
+  double top = 0;
+  for (const Placement& grain : grains) top = std::max(top, grain.position[2] - lowest_start(scene.container));
+  const Contacts contacts = find_contacts(scene, reader.law, top);
+
+  std::ostringstream out;
+  out.precision(9);
+  out << "# " << scene.name << ", converted by falling_particles --to-lammps for samples/lammps. What differs:\n"
+      << "# contacts are springs, which overlap; a step is " << kStepsPerImpact
+      << " times shorter than an impact; contacts without\n"
+      << "# restitution have " << kRigidRestitution << "; flat faces rest on one point; grains are not rounded; nothing sleeps.\n"
+      << "units si\natom_style ellipsoid\ncomm_modify vel yes\nboundary f f m\nread_data " << scene.name << ".data\n"
+      << "pair_style supernormal\npair_coeff * * " << contacts.words << '\n';
+  for (std::size_t k = 0; k < scene.grains.size(); ++k) {
+    const Grain& grain = scene.grains[k].grain;
+    out << "pair_coeff " << k + 1 << ' ' << k + 1 << " exponents " << grain.delta << ' ' << grain.epsilon << "  # " << grain.name
+        << '\n';
+  }
+  out << "neighbor " << 0.5 * scene.smallest_half_axis() << " bin\nneigh_modify delay 0 every 1 check yes\ntimestep "
+      << contacts.step << "\nfix move all nve/supernormal\n";
+  if (const fx::Gravity* gravity = scene.gravity()) {
+    const supernormal::Vector3& g = gravity->acceleration;
+    out << "fix fall all gravity " << g.norm() << " vector " << g.x() << ' ' << g.y() << ' ' << g.z() << '\n';
+  }
+  std::visit(WallWriter{scene, contacts.words, out}, scene.container);
+  const auto steps = [&](double seconds) { return std::max(1LL, std::llround(seconds / contacts.step)); };
+  out << "compute shape all property/atom shapex shapey shapez quati quatj quatk quatw\n"
+      << "dump grains all custom " << steps(scene.time.frame) << ' ' << scene.name
+      << ".lammpstrj id type x y z c_shape[1] c_shape[2] c_shape[3] c_shape[4] c_shape[5] c_shape[6] c_shape[7]\n"
+      << "thermo " << steps(scene.time.frame) << "\nrun " << steps(scene.time.duration) << '\n';
+  return {out.str(), write_data(scene, grains)};
+}
+
+void write_lammps_input(const Scene& scene, const std::filesystem::path& folder) {
+  const LammpsInput input = lammps_input(scene);
+  create_folder(folder);
+  write_file(folder / (scene.name + ".data"), input.data);
+  write_file(folder / (scene.name + ".in"), input.commands);
+}
+
+}  // namespace falling_particles

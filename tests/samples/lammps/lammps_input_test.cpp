@@ -1,0 +1,95 @@
+// Scenes as inputs of LAMMPS.
+#include "output/lammps_input.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "relative.hpp"
+#include "scene/input_error.hpp"
+#include "simulation/random.hpp"
+
+using namespace falling_particles;
+using supernormal::test::relative;
+
+namespace {
+
+namespace fx = supernormal::effects;
+
+Scene scene_of(const std::string& name) { return load_scene(std::string(SUPERNORMAL_SAMPLES) + "/scenes/" + name + ".toml"); }
+
+/// The numbers that follow the first place of `word` in a line.
+double number_after(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find(word);
+  REQUIRE(at != std::string::npos);
+  return std::stod(text.substr(at + word.size()));
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string refusal(const Scene& scene) {
+  try {
+    lammps_input(scene);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("to LAMMPS: a box of grains, with their masses, and springs that give by a hundredth") {
+  const Scene scene = scene_of("short");
+  const LammpsInput input = lammps_input(scene);
+  CHECK(has(input.commands, "wall/supernormal box 0 0 0 0.05 0.05"));
+  CHECK(has(input.commands, "gravity 9.81 vector 0 0 -9.81"));
+  CHECK(has(input.commands, " friction 0.4"));
+  CHECK(has(input.commands, "pair_coeff 3 3 exponents 2 2.8  # tablet_biconvex"));
+
+  // LAMMPS makes the mass of the volume of the ellipsoid.
+  std::istringstream data(input.data.substr(input.data.find("ellipsoid\n\n", input.data.find("Atoms")) + 11));
+  double lightest = INFINITY, heaviest = 0, top = 0;
+  for (int i = 0; i < scene.bodies(); ++i) {
+    int id = 0, type = 0, is_ellipsoid = 0;
+    double density = 0, x = 0, y = 0, z = 0;
+    data >> id >> type >> is_ellipsoid >> density >> x >> y >> z;
+    REQUIRE(id == i + 1);
+    const auto& axes = scene.grains.at(static_cast<std::size_t>(type - 1)).grain.half_axes;
+    const double mass = density * 4 / 3 * std::numbers::pi * axes[0] * axes[1] * axes[2];
+    lightest = std::min(lightest, mass);
+    heaviest = std::max(heaviest, mass);
+    top = std::max(top, z);
+  }
+  const double stiffness = number_after(input.commands, "hooke ");
+  const double depth = std::sqrt(heaviest * 2 * 9.81 * top / stiffness);
+  CHECK(depth == relative(0.01 * scene.smallest_half_axis()).epsilon(1e-6));
+  const double step = number_after(input.commands, "timestep ");
+  CHECK(step == relative(std::numbers::pi * std::sqrt(lightest / 2 / stiffness) / 50).epsilon(1e-6));
+  CHECK(number_after(input.commands, "\nrun ") == relative(scene.time.duration / step).epsilon(1e-5));
+}
+
+TEST_CASE("to LAMMPS: a drum turns from when it does in the scene") {
+  const LammpsInput input = lammps_input(scene_of("drum"));
+  CHECK(has(input.commands, "cylinder 0 0 0.06 0 1 0 0.06"));
+  CHECK(has(input.commands, "move rotate 0 1 0 0 0 0.06 20 from 0.5"));
+  CHECK(has(input.commands, "plane 0 0.05 0.06 0 -1 0"));
+}
+
+TEST_CASE("to LAMMPS: a scene's own springs are kept") {
+  Scene scene = scene_of("short");
+  scene.effects.emplace_back(fx::Hertz{1e8, 0.3, 0.7, {}});
+  CHECK(has(lammps_input(scene).commands, "hertz 100000000 0.3 restitution 0.7 friction 0.4"));
+}
+
+TEST_CASE("to LAMMPS: what has no counterpart is refused by name") {
+  CHECK(has(refusal(scene_of("hopper")), "a container of kind hopper has no counterpart"));
+  Scene scene = scene_of("short");
+  scene.effects.emplace_back(fx::StokesDrag{});
+  CHECK(has(refusal(scene), "stokes_drag has no counterpart"));
+  scene = scene_of("short");
+  scene.effects.emplace_back(fx::Restitution{0.5, 0, fx::MaterialSelector::of(1)});
+  CHECK(has(refusal(scene), "[restitution] of a material has no counterpart"));
+}
