@@ -53,6 +53,7 @@ void list() {
 
 struct Options {
   std::string scene_path;
+  std::vector<std::string> overrides;
   std::string out = "out";
   int threads = 0;
   bool quiet = false;
@@ -62,7 +63,7 @@ struct Options {
 };
 
 ExitCode simulate(const Options& options) {
-  falling_particles::Scene scene = falling_particles::load_scene(options.scene_path);
+  falling_particles::Scene scene = falling_particles::load_scene(options.scene_path, options.overrides);
   if (!options.to_lammps.empty()) {
     falling_particles::write_lammps_input(scene, options.to_lammps);
     return Done;
@@ -82,6 +83,9 @@ ExitCode run_program(int argc, char** argv) {
   CLI::App app("Simulates falling grains in a container with ODE and Supernormal.", "falling_particles");
   Options options;
   app.add_option("-s,--scene", options.scene_path, "scene file (TOML)")->required();
+  app.add_option("--set", options.overrides, "another value than the scene's, once for each: time.step=1e-3, grain[pea].count=20")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   app.add_option("-o,--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("-t,--threads", options.threads,
                  "that look for contacts; 0: as many as the machine has. Same results with any number")

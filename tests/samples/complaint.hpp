@@ -12,12 +12,13 @@
 #include "temporary_folder.hpp"
 
 /// The message from loading the scene, without the temporary folder's name; "" when it is accepted.
-inline std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText) {
+inline std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText,
+                             const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   folder.write("grains.toml", catalogue);
   const std::string path = folder.write("scene.toml", scene);
   try {
-    falling_particles::load_scene(path);
+    falling_particles::load_scene(path, overrides);
   } catch (const falling_particles::InputError& error) {
     std::string text = error.what();
     const std::string prefix = folder.path().string() + "/";

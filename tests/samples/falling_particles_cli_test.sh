@@ -52,6 +52,18 @@ other_seed_other_result() {
   ! cmp -s "$work/first/short/trajectory.csv" "$work/third/short/trajectory.csv" || fail "the seed has no effect"
 }
 
+# What an option sets in place of a scene's value is as if the scene had it, and the summary says so.
+values_are_set() {
+  expect 0 "$program" -q --scene "$samples/scenes/short.toml" --out "$work/set" --set seed=4711 --set 'output.pictures=[]'
+  cmp "$work/third/short/trajectory.csv" "$work/set/short/trajectory.csv" || fail "--set seed is not the seed"
+  [ ! -e "$work/set/short/view.html" ] || fail "--set output.pictures has no effect"
+  grep -qF '= ["seed=4711", "output.pictures=[]"]' "$work/set/short/summary.toml" || fail "the summary does not say what was set"
+  ! grep -q '^set ' "$work/third/short/summary.toml" || fail "the summary says that something was set"
+  expect 2 "$program" --scene "$samples/scenes/short.toml" --out "$work/bad" --set time.step=-1
+  grep -q '^--set time.step=-1: time.step is -1; allowed: ' "$work/log" || fail "unclear message: $(cat "$work/log")"
+  [ ! -e "$work/bad" ] || fail "an output folder after bad input"
+}
+
 bad_input_leaves_nothing() {
   sed 's/^step = .*/step = -1/' "$samples/scenes/short.toml" >"$work/scenes/bad.toml"
   expect 2 "$program" --scene "$work/scenes/bad.toml" --out "$work/bad"
@@ -269,6 +281,7 @@ mkdir "$work/scenes" && cp -r "$samples/data" "$work/data"
 same_seed_same_result
 measurements_are_written
 other_seed_other_result
+values_are_set
 bad_input_leaves_nothing
 other_containers
 feeders_and_sinks

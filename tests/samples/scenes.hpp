@@ -13,10 +13,10 @@
 namespace falling_particles {
 
 /// A scene with the grains of kCatalogueText.
-inline Scene scene_of(const std::string& text) {
+inline Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   folder.write("grains.toml", kCatalogueText);
-  return load_scene(folder.write("scene.toml", text));
+  return load_scene(folder.write("scene.toml", text), overrides);
 }
 
 inline Scene scene_of(Container container, std::vector<GrainCount> grains) {

@@ -41,9 +41,16 @@ double ratio(unsigned long long part, unsigned long long whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
+std::string array_of(const std::vector<std::string>& texts) {
+  std::string array;
+  for (const std::string& text : texts) array += (array.empty() ? "" : ", ") + toml_string(text);
+  return '[' + array + ']';
+}
+
 void add_run(Lines& lines, const Summary& s) {
   lines.section("run");
   lines.add("scene", toml_string(s.scene.name));
+  if (!s.scene.overrides.empty()) lines.add("set", array_of(s.scene.overrides), "in place of the scene's values");
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
   lines.add("container", toml_string(kind_of(s.scene.container)));
   lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()), s.population == nullptr ? "" : "at the start");

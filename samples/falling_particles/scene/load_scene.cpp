@@ -217,10 +217,11 @@ std::vector<std::string> sections() {
 
 }  // namespace
 
-Scene load_scene(const std::string& path) {
-  const TomlTable root = TomlFile(path, "scene file").root(sections());
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  const TomlTable root = TomlFile(path, "scene file", overrides).root(sections());
   Scene scene{};
   scene.name = std::filesystem::path(path).stem().string();
+  scene.overrides = overrides;
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
   scene.container = read_container(root, scene.time);

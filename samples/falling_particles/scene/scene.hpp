@@ -74,6 +74,7 @@ struct Scene {
   std::vector<Feeder> feeders = {};                   ///< from which grains come during the run
   std::vector<Sink> sinks = {};                       ///< into which they go
   PeriodicAxes periodic = {};                         ///< along which it repeats, beside a container that does in all directions
+  std::vector<std::string> overrides = {};            ///< values that were not the file's, KEY=VALUE each (toml_override.hpp)
 
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;
@@ -91,7 +92,7 @@ struct Scene {
 /// Whether a point may be the centre of a grain: in the container, or in a sink, beyond it or not. False for a NaN.
 bool is_inside(const Scene& scene, const Point& point);
 
-/// Loads a scene file. Throws InputError.
-Scene load_scene(const std::string& path);
+/// Loads a scene file, with values in place of its own (toml_override.hpp). Throws InputError.
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace falling_particles

@@ -12,6 +12,7 @@
 
 #include "input_error.hpp"
 #include "nearest_word.hpp"
+#include "toml_override.hpp"
 
 namespace falling_particles {
 
@@ -26,7 +27,11 @@ struct TomlTable::Node {
 
 namespace {
 
-unsigned line_of(const toml::node& node) { return node.source().begin.line; }
+/// `place`: in the file, or in an option that set a value.
+[[noreturn]] void refuse(const std::string& file, const toml::source_region& place, const std::string& text) {
+  if (place.path && *place.path != file) throw InputError(*place.path + ": " + text);
+  throw InputError(file, std::max(place.begin.line, 1U), text);
+}
 
 std::string in_quotes(std::string_view text) { return '"' + std::string(text) + '"'; }
 
@@ -56,8 +61,7 @@ bool TomlTable::has(std::string_view key) const { return node_->table->contains(
 
 void TomlTable::fail(std::string_view key, const std::string& text) const {
   const toml::node* value = node_->table->get(key);
-  const unsigned line = value != nullptr ? line_of(*value) : line_of(*node_->table);
-  throw InputError(node_->file, std::max(line, 1U), text);
+  refuse(node_->file, value != nullptr ? value->source() : node_->table->source(), text);
 }
 
 void TomlTable::fail_missing(std::string_view key, const std::string& allowed) const {
@@ -72,9 +76,8 @@ void TomlTable::refuse_unknown_keys(const std::vector<std::string>& keys) const 
   for (const auto& [key, value] : *node_->table) {
     if (std::ranges::find(keys, key.str()) != keys.end()) continue;
     const std::string where = node_->name.empty() ? "at the top of the file" : "in [" + node_->name + "]";
-    throw InputError(
-        node_->file, key.source().begin.line,
-        "unknown key " + in_quotes(key.str()) + " " + where + did_you_mean(key.str(), keys) + "; allowed: " + join(keys));
+    refuse(node_->file, key.source(),
+           "unknown key " + in_quotes(key.str()) + " " + where + did_you_mean(key.str(), keys) + "; allowed: " + join(keys));
   }
 }
 
@@ -109,9 +112,9 @@ std::vector<std::string> TomlTable::choices(std::string_view key, const std::vec
     const auto word = element.value_exact<std::string>();
     const bool is_allowed = word && std::ranges::find(allowed, *word) != allowed.end();
     if (!is_allowed || std::ranges::find(result, *word) != result.end()) {
-      throw InputError(node_->file, line_of(element),
-                       full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) +
-                           (word ? did_you_mean(*word, allowed) : "") + "; allowed: " + all);
+      refuse(node_->file, element.source(),
+             full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) +
+                 (word ? did_you_mean(*word, allowed) : "") + "; allowed: " + all);
     }
     result.push_back(*word);
   }
@@ -136,8 +139,8 @@ std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count, 
   for (const toml::node& element : *array) {
     const auto number = as_number(element);
     if (!number || !allowed.contains(*number)) {
-      throw InputError(node_->file, line_of(element),
-                       full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) + "; allowed: " + all);
+      refuse(node_->file, element.source(),
+             full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) + "; allowed: " + all);
     }
     result.push_back(*number);
   }
@@ -210,7 +213,7 @@ std::vector<TomlTable> TomlTable::parts(std::string_view key, const std::string&
   for (const toml::node& element : *array) {
     const toml::table* part = element.as_table();
     if (part == nullptr)
-      throw InputError(node_->file, line_of(element), full_name(key) + " holds " + describe(element) + "; allowed: " + allowed);
+      refuse(node_->file, element.source(), full_name(key) + " holds " + describe(element) + "; allowed: " + allowed);
     result.push_back(TomlTable(std::make_shared<const Node>(node_->child(*part, full_name(key)))));
   }
   return result;
@@ -226,14 +229,15 @@ std::vector<std::string> TomlTable::names() const {
   return result;
 }
 
-TomlFile::TomlFile(const std::string& path, const std::string& what) {
+TomlFile::TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments) {
   if (std::filesystem::is_directory(path)) throw InputError("cannot read " + what + " " + in_quotes(path) + ": it is a directory");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError("cannot read " + what + " " + in_quotes(path) + ": " + std::strerror(errno));
   std::ostringstream content;
   content << stream.rdbuf();
   try {
-    auto root = std::make_shared<const toml::table>(toml::parse(content.str(), path));
+    auto root = std::make_shared<toml::table>(toml::parse(content.str(), path));
+    set_values(*root, assignments);
     const toml::table* top = root.get();
     node_ = std::make_shared<const TomlTable::Node>(TomlTable::Node{std::move(root), top, path, ""});
   } catch (const toml::parse_error& error) {

@@ -13,7 +13,8 @@
 namespace falling_particles {
 
 /// A table of a TOML file whose keys are known in advance. Every function that reads a value checks it and throws InputError with
-/// file, line and what is allowed, so that a value that was read is valid. A table is valid as long as its TomlFile.
+/// file and line, or the option that set it, and what is allowed, so that a value that was read is valid. A table is valid as long
+/// as its TomlFile.
 class TomlTable {
  public:
   std::optional<std::string> find_text(std::string_view key) const;
@@ -67,8 +68,9 @@ class TomlTable {
 /// A TOML file, parsed.
 class TomlFile {
  public:
-  /// Throws InputError when `path` is not a readable file (`what` says what it should be: "scene file") or is not valid TOML.
-  TomlFile(const std::string& path, const std::string& what);
+  /// With values of its own in place of the file's (set_values()). Throws InputError when `path` is not a readable file (`what`
+  /// says what it should be: "scene file") or is not valid TOML.
+  TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments = {});
 
   /// The top of the file with the given keys and nothing else.
   TomlTable root(const std::vector<std::string>& keys) const;

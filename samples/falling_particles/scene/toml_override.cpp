@@ -1,0 +1,166 @@
+#include "toml_override.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "input_error.hpp"
+#include "nearest_word.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+
+/// A part of a path: the key of a table, or what chooses an entry of an array.
+struct Step {
+  std::string word;
+  bool chooses_entry;
+};
+
+/// One KEY=VALUE, with the place that its path has come to.
+class Assignment {
+ public:
+  explicit Assignment(const std::string& text) : option_("--set " + text) {
+    std::ranges::replace(option_, '\n', ' ');  // a message is one line
+    std::string_view rest = text;
+    while (true) {
+      const std::size_t end = std::min(rest.find_first_not_of(kNameCharacters), rest.size());
+      if (end == 0) fail_form();
+      path_.push_back({std::string(rest.substr(0, end)), false});
+      rest.remove_prefix(end);
+      while (rest.starts_with('[')) {
+        const std::size_t closing = rest.find(']');
+        if (closing == std::string_view::npos || closing == 1) fail_form();
+        path_.push_back({std::string(rest.substr(1, closing - 1)), true});
+        rest.remove_prefix(closing + 1);
+      }
+      if (!rest.starts_with('.')) break;
+      rest.remove_prefix(1);
+    }
+    if (!rest.starts_with('=')) fail_form();
+    value_ = rest.substr(1);
+  }
+
+  void apply_to(toml::table& root) {
+    toml::node* node = &root;
+    std::size_t i = 0;
+    for (; i + 1 < path_.size(); ++i) {
+      const Step& step = path_[i];
+      toml::node* next = step.chooses_entry ? &entry(*node, step.word) : table(*node).get(step.word);
+      if (next == nullptr && !path_[i + 1].chooses_entry) break;  // a table that the file does not have
+      if (next == nullptr) fail_missing(table(*node), step.word);
+      node = next;
+      walked_ += step.chooses_entry ? '[' + step.word + ']' : (walked_.empty() ? "" : ".") + step.word;
+    }
+    if (path_[i].chooses_entry) {
+      toml::array& entries = array(*node);
+      toml::table parsed = parse("entry");
+      entries.replace(entries.cbegin() + static_cast<std::ptrdiff_t>(index_in(entries, path_[i].word)),
+                      std::move(*parsed.get("entry")));
+      return;
+    }
+    std::string keys = path_[i].word;
+    for (std::size_t k = i + 1; k < path_.size(); ++k) {
+      if (path_[k].chooses_entry) fail_missing(table(*node), path_[i].word);
+      keys += '.' + path_[k].word;
+    }
+    for (auto&& [key, value] : parse(keys)) table(*node).insert_or_assign(toml::key(key), std::move(value));
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& text) const { throw InputError(option_ + ": " + text); }
+
+  [[noreturn]] void fail_form() const {
+    fail("allowed: KEY=VALUE, such as time.step=1e-3, container.width[0]=0.1 or grain[pea].count=20");
+  }
+
+  [[noreturn]] void fail_missing(const toml::table& table, const std::string& word) const {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : table) keys.emplace_back(key.str());
+    fail("the file has no array \"" + word + "\"" + (walked_.empty() ? "" : " in " + walked_) + did_you_mean(word, keys) +
+         "; allowed to choose entries of: " + join(keys));
+  }
+
+  /// What the value says, under keys whose source is the option.
+  toml::table parse(const std::string& keys) const {
+    try {
+      // A second line could hold another key.
+      if (value_.find('\n') == std::string::npos) return toml::parse(keys + " = " + value_, option_);
+    } catch (const toml::parse_error&) {
+    }
+    fail('"' + value_.substr(0, value_.find('\n')) +
+         R"(" is no value of TOML; allowed: a number, "a text" in its quotes, true, false, [an array] or {a = "table"})");
+  }
+
+  toml::table& table(toml::node& node) const {
+    if (toml::table* table = node.as_table()) return *table;
+    if (const toml::array* entries = node.as_array()) fail(walked_ + " is an array; " + allowed_entries(*entries));
+    fail(walked_ + " is no table and has no keys");
+  }
+
+  toml::array& array(toml::node& node) const {
+    if (toml::array* array = node.as_array()) return *array;
+    fail(walked_ + " is no array and has no entries in brackets");
+  }
+
+  static std::optional<std::string> name_of(const toml::node& entry) {
+    const toml::table* table = entry.as_table();
+    if (table == nullptr) return std::nullopt;
+    const toml::node* name = table->contains("name") ? table->get("name") : table->get("kind");
+    return name == nullptr ? std::nullopt : name->value_exact<std::string>();
+  }
+
+  std::string allowed_entries(const toml::array& entries) const {
+    if (entries.empty()) return walked_ + " has no entries";
+    std::string text = "allowed: " + walked_ + "[0]";
+    if (entries.size() > 1) text += " to " + walked_ + '[' + std::to_string(entries.size() - 1) + ']';
+    std::vector<std::string> names;
+    for (const toml::node& entry : entries) {
+      if (const auto name = name_of(entry)) names.push_back(*name);
+    }
+    return names.empty() ? text : text + ", or instead of the number a name: " + join(names);
+  }
+
+  std::size_t index_in(const toml::array& entries, const std::string& choice) const {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
+    if (error == std::errc() && end == choice.data() + choice.size()) {
+      if (index < entries.size()) return index;
+      fail("there is no " + walked_ + '[' + choice + "]; " + allowed_entries(entries));
+    }
+    std::vector<std::string> names;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const auto name = name_of(entries[i]);
+      if (!name) continue;
+      names.push_back(*name);
+      if (*name == choice) found.push_back(i);
+    }
+    if (found.size() == 1) return found.front();
+    if (found.empty())
+      fail("there is no " + walked_ + " \"" + choice + '"' + did_you_mean(choice, names) + "; " + allowed_entries(entries));
+    fail(std::to_string(found.size()) + ' ' + walked_ + " are \"" + choice + "\"; allowed: their numbers, " + walked_ + '[' +
+         std::to_string(found.front()) + "] the first");
+  }
+
+  toml::node& entry(toml::node& node, const std::string& choice) const {
+    toml::array& entries = array(node);
+    return entries[index_in(entries, choice)];
+  }
+
+  std::string option_;
+  std::string value_;
+  std::vector<Step> path_;
+  std::string walked_;  // the path so far, for messages
+};
+
+}  // namespace
+
+void set_values(toml::table& root, const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments) Assignment(assignment).apply_to(root);
+}
+
+}  // namespace falling_particles
