@@ -1,0 +1,1 @@
+"""Sweeps of a scene of falling_particles: points, runs, results."""

@@ -1,0 +1,207 @@
+"""Sweep files: which runs of a scene there are, and what of each is collected."""
+
+import dataclasses
+import itertools
+import math
+import pathlib
+import tomllib
+
+from .errors import InputError, refuse_unknown_keys
+from .latin_hypercube import latin_hypercube
+from .quantity import read_quantities
+from .toml_text import toml_text
+
+KEYS = ["scene", "seeds", "arguments", "keep", "confidence", "set", "grid", "list", "latin_hypercube", "collect", "figure", "slurm"]
+MOST_POINTS = 1_000_000
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """One run: a value for each parameter of the sweep, and a seed (None: the scene's)."""
+
+    index: int
+    values: dict
+    seed: int | None
+
+    def describe(self):
+        parts = [f"{key}={toml_text(value)}" for key, value in self.values.items()]
+        if self.seed is not None:
+            parts.append(f"seed={self.seed}")
+        return f"point {self.index}" + (f" ({' '.join(parts)})" if parts else "")
+
+
+@dataclasses.dataclass(frozen=True)
+class Sweep:
+    path: pathlib.Path
+    scene: pathlib.Path
+    arguments: list  # of falling_particles, besides those that every run has
+    keep: bool  # whether the files of a run stay when its result is there
+    confidence: float
+    settings: dict  # of all runs
+    parameters: list  # keys that differ from run to run
+    seeds: int  # runs with the same parameters, one after the other in `points`
+    has_seeds: bool  # whether they are the sweep's, and not the scene's one
+    points: list
+    quantities: list
+    figure: dict | None
+    slurm_options: list
+
+    def assignments(self, point):
+        """What falling_particles is to --set for this run."""
+        values = {**self.settings, **point.values}
+        if point.seed is not None:
+            values["seed"] = point.seed
+        return [f"{key}={toml_text(value)}" for key, value in values.items()]
+
+
+def load_sweep(path):
+    """Raises InputError."""
+    path = pathlib.Path(path)
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot read sweep file {path}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: {error} (allowed: valid TOML 1.0)") from None
+    refuse_unknown_keys(table, KEYS, str(path))
+    scene = path.parent / _read(table, "scene", str, "a scene file, its path relative to the sweep file", path)
+    if not scene.is_file():
+        raise InputError(f"{path}: scene: there is no file {scene}; allowed: a scene file, its path relative to the sweep file")
+    settings = _read(table, "set", dict, "a table of keys of the scene and values", path, {})
+    axes = [_grid(table, path), _list(table, path), _latin_hypercube(table, path)]
+    seeds = _seeds(table, path)
+    parameters = _parameters(settings, axes, seeds, path)
+    combinations = itertools.product(*axes, seeds)
+    points = []
+    for *parts, seed in combinations:
+        if len(points) == MOST_POINTS:
+            raise InputError(f"{path}: more than {MOST_POINTS} points; allowed: up to {MOST_POINTS}")
+        points.append(Point(len(points), {key: value for part in parts for key, value in part.items()}, seed))
+    confidence = _read(table, "confidence", (int, float), "a number in (0, 1)", path, 0.95)
+    if not 0 < confidence < 1:
+        raise InputError(f"{path}: confidence is {confidence}; allowed: a number in (0, 1)")
+    quantities = read_quantities(table.get("collect"), path)
+    slurm = _read(table, "slurm", dict, "a table with options", path, {})
+    refuse_unknown_keys(slurm, ["options"], f"{path}: [slurm]")
+    return Sweep(
+        path=path,
+        scene=scene,
+        arguments=_texts(table, "arguments", path),
+        keep=_read(table, "keep", bool, "true or false", path, False),
+        confidence=confidence,
+        settings=settings,
+        parameters=parameters,
+        seeds=len(seeds),
+        has_seeds=seeds != [None],
+        points=points,
+        quantities=quantities,
+        figure=_figure(table, parameters, quantities, path),
+        slurm_options=_texts(slurm, "options", path),
+    )
+
+
+def _read(table, key, kind, allowed, path, default=None):
+    value = table.get(key, default)
+    if value is None:
+        raise InputError(f"{path}: {key} is missing; allowed: {allowed}")
+    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        raise InputError(f"{path}: {key} is {value!r}; allowed: {allowed}")
+    return value
+
+
+def _texts(table, key, path):
+    texts = _read(table, key, list, "an array of texts", path, [])
+    if not all(isinstance(text, str) for text in texts):
+        raise InputError(f"{path}: {key} is {texts!r}; allowed: an array of texts")
+    return texts
+
+
+def _seeds(table, path):
+    allowed = "a number of seeds from 1, which are 1, 2, 3 and so on, or an array of different seeds, whole numbers from 0"
+    seeds = table.get("seeds")
+    if seeds is None:
+        return [None]
+    if isinstance(seeds, int) and not isinstance(seeds, bool) and 1 <= seeds <= MOST_POINTS:
+        return list(range(1, seeds + 1))
+    if isinstance(seeds, list) and seeds and all(type(seed) is int and seed >= 0 for seed in seeds) and len(set(seeds)) == len(seeds):
+        return seeds
+    raise InputError(f"{path}: seeds is {seeds!r}; allowed: {allowed}")
+
+
+def _grid(table, path):
+    """Every combination of the values of all keys, the last key's changing fastest."""
+    grid = _read(table, "grid", dict, "a table of keys of the scene, each with an array of values", path, {})
+    for key, values in grid.items():
+        if not isinstance(values, list) or not values:
+            raise InputError(f'{path}: [grid] "{key}" is {values!r}; allowed: an array of values, not empty')
+    return [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
+
+
+def _list(table, path):
+    """The entries one after the other, which all set the same keys."""
+    allowed = "one or more [[list]], each with a value for the same keys"
+    entries = _read(table, "list", list, allowed, path, [{}])
+    if not entries or not all(isinstance(entry, dict) and set(entry) == set(entries[0]) for entry in entries):
+        raise InputError(f"{path}: [[list]]: its entries have different keys, or it has none; allowed: {allowed}")
+    return [{key: entry[key] for key in entries[0]} for entry in entries]
+
+
+def _latin_hypercube(table, path):
+    if "latin_hypercube" not in table:
+        return [{}]
+    where = f"{path}: [latin_hypercube]"
+    section = _read(table, "latin_hypercube", dict, "a table with points, seed and ranges", path)
+    refuse_unknown_keys(section, ["points", "seed", "ranges"], where)
+    points = _read(section, "points", int, "a whole number from 1", where)
+    if not 1 <= points <= MOST_POINTS:
+        raise InputError(f"{where}: points is {points}; allowed: a whole number from 1 to {MOST_POINTS}")
+    seed = _read(section, "seed", int, "a whole number", where)
+    ranges = _read(section, "ranges", dict, 'keys of the scene, each {from = 0.1, to = 0.5}', where)
+    scales = [_scale(f'{where} ranges "{key}"', limits) for key, limits in ranges.items()]
+    sample = latin_hypercube(points, len(ranges), seed)
+    return [{key: scale(share) for key, scale, share in zip(ranges, scales, shares)} for shares in sample]
+
+
+def _scale(where, limits):
+    """The function that takes [0, 1) to the range."""
+    allowed = 'allowed: {from = 0.1, to = 0.5}, with scale = "log" if from is above 0, and with whole = true for whole numbers'
+    if not isinstance(limits, dict):
+        raise InputError(f"{where} is {limits!r}; {allowed}")
+    refuse_unknown_keys(limits, ["from", "to", "scale", "whole"], where)
+    lower, upper = limits.get("from"), limits.get("to")
+    kind, whole = limits.get("scale", "linear"), limits.get("whole", False)
+    if type(lower) not in (int, float) or type(upper) not in (int, float) or not lower < upper or not math.isfinite(upper - lower):
+        raise InputError(f"{where} goes from {lower!r} to {upper!r}; {allowed}")
+    if kind not in ("linear", "log") or not isinstance(whole, bool) or (kind == "log" and lower <= 0):
+        raise InputError(f"{where} has scale = {kind!r}, whole = {whole!r} from {lower!r}; {allowed}")
+
+    def scaled(share):
+        # A range of whole numbers includes both ends, each with the same share of [0, 1).
+        low, high = (math.ceil(lower), math.floor(upper) + 1) if whole else (lower, upper)
+        value = low * (high / low) ** share if kind == "log" else low + (high - low) * share
+        return int(value) if whole else float(f"{value:.6g}")  # digits that people can type again
+
+    return scaled
+
+
+def _parameters(settings, axes, seeds, path):
+    keys = [key for axis in axes for key in axis[0]]
+    everywhere = [*settings, *keys, *(["seed"] if seeds != [None] else [])]
+    for key in everywhere:
+        if everywhere.count(key) > 1:
+            raise InputError(f'{path}: "{key}" is set {everywhere.count(key)} times; allowed: once, in set, grid, list, latin_hypercube or by seeds')
+    return keys
+
+
+def _figure(table, parameters, quantities, path):
+    """x and lines: parameters; y: quantities, one figure each."""
+    if "figure" not in table:
+        return None
+    where = f"{path}: [figure]"
+    figure = _read(table, "figure", dict, "a table with x, y, lines and scale", path)
+    refuse_unknown_keys(figure, ["x", "y", "lines", "scale"], where)
+    names = [quantity.name for quantity in quantities]
+    for key, words in (("x", parameters), ("y", names), ("lines", [*parameters, None]), ("scale", ["linear", "log", None])):
+        if figure.get(key) not in words:
+            raise InputError(f"{where}: {key} is {figure.get(key)!r}; allowed: {', '.join(filter(None, words))}")
+    return figure

@@ -1,0 +1,243 @@
+"""Runs, results and what becomes of them: with a program that does as it is told, and with falling_particles."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from sweep_files import ENSEMBLE, PROGRAM, SCENES, SweepTest
+
+from sweeps.quantity import NoValue, Quantity
+
+# Writes the seed as a result; counts its starts; fails, waits or is interrupted where a file beside the scene says so.
+STUB = """#!{python}
+import pathlib, sys, time
+arguments = sys.argv[1:]
+value = lambda option: arguments[arguments.index(option) + 1]
+assert value("--threads") == "1" and "--no-pictures" in arguments
+scene = pathlib.Path(value("--scene"))
+seed = next(text[5:] for text in arguments if text.startswith("seed="))
+with open(scene.parent / "starts", "a") as starts: starts.write(seed + "\\n")
+if (scene.parent / f"fail-{{seed}}").exists(): sys.exit("the reason")
+out = pathlib.Path(value("--out")) / scene.stem
+out.mkdir(parents=True, exist_ok=True)
+while (scene.parent / f"wait-{{seed}}").exists(): time.sleep(0.01)
+interrupted = (scene.parent / f"interrupt-{{seed}}").exists()
+text = f"[run]\\nsteps = {{seed}}\\ninterrupted = {{str(interrupted).lower()}}\\n"
+(out / "summary.toml").write_text(text)
+if interrupted: sys.exit(130)
+"""
+
+
+class RunTest(SweepTest):
+    def setUp(self):
+        super().setUp()
+        self.stub = self.folder / "stub"
+        self.stub.write_text(STUB.format(python=sys.executable))
+        self.stub.chmod(0o755)
+        self.sweep = self.write('seeds = 4\n[grid]\n"a" = [1, 2]')
+        self.out = self.folder / "out"
+
+    def command(self, *arguments, program=None):
+        command, *rest = arguments
+        given = [] if command in ("points", "collect") else ["--program", str(program or self.stub)]
+        return [sys.executable, str(ENSEMBLE), command, str(self.sweep), "--out", str(self.out), *given, *map(str, rest)]
+
+    def ensemble(self, *arguments, program=None):
+        return subprocess.run(self.command(*arguments, program=program), capture_output=True, text=True, check=False)
+
+    def start(self, *arguments, program=None):
+        process = subprocess.Popen(
+            self.command(*arguments, program=program), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        )
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def tell(self, name):
+        (self.folder / name).touch()
+
+    def starts(self):
+        file = self.folder / "starts"
+        return file.read_text().split() if file.exists() else []
+
+    def wait_for(self, condition):
+        end = time.monotonic() + 60
+        while not condition():
+            self.assertLess(time.monotonic(), end, "nothing came")
+            time.sleep(0.01)
+
+    def tables(self):
+        return [(self.out / name).read_text() for name in ("points.csv", "means.csv")]
+
+
+class Results(RunTest):
+    def test_points_become_lines_and_means(self):
+        self.assertEqual(self.ensemble("point", *range(8)).returncode, 0)
+        done = self.ensemble("collect")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        points, means = self.tables()
+        self.assertEqual(points, "a,seed,steps\n" + "".join(f"{a},{seed},{seed}\n" for a in (1, 2) for seed in (1, 2, 3, 4)))
+        # Of 1, 2, 3, 4: 3.182446 sqrt(5/3) / 2 is half the width.
+        self.assertEqual(
+            means, "a,runs,steps_mean,steps_standard_deviation,steps_confidence_95\n1,4,2.5,1.29099,2.05426\n2,4,2.5,1.29099,2.05426\n"
+        )
+
+    def test_what_has_a_result_is_not_run_again(self):
+        self.ensemble("point", 0, 3)
+        self.ensemble("point", *range(8))
+        self.assertEqual(sorted(self.starts()), sorted("12341234"))
+
+    def test_a_stride_takes_every_so_many_points(self):
+        self.ensemble("point", 1, "--stride", 3)
+        self.assertEqual(self.starts(), ["2", "1", "4"])
+
+    def test_more_seeds_run_what_is_new(self):
+        self.ensemble("point", *range(8))
+        self.write('seeds = 5\n[grid]\n"a" = [1, 2]')
+        self.ensemble("point", *range(10))
+        self.assertEqual(self.starts()[8:], ["5", "5"])
+
+    def test_another_scene_catalogue_or_quantity_is_run_again(self):
+        self.ensemble("point", 0)
+        catalogue = self.folder / "grains.toml"
+        for change in (
+            lambda: (self.folder / "scene.toml").write_text('seed = 2\ncatalogue = "grains.toml"\n'),
+            lambda: catalogue.write_text("[pea]\n"),
+            lambda: self.write('seeds = 4\n[grid]\n"a" = [1, 2]', collect='[[collect]]\nname = "s"\nsummary = "run.steps"\n'),
+        ):
+            before = len(self.starts())
+            change()
+            self.assertEqual(self.ensemble("point", 0).returncode, 0)
+            self.ensemble("point", 0)
+            self.assertEqual(len(self.starts()), before + 1)
+
+    def test_files_of_a_run_go_unless_they_are_to_stay(self):
+        self.ensemble("point", 0)
+        self.assertEqual(list((self.out / "runs").iterdir()), [])
+        self.write("seeds = 1\nkeep = true")
+        self.ensemble("point", 0)
+        self.assertEqual(len(list((self.out / "runs").glob("*/scene/summary.toml"))), 1)
+
+    def test_tables_give_means_of_the_last_part_and_of_chosen_lines(self):
+        table = self.folder / "t.csv"
+        table.write_text("time_s,slice,x\n" + "".join(f"{t},{s},{t * 10 + s}\n" for t in range(11) for s in (1, 2)))
+        quantity = Quantity("q", table="t.csv", column="x", last=0.2, where=(("slice", 2),))
+        self.assertEqual(quantity.value(self.folder), 92)  # of times 8, 9, 10
+        self.assertEqual(Quantity("q", table="t.csv", column="x").value(self.folder), 51.5)
+        for wrong, says in (
+            (Quantity("q", table="t.csv", column="y"), "t.csv has no column y; there are: time_s, slice, x"),
+            (Quantity("q", table="t.csv", column="x", where=(("slice", 3),)), "no line, slice = 3"),
+            (Quantity("q", table="u.csv", column="x"), "cannot read u.csv"),
+        ):
+            with self.assertRaises(NoValue) as caught:
+                wrong.value(self.folder)
+            self.assertIn(says, str(caught.exception))
+
+
+class Failures(RunTest):
+    def test_a_failed_point_is_named_and_the_others_finish(self):
+        self.tell("fail-2")
+        done = self.ensemble("point", *range(8))
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(sorted(self.starts()), sorted("12341234"))
+        done = self.ensemble("collect")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.splitlines(), [f"point {i} (a={a} seed=2): exit code 1: the reason" for i, a in ((1, 1), (5, 2))])
+        self.assertIn("6 of 8 points", done.stdout)
+        self.assertIn("\n1,3,2.66666667,", self.tables()[1])
+
+    def test_it_is_run_again_the_next_time(self):
+        self.tell("fail-2")
+        self.ensemble("point", 1)
+        (self.folder / "fail-2").unlink()
+        self.assertEqual(self.ensemble("point", *range(8)).returncode, 0)
+        self.assertEqual(self.ensemble("collect").returncode, 0)
+
+    def test_a_number_that_is_not_there_is_a_failure(self):
+        self.write("seeds = 1", collect='[[collect]]\nname = "s"\nsummary = "run.stps"\n')
+        done = self.ensemble("point", 0)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('summary.toml has no run.stps; did you mean "steps"?; there are: steps, interrupted', done.stderr)
+
+    def test_bad_input_has_its_own_exit_status(self):
+        for arguments, says in (
+            (("point", 8), "there is no point 8"),
+            (("point", 0, "--stride", "x"), "--stride"),
+        ):
+            done = self.ensemble(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(says, done.stderr)
+        self.assertIn("there is no program", self.ensemble("point", 0, program="/nowhere").stderr)
+        self.assertFalse(self.out.exists())
+
+
+class Kills(RunTest):
+    def test_a_kill_leaves_no_part_of_a_result(self):
+        self.tell("wait-3")
+        process = self.start("point", *range(8))
+        self.wait_for(lambda: "3" in self.starts())
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        self.assertEqual(len(list((self.out / "results").iterdir())), 2)
+        (self.folder / "wait-3").unlink()
+        self.assertEqual(self.ensemble("point", *range(8)).returncode, 0)
+        self.assertEqual(self.starts(), [*"123", *"34", *"1234"])
+
+    def test_a_run_whose_parent_was_killed_is_waited_for_and_not_done_twice(self):
+        self.tell("wait-1")
+        process = self.start("point", 0)
+        self.wait_for(lambda: "1" in self.starts())
+        process.kill()
+        process.wait()
+        second = self.start("point", 0)
+        time.sleep(0.5)
+        self.assertIsNone(second.poll())
+        self.assertEqual(self.starts(), ["1"])
+        (self.folder / "wait-1").unlink()
+        self.assertEqual(second.wait(), 0)
+        self.assertEqual(self.starts(), ["1"])
+
+    def test_an_interrupted_run_is_no_result(self):
+        self.tell("interrupt-1")
+        self.assertEqual(self.ensemble("point", 0).returncode, 1)
+        (self.folder / "interrupt-1").unlink()
+        self.assertEqual(self.ensemble("point", 0).returncode, 0)
+        self.assertEqual(self.starts(), ["1", "1"])
+
+
+class FallingParticles(RunTest):
+    """Grains in a box, 2 x 2 runs of 0.1 s."""
+
+    def setUp(self):
+        super().setUp()
+        text = 'seeds = 2\nset = {"time.duration" = 0.1}\n[grid]\n"friction.coefficient" = [0.1, 0.5]'
+        collect = '[[collect]]\nname = "kinetic"\ntable = "energies.csv"\ncolumn = "kinetic_J"\nlast = 0\n'
+        self.write(text, SCENES / "short.toml", collect + '[[collect]]\nname = "deepest"\nsummary = "collision.deepest_contact"\n')
+
+    def test_killed_at_any_moment_it_ends_with_the_same_bytes(self):
+        self.assertEqual(self.ensemble("point", *range(4), program=PROGRAM).returncode, 0)
+        self.assertEqual(self.ensemble("collect").returncode, 0)
+        expected = self.tables()
+        self.assertEqual(len(set(expected[0].splitlines())), 5)
+        self.out = self.folder / "killed"
+        for moment in (0.1, 0.4, 0.7):
+            process = self.start("point", *range(4), program=PROGRAM)
+            time.sleep(moment)
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+        self.assertEqual(self.ensemble("point", *range(4), program=PROGRAM).returncode, 0)
+        self.assertEqual(self.ensemble("collect").returncode, 0)
+        self.assertEqual(self.tables(), expected)
+
+    def test_a_value_that_the_scene_refuses_is_told_with_the_point(self):
+        self.write('seeds = 1\nset = {"time.step" = -1}', SCENES / "short.toml")
+        done = self.ensemble("point", 0, program=PROGRAM)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("point 0 (seed=1) FAILED: exit code 2: --set time.step=-1: time.step is -1; allowed: a number in (0, ", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

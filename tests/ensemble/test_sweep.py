@@ -1,0 +1,112 @@
+"""Sweep files become points, and mistakes in them messages."""
+
+import unittest
+
+from sweep_files import COLLECT, SCENES, SweepTest
+
+from sweeps.errors import InputError
+from sweeps.sweep import load_sweep
+
+
+class Points(SweepTest):
+    def assignments(self, text):
+        sweep = load_sweep(self.write(text))
+        return [" ".join(sweep.assignments(point)) for point in sweep.points]
+
+    def test_a_scene_alone_is_one_point(self):
+        self.assertEqual(self.assignments(""), [""])
+
+    def test_a_grid_is_every_combination_and_seeds_change_fastest(self):
+        self.assertEqual(
+            self.assignments('seeds = 2\n[grid]\n"a.x" = [1, 2.5]\n"b" = ["u", true]'),
+            [
+                f"a.x={x} b={b} seed={seed}" for x in ("1", "2.5") for b in ('"u"', "true") for seed in (1, 2)
+            ],
+        )
+
+    def test_a_list_is_its_entries(self):
+        self.assertEqual(self.assignments('[[list]]\na = 1\nb = [1, 2]\n[[list]]\nb = {c = 1e-3}\na = 2'), ["a=1 b=[1, 2]", 'a=2 b={"c" = 0.001}'])
+
+    def test_seeds_are_the_named_ones(self):
+        self.assertEqual(self.assignments("seeds = [7, 3]"), ["seed=7", "seed=3"])
+
+    def test_settings_are_of_all_points(self):
+        self.assertEqual(self.assignments('set = {"time.step" = 1e-3}\n[grid]\na = [1, 2]'), ["time.step=0.001 a=1", "time.step=0.001 a=2"])
+
+    def test_grid_list_and_hypercube_are_combined(self):
+        text = '[grid]\na = [1, 2]\n[[list]]\nb = 3\n[[list]]\nb = 4\n[latin_hypercube]\npoints = 5\nseed = 1\nranges = {c = {from = 0, to = 1}}'
+        sweep = load_sweep(self.write(text))
+        self.assertEqual(len(sweep.points), 2 * 2 * 5)
+        self.assertEqual(sweep.parameters, ["a", "b", "c"])
+        self.assertEqual([point.index for point in sweep.points], list(range(20)))
+
+    def test_ranges_are_linear_logarithmic_or_whole(self):
+        ranges = 'ranges = {lin = {from = 2, to = 3}, log = {from = 1e-4, to = 1, scale = "log"}, whole = {from = 1, to = 4, whole = true}}'
+        sweep = load_sweep(self.write(f"[latin_hypercube]\npoints = 400\nseed = 5\n{ranges}"))
+        lin, log, whole = ([point.values[key] for point in sweep.points] for key in ("lin", "log", "whole"))
+        self.assertTrue(all(2 <= value <= 3 for value in lin))
+        self.assertAlmostEqual(sum(lin) / 400, 2.5, delta=1e-3)
+        self.assertEqual(sum(value < 1e-2 for value in log), 200)  # half of the strata are in the lower half of the decades
+        self.assertEqual([whole.count(value) for value in (1, 2, 3, 4)], [100] * 4)
+        self.assertTrue(all(type(value) is int for value in whole))
+
+    def test_the_samples_are_read(self):
+        self.assertEqual(len(load_sweep(SCENES.parent / "ensemble/packing.toml").points), 64)
+        self.assertEqual(len(load_sweep(SCENES.parent / "ensemble/short.toml").points), 12)
+
+
+class Mistakes(SweepTest):
+    def complaint(self, text, **parts):
+        with self.assertRaises(InputError) as caught:
+            load_sweep(self.write(text, **parts))
+        return caught.exception
+
+    def test_each_names_the_file_the_key_and_what_is_allowed(self):
+        for text, *parts in [
+            ("seds = 3", 'sweep.toml: unknown key "seds"; did you mean "seeds"?; allowed: scene'),
+            ("seeds = 0", "sweep.toml: seeds is 0; allowed: a number of seeds from 1"),
+            ("seeds = [1, 1]", "seeds is [1, 1]; allowed:"),
+            ("seeds = true", "seeds is True"),
+            ("[grid]\na = 3", '[grid] "a" is 3; allowed: an array'),
+            ("[grid]\na = []", '[grid] "a" is []'),
+            ("[[list]]\na = 1\n[[list]]\nb = 1", "[[list]]: its entries have different keys"),
+            ("list = []", "[[list]]"),
+            ("set = {a = 1}\n[grid]\na = [1]", '"a" is set 2 times; allowed: once'),
+            ("seeds = 2\n[grid]\nseed = [1]", '"seed" is set 2 times'),
+            ("confidence = 1", "confidence is 1; allowed: a number in (0, 1)"),
+            ("keep = 1", "keep is 1; allowed: true or false"),
+            ("arguments = [1]", "arguments is [1]; allowed: an array of texts"),
+            ("[latin_hypercube]\nseed = 1\nranges = {}", "points is missing"),
+            ("[latin_hypercube]\npoints = 0\nseed = 1\nranges = {}", "points is 0; allowed: a whole number from 1"),
+            ("[latin_hypercube]\npoints = 2\nseed = 1\nranges = {a = {from = 2, to = 1}}", 'ranges "a" goes from 2 to 1; allowed:'),
+            ("[latin_hypercube]\npoints = 2\nseed = 1\nranges = {a = {from = 0, to = 1, scale = \"log\"}}", "scale = 'log'", "from 0"),
+            ("[latin_hypercube]\npoints = 2\nseed = 1\nranges = {a = {form = 0, to = 1}}", 'unknown key "form"; did you mean "from"?'),
+            ("[grid]\na = [1]\n[figure]\nx = \"b\"\ny = \"steps\"", "[figure]: x is 'b'; allowed: a"),
+            ("[slurm]\noption = []", 'unknown key "option"; did you mean "options"?'),
+            ("a = ", "allowed: valid TOML 1.0"),
+        ]:
+            with self.subTest(text):
+                self.assert_says(self.complaint(text), *parts)
+
+    def test_what_is_collected_is_checked(self):
+        for collect, *parts in [
+            ("", "collect is None; allowed: one or more [[collect]]"),
+            ('[[collect]]\nname = "a"', "[[collect]] has name; allowed: name and summary, or name, table and column"),
+            ('[[collect]]\nname = "a"\ntable = "t.csv"', "allowed: name and summary, or name, table and column"),
+            ('[[collect]]\nname = "a"\nsummary = "s"\nlast = 0.5', "last and where are of a table"),
+            ('[[collect]]\nname = "a"\ntable = "t"\ncolumn = "c"\nlast = 2', "a: last is 2; allowed: a number in [0, 1]"),
+            ('[[collect]]\nname = "a"\nsumary = "s"', 'unknown key "sumary"; did you mean "summary"?'),
+            (COLLECT + COLLECT, "names steps, steps; allowed: different ones"),
+        ]:
+            with self.subTest(collect):
+                self.assert_says(self.complaint("", collect=collect), *parts)
+
+    def test_files_that_are_not_there(self):
+        self.assert_says(self.complaint("", scene="other.toml"), "scene: there is no file", "other.toml; allowed: a scene file")
+        with self.assertRaises(InputError) as caught:
+            load_sweep(self.folder / "none.toml")
+        self.assert_says(caught.exception, "cannot read sweep file", "No such file")
+
+
+if __name__ == "__main__":
+    unittest.main()
