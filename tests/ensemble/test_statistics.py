@@ -20,7 +20,8 @@ class LatinHypercube(unittest.TestCase):
         """Digits of Python's Mersenne Twister, which its documentation guarantees."""
         self.assertEqual(latin_hypercube(3, 2, 1), latin_hypercube(3, 2, 1))
         self.assertNotEqual(latin_hypercube(3, 2, 1), latin_hypercube(3, 2, 2))
-        self.assertEqual([[round(x, 12) for x in row] for row in latin_hypercube(3, 2, 1)], [[0.921258206326, 0.262907783712], [0.418356341913, 0.697953195591], [0.165145029031, 0.342782492174]])
+        expected = [[0.921258206326, 0.262907783712], [0.418356341913, 0.697953195591], [0.165145029031, 0.342782492174]]
+        self.assertEqual([[round(x, 12) for x in row] for row in latin_hypercube(3, 2, 1)], expected)
 
     def test_dimensions_are_not_correlated(self):
         sample = latin_hypercube(1000, 2, 4)

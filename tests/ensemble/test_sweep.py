@@ -19,9 +19,7 @@ class Points(SweepTest):
     def test_a_grid_is_every_combination_and_seeds_change_fastest(self):
         self.assertEqual(
             self.assignments('seeds = 2\n[grid]\n"a.x" = [1, 2.5]\n"b" = ["u", true]'),
-            [
-                f"a.x={x} b={b} seed={seed}" for x in ("1", "2.5") for b in ('"u"', "true") for seed in (1, 2)
-            ],
+            [f"a.x={x} b={b} seed={seed}" for x in ("1", "2.5") for b in ('"u"', "true") for seed in (1, 2)],
         )
 
     def test_a_list_is_its_entries(self):
@@ -53,6 +51,16 @@ class Points(SweepTest):
     def test_the_samples_are_read(self):
         self.assertEqual(len(load_sweep(SCENES.parent / "ensemble/packing.toml").points), 64)
         self.assertEqual(len(load_sweep(SCENES.parent / "ensemble/short.toml").points), 12)
+
+    def test_the_sweep_of_the_page_is_read(self):
+        page = (SCENES.parent / "ensemble/README.md").read_text(encoding="utf-8")
+        text = page.split("```toml\n")[1].split("```")[0].replace("../scenes", str(SCENES))
+        path = self.folder / "page.toml"
+        path.write_text(text)
+        sweep = load_sweep(path)
+        self.assertEqual(len(sweep.points), 2048)
+        self.assertIn("16 × 2 × 16 × 4 = 2048 runs", page)
+        self.assertEqual(sweep.slurm_options, ["--partition=long"])
 
 
 class Mistakes(SweepTest):
