@@ -32,11 +32,11 @@ constexpr const char* kFooter =
     "scene\n"
     "asks for, view.html, scene.glb and a plot of each table if it does not say; until the end they are in "
     "OUT/<scene>.unfinished-1. If the run is killed the tables stay\n"
-    "there, up to the last frame, until the next run of the scene.\n"
+    "there, up to the last frame, until the next run of the scene; with --checkpoint-every, --resume goes on from there.\n"
     "Exit code: 0 done; 1 failed (disk full, say, or stdout closed): results of an earlier run stay unless there are new ones;\n"
     "2 bad input, nothing written;\n"
     "3 with --check-leaks: a grain left the container, all results written;\n"
-    "130 stopped by Ctrl-C, with all results up to then written.";
+    "130 stopped by Ctrl-C, with all results up to then written; with --checkpoint-every, at a checkpoint, to be resumed.";
 
 void list() {
   std::puts(
@@ -54,9 +54,7 @@ void list() {
 struct Options {
   std::string scene_path;
   std::vector<std::string> overrides;
-  std::string out = "out";
-  int threads = 0;
-  bool quiet = false;
+  falling_particles::RunOptions run;
   bool check_leaks = false;
   bool no_pictures = false;
   std::string to_lammps;
@@ -71,10 +69,10 @@ ExitCode simulate(const Options& options) {
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // what does not fit `ulimit -f` is an error of its write
-  const falling_particles::RunEnd end = falling_particles::run(scene, options.out, options.quiet, options.threads);
+  const falling_particles::RunEnd end = falling_particles::run(scene, options.run);
   std::fflush(stdout);
   falling_particles::catch_interrupts();  // again: the results are in place, and a Ctrl-C ends only the drawing
-  falling_particles::render(end.renderings, end.folder, options.quiet);
+  falling_particles::render(end.renderings, end.folder, options.run.quiet);
   if (end.interrupted || falling_particles::interrupted()) return Interrupted;
   return end.leaked && options.check_leaks ? Leaked : Done;
 }
@@ -86,14 +84,19 @@ ExitCode run_program(int argc, char** argv) {
   app.add_option("--set", options.overrides, "another value than the scene's, once for each: time.step=1e-3, grain[pea].count=20")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.add_option("-o,--out", options.out, "folder for the results")->capture_default_str();
-  app.add_option("-t,--threads", options.threads,
+  app.add_option("-o,--out", options.run.out, "folder for the results")->capture_default_str();
+  app.add_option("-t,--threads", options.run.threads,
                  "that look for contacts; 0: as many as the machine has. Same results with any number")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  app.add_flag("-q,--quiet", options.quiet, "no progress");
+  app.add_flag("-q,--quiet", options.run.quiet, "no progress");
   app.add_flag("--check-leaks", options.check_leaks, "exit with 3 when a grain leaves its container");
   app.add_option("--to-lammps", options.to_lammps, "write the scene as an input of samples/lammps to this folder, and run nothing");
+  app.add_option("--checkpoint-every", options.run.checkpoint_every,
+                 "save the run after as many steps each, to go on from there; a signal ends it at the next checkpoint")
+      ->check(CLI::Range(1, 1'000'000'000));
+  app.add_flag("--resume", options.run.resume,
+               "go on from the checkpoint of a run of the scene that was killed; start when there is none");
   app.add_flag("--no-pictures", options.no_pictures, "leave nothing but the tables, whatever the scene asks for");
   const auto list_and_end = [] {
     list();

@@ -18,6 +18,11 @@ struct Bed {
   double volume_fraction;  ///< share of the slab, from wall to wall, that lies within a grain; an overlap counts once
   double standard_error;   ///< error of volume_fraction, as if the sampling points were independent (they are stratified: less)
   double bulk_density;     ///< kg/m^3, of the slab
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(height, volume_fraction, standard_error, bulk_density);
+  }
 };
 
 /// Measures the bed in a box: samples the slab with stratified random points and snGeomPointDepth.

@@ -23,6 +23,11 @@ struct Charge {
   double mass;            ///< kg, of all grains
   double grain_diameter;  ///< m, diameter of the sphere of the grains' mean volume
   Bed bed;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(time, mass, grain_diameter, bed);
+  }
 };
 
 /// Opens the outlet of a hopper when its time has come, and counts the grains whose centre passes it.
@@ -40,10 +45,19 @@ class Discharge {
   /// kg/s, the mean over the steady part; empty if less than that was discharged.
   std::optional<double> mass_flow() const;
 
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(charge_, has_passed_, passages_);
+  }
+
  private:
   struct Passage {
     double time;
     double total_mass;  // up to and including this grain
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(time, total_mass);
+    }
   };
   void open(double time);
   const Passage* find_passage(double share) const;

@@ -10,6 +10,10 @@ struct Energy {
   double kinetic;    ///< J, of translation and rotation
   double potential;  ///< J, in the scene's gravity, 0 at the origin
   double total() const { return kinetic + potential; }
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(kinetic, potential);
+  }
 };
 
 Energy measure_energy(const World& world, const Scene& scene);
@@ -34,6 +38,11 @@ class EnergyWatch {
 
   double gained() const { return gained_; }        ///< J, the largest rise over any step before
   double lost() const { return start_ - least_; }  ///< J, from the start to the least
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(start_, least_, gained_);
+  }
 
  private:
   const World& world_;

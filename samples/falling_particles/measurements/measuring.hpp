@@ -1,7 +1,9 @@
 // The measurements of a run as it goes.
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +23,32 @@ inline constexpr const char* kMeasurementFolder = "measurements";
 struct MeasurementState {
   unsigned long long samples = 0;
   unsigned long long lines = 0;  ///< of the table, its head not counted
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(samples, lines);
+  }
+};
+
+/// All that the measurements of a run accumulate.
+struct MeasuringState {
+  struct OfTable {
+    std::uint64_t bytes = 0;
+    MeasurementState state;
+    Stopwatch watch;
+
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(bytes, state, watch);
+    }
+  };
+  std::vector<OfTable> tables;  ///< in the order of the scene
+  Stopwatch gathering;          ///< time in which contacts were gathered
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(tables, gathering);
+  }
 };
 
 /// What a measurement took.
@@ -36,6 +64,8 @@ class Measuring {
  public:
   /// Creates the folder and the tables, if there are any. `world` has not started, and outlives this object.
   Measuring(const Scene& scene, const World& world, const OutputFolder& folder);
+  /// Goes on with tables that are there.
+  Measuring(const Scene& scene, const World& world, const OutputFolder& folder, const MeasuringState& saved);
 
   /// Whether a sample after this step needs the forces of its contacts.
   bool wants_forces(int step) const;
@@ -43,19 +73,25 @@ class Measuring {
   void after_step(int step, double time, const std::deque<MeasuredContact>& contacts);
   void close_tables();
 
+  /// Goes on in another world of the same scene.
+  void go_on_in(const World& world);
+  /// What there is so far, in tables that survive a power cut.
+  MeasuringState save();
+
   std::vector<MeasurementCost> costs() const;
   double seconds_of_contacts() const { return gathering_.seconds(); }  ///< s, to gather contacts for all measurements
 
  private:
   struct Entry {
-    const MeasurementRequest* request;
+    const MeasurementRequest* request = nullptr;
     std::unique_ptr<Measurement> measurement;
     std::unique_ptr<OutputFile> file;
     MeasurementState state = {};
     Stopwatch watch = {};
   };
 
-  const World& world_;
+  const World* world_;
+  std::filesystem::path folder_;  // of the tables
   double step_;
   std::vector<Entry> entries_;
   Stopwatch gathering_;

@@ -7,11 +7,13 @@
 namespace falling_particles {
 namespace {
 
+constexpr const char* kLid = "lid";
+
 /// Names surfaces in the order in which Walls makes their geoms.
 struct Names {
   std::vector<std::string> operator()(const Box&) const { return {"floor", "x_low", "x_high", "y_low", "y_high"}; }
   std::vector<std::string> operator()(const Hopper& hopper) const {
-    std::vector<std::string> names = {"floor", "x_low", "x_high", "y_low", "y_high", "lid", "hopper"};
+    std::vector<std::string> names = {"floor", "x_low", "x_high", "y_low", "y_high", kLid, "hopper"};
     if (hopper.dish) names.emplace_back("dish");
     return names;
   }
@@ -34,7 +36,9 @@ std::vector<std::string> surface_names(const Scene& scene) {
   return names;
 }
 
-std::vector<NamedSurface> surfaces_of(const World& world, const std::vector<std::string>& names) {
+std::vector<NamedSurface> surfaces_of(const World& world, std::vector<std::string> names) {
+  const bool is_open = std::holds_alternative<Hopper>(world.scene().container) && !world.walls().has_lid();
+  if (is_open) names.erase(std::ranges::find(names, kLid));
   std::vector<dGeomID> geoms = world.walls().geoms();
   if (world.parts() != nullptr) geoms.insert(geoms.end(), world.parts()->geoms().begin(), world.parts()->geoms().end());
   if (names.size() != geoms.size()) throw std::logic_error("a scene has other walls than surfaces_of() names");

@@ -21,8 +21,8 @@ struct NamedSurface {
 /// "dish", "ground", and those of the scene's parts.
 std::vector<std::string> surface_names(const Scene& scene);
 
-/// The surfaces of a world that has not started. `names`: surface_names() of its scene.
-std::vector<NamedSurface> surfaces_of(const World& world, const std::vector<std::string>& names);
+/// The surfaces of a world. `names`: surface_names() of its scene.
+std::vector<NamedSurface> surfaces_of(const World& world, std::vector<std::string> names);
 
 /// The name of a geom's surface, "wall" if it has none.
 std::string surface_name(const std::vector<NamedSurface>& surfaces, dGeomID geom);

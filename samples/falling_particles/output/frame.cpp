@@ -80,12 +80,18 @@ Extent extent_of(const Frame& frame, double radius) {
   return extent;
 }
 
-Contents contents_of(const World& world, const Scene& scene) {
-  Contents contents{&scene, {}, {}};
-  add_new_bodies(contents, world);
+double top_of(const World& world, const Scene& scene) {
   double top = 0;
   for (const Body& body : world.present()) top = std::max(top, body.position()[2] + body.bounding_radius());
   for (const Feeder& feeder : scene.feeders) top = std::max(top, feeder.region.corner[2] + feeder.region.size[2]);
+  return top;
+}
+
+Contents contents_of(const World& world, const Scene& scene) { return contents_of(world, scene, top_of(world, scene)); }
+
+Contents contents_of(const World& world, const Scene& scene, double top) {
+  Contents contents{&scene, {}, {}};
+  add_new_bodies(contents, world);
   contents.parts = parts_of(scene.container, top, scene.periodic);
   for (const Part& part : scene.parts) contents.parts.push_back(picture_of(part, width_of_planes(scene)));
   return contents;

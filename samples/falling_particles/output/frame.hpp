@@ -23,6 +23,11 @@ struct BodyState {
   Point velocity;                    ///< m/s
   Point angular_velocity;            ///< rad/s
   bool is_present = true;            ///< false for a grain that is gone, whose other numbers are 0
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(position, quaternion, velocity, angular_velocity, is_present);
+  }
 };
 
 /// A contact of the last step, in the world's frame.
@@ -33,6 +38,11 @@ struct ContactState {
   int body1;       ///< index of the body; kWall for a wall
   int body2;
   std::optional<Point> force = {};  ///< N, on body 1; where the scene asks for forces
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(position, normal, depth, body1, body2, force);
+  }
 };
 
 inline constexpr int kWall = -1;
@@ -45,6 +55,11 @@ struct PartPlace {
 
   Point operator()(const std::array<float, 3>& vertex) const;
   bool operator==(const PartPlace&) const = default;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(position, quaternion, scale);
+  }
 };
 
 /// One moment of a run. The bodies are all that there have been so far, by their indices, those that are gone included.
@@ -54,6 +69,11 @@ struct Frame {
   std::vector<BodyState> bodies;
   std::vector<ContactState> contacts;  ///< of the step that led to this moment; none at the start. Those of a pair are consecutive
   std::vector<PartPlace> part_places;  ///< of the container's parts
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(time, energy, bodies, contacts, part_places);
+  }
 };
 
 /// A box along the axes.
@@ -75,7 +95,11 @@ struct Contents {
   double scale(std::size_t body) const { return scale_of_body.empty() ? 1 : scale_of_body[body]; }
 };
 
-/// Of a run that has not started: walls without end are shown up to the highest grain.
+/// m, above all grains of a run that has not started, and above its feeders: up to there walls without end are shown.
+double top_of(const World& world, const Scene& scene);
+
+Contents contents_of(const World& world, const Scene& scene, double top);
+/// Of a run that has not started.
 Contents contents_of(const World& world, const Scene& scene);
 
 /// Appends the grains that have come since.

@@ -16,9 +16,12 @@ std::string line_of(std::initializer_list<std::string> fields) {
 
 }  // namespace
 
-Trajectory::Trajectory(const std::filesystem::path& path) : file_(path) {
-  file_.write("time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n");
+Table::Table(const std::filesystem::path& path, std::string_view head, std::uint64_t kept) : file_(path, kept) {
+  if (kept == 0) file_.write(head);
 }
+
+Trajectory::Trajectory(const std::filesystem::path& path, std::uint64_t kept)
+    : Table(path, "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n", kept) {}
 
 void Trajectory::write(double time, const World& world) {
   const std::string start = shortest(time) + ',';
@@ -31,49 +34,47 @@ void Trajectory::write(double time, const World& world) {
     for (int i = 0; i < 4; ++i) frame += ',' + shortest(quaternion[i]);
     frame += '\n';
   }
-  file_.write(frame);
+  append(frame);
 }
 
-Energies::Energies(const std::filesystem::path& path) : file_(path) {
-  file_.write("time_s,kinetic_J,potential_J,total_J,contacts\n");
-}
+Energies::Energies(const std::filesystem::path& path, std::uint64_t kept)
+    : Table(path, "time_s,kinetic_J,potential_J,total_J,contacts\n", kept) {}
 
 void Energies::write(double time, const Energy& energy, std::size_t contacts) {
-  file_.write(line_of(
+  append(line_of(
       {shortest(time), shortest(energy.kinetic), shortest(energy.potential), shortest(energy.total()), std::to_string(contacts)}));
 }
 
-StateFile::StateFile(const std::filesystem::path& path) : file_(path) {
-  file_.write(
-      "time_s,deepest_contact_m,deepest_contact_of_all_steps_m,kinetic_height_m,largest_kinetic_energy_J,energy_lost_J,"
-      "energy_gained_J,bodies_leaked\n");
-}
+StateFile::StateFile(const std::filesystem::path& path, std::uint64_t kept)
+    : Table(path,
+            "time_s,deepest_contact_m,deepest_contact_of_all_steps_m,kinetic_height_m,largest_kinetic_energy_J,energy_lost_J,"
+            "energy_gained_J,bodies_leaked\n",
+            kept) {}
 
 void StateFile::write(double time, const State& state) {
-  file_.write(line_of({shortest(time), shortest(state.deepest_contact), shortest(state.deepest_contact_of_all_steps),
-                       state.kinetic_height ? shortest(*state.kinetic_height) : "", shortest(state.largest_kinetic_energy),
-                       shortest(state.energy_lost), shortest(state.energy_gained), std::to_string(state.leaked)}));
+  append(line_of({shortest(time), shortest(state.deepest_contact), shortest(state.deepest_contact_of_all_steps),
+                  state.kinetic_height ? shortest(*state.kinetic_height) : "", shortest(state.largest_kinetic_energy),
+                  shortest(state.energy_lost), shortest(state.energy_gained), std::to_string(state.leaked)}));
 }
 
-DischargeFile::DischargeFile(const std::filesystem::path& path) : file_(path) {
-  file_.write("time_s,discharged_kg,discharged_grains\n");
-}
+DischargeFile::DischargeFile(const std::filesystem::path& path, std::uint64_t kept)
+    : Table(path, "time_s,discharged_kg,discharged_grains\n", kept) {}
 
 void DischargeFile::write(double time, double mass, std::size_t count) {
-  file_.write(line_of({shortest(time), shortest(mass), std::to_string(count)}));
+  append(line_of({shortest(time), shortest(mass), std::to_string(count)}));
 }
 
-CompressionFile::CompressionFile(const std::filesystem::path& path) : file_(path) {
-  file_.write("time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain\n");
-}
+CompressionFile::CompressionFile(const std::filesystem::path& path, std::uint64_t kept)
+    : Table(path, "time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain\n",
+            kept) {}
 
 void CompressionFile::write(double time, const Packing& packing) {
-  file_.write(
-      line_of({shortest(time), shortest(packing.side), shortest(packing.volume_fraction), shortest(packing.at_contact),
-               shortest(packing.overlap.relative), shortest(packing.target_overlap), shortest(packing.contacts_per_grain)}));
+  append(line_of({shortest(time), shortest(packing.side), shortest(packing.volume_fraction), shortest(packing.at_contact),
+                  shortest(packing.overlap.relative), shortest(packing.target_overlap), shortest(packing.contacts_per_grain)}));
 }
 
-FeedersFile::FeedersFile(const std::filesystem::path& path) : file_(path) { file_.write("time_s,feeder,grain,grains,kg\n"); }
+FeedersFile::FeedersFile(const std::filesystem::path& path, std::uint64_t kept)
+    : Table(path, "time_s,feeder,grain,grains,kg\n", kept) {}
 
 void FeedersFile::write(double time, const Population& population) {
   std::string frame;
@@ -84,10 +85,10 @@ void FeedersFile::write(double time, const Population& population) {
       frame += line_of({shortest(time), feeder.name, feeding.grain(i).name, std::to_string(fed.grains), shortest(fed.mass)});
     }
   }
-  file_.write(frame);
+  append(frame);
 }
 
-SinksFile::SinksFile(const std::filesystem::path& path) : file_(path) { file_.write("time_s,sink,grain,grains,kg\n"); }
+SinksFile::SinksFile(const std::filesystem::path& path, std::uint64_t kept) : Table(path, "time_s,sink,grain,grains,kg\n", kept) {}
 
 void SinksFile::write(double time, const Population& population, const Scene& scene) {
   std::string frame;
@@ -98,12 +99,12 @@ void SinksFile::write(double time, const Population& population, const Scene& sc
                         shortest(taken.mass)});
     }
   }
-  file_.write(frame);
+  append(frame);
 }
 
-PartsFile::PartsFile(const std::filesystem::path& path) : file_(path) {
-  file_.write("time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n");
-}
+PartsFile::PartsFile(const std::filesystem::path& path, std::uint64_t kept)
+    : Table(path, "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n",
+            kept) {}
 
 void PartsFile::write(double time, const PartBodies& parts) {
   std::string frame;
@@ -118,10 +119,11 @@ void PartsFile::write(double time, const PartBodies& parts) {
     for (const double number : velocity.angular) frame += ',' + shortest(number);
     frame += '\n';
   }
-  file_.write(frame);
+  append(frame);
 }
 
-GrainsFile::GrainsFile(const std::filesystem::path& path) : file_(path) { file_.write("body,grain,scale,sieve_size_m,mass_kg\n"); }
+GrainsFile::GrainsFile(const std::filesystem::path& path, std::uint64_t kept, std::size_t written)
+    : Table(path, "body,grain,scale,sieve_size_m,mass_kg\n", kept), written_(written) {}
 
 void GrainsFile::write(const World& world) {
   std::string lines;
@@ -130,7 +132,7 @@ void GrainsFile::write(const World& world) {
     lines += line_of({std::to_string(written_), body.grain->name, shortest(body.scale),
                       shortest(body.scale * body.grain->sieve_size()), shortest(body.mass.mass)});
   }
-  file_.write(lines);
+  append(lines);
 }
 
 }  // namespace falling_particles

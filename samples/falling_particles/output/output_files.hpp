@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -27,28 +28,37 @@ inline constexpr std::string_view kSinksFile = "sinks.csv";
 inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,  kStateFile,       kSummaryFile, kFeedersFile,
                                             kSinksFile,      kDischargeFile, kCompressionFile, kPartsFile,   kGrainsFile};
 
-/// trajectory.csv has a line per frame and body that is there; a body keeps its index for the whole run, and no other gets it.
-/// Numbers are the shortest text that reads back exactly. All files are handed over to the system frame by frame: a run that is
-/// killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
-class Trajectory {
+/// A table that grows line by line.
+class Table {
  public:
-  explicit Trajectory(const std::filesystem::path& path);
-  void write(double time, const World& world);
   void close() { file_.close(); }
+  std::uint64_t size() const { return file_.size(); }  ///< bytes
+  void sync() { file_.sync(); }
+
+ protected:
+  /// Begins with the line `head`, or goes on after the first `kept` bytes of a table that is there.
+  Table(const std::filesystem::path& path, std::string_view head, std::uint64_t kept);
+  ~Table() = default;
+  void append(std::string_view lines) { file_.write(lines); }
 
  private:
   OutputFile file_;
 };
 
-/// energies.csv has a line per frame.
-class Energies {
+/// trajectory.csv has a line per frame and body that is there; a body keeps its index for the whole run, and no other gets it.
+/// Numbers are the shortest text that reads back exactly. All files are handed over to the system frame by frame: a run that is
+/// killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
+class Trajectory : public Table {
  public:
-  explicit Energies(const std::filesystem::path& path);
-  void write(double time, const Energy& energy, std::size_t contacts);
-  void close() { file_.close(); }
+  explicit Trajectory(const std::filesystem::path& path, std::uint64_t kept = 0);
+  void write(double time, const World& world);
+};
 
- private:
-  OutputFile file_;
+/// energies.csv has a line per frame.
+class Energies : public Table {
+ public:
+  explicit Energies(const std::filesystem::path& path, std::uint64_t kept = 0);
+  void write(double time, const Energy& energy, std::size_t contacts);
 };
 
 /// What the end of the summary says of a run, at any time of it.
@@ -63,83 +73,59 @@ struct State {
 };
 
 /// state.csv has a line per frame.
-class StateFile {
+class StateFile : public Table {
  public:
-  explicit StateFile(const std::filesystem::path& path);
+  explicit StateFile(const std::filesystem::path& path, std::uint64_t kept = 0);
   void write(double time, const State& state);
-  void close() { file_.close(); }
-
- private:
-  OutputFile file_;
 };
 
 /// discharge.csv, of a hopper, has a line per frame.
-class DischargeFile {
+class DischargeFile : public Table {
  public:
-  explicit DischargeFile(const std::filesystem::path& path);
+  explicit DischargeFile(const std::filesystem::path& path, std::uint64_t kept = 0);
   void write(double time, double mass, std::size_t count);  ///< s; kg and number of the grains that have passed the outlet so far
-  void close() { file_.close(); }
-
- private:
-  OutputFile file_;
 };
 
 /// compression.csv, of a compression, has a line per frame after the start, where no contact has been measured yet.
-class CompressionFile {
+class CompressionFile : public Table {
  public:
-  explicit CompressionFile(const std::filesystem::path& path);
+  explicit CompressionFile(const std::filesystem::path& path, std::uint64_t kept = 0);
   void write(double time, const Packing& packing);
-  void close() { file_.close(); }
-
- private:
-  OutputFile file_;
 };
 
 /// feeders.csv has a line per frame, feeder and kind that it feeds: what it has fed so far.
-class FeedersFile {
+class FeedersFile : public Table {
  public:
-  explicit FeedersFile(const std::filesystem::path& path);
+  explicit FeedersFile(const std::filesystem::path& path, std::uint64_t kept = 0);
   void write(double time, const Population& population);
-  void close() { file_.close(); }
-
- private:
-  OutputFile file_;
 };
 
 /// sinks.csv has a line per frame, sink and kind of the scene: what it has taken so far.
-class SinksFile {
+class SinksFile : public Table {
  public:
-  explicit SinksFile(const std::filesystem::path& path);
+  explicit SinksFile(const std::filesystem::path& path, std::uint64_t kept = 0);
   void write(double time, const Population& population, const Scene& scene);
-  void close() { file_.close(); }
-
- private:
-  OutputFile file_;
 };
 
 /// parts.csv, of a scene with parts that move, has a line per frame and such part: where it is, and its mean velocity in the step
 /// before, without that of a conveyor's surface.
-class PartsFile {
+class PartsFile : public Table {
  public:
-  explicit PartsFile(const std::filesystem::path& path);
+  explicit PartsFile(const std::filesystem::path& path, std::uint64_t kept = 0);
   void write(double time, const PartBodies& parts);
-  void close() { file_.close(); }
-
- private:
-  OutputFile file_;
 };
 
 /// grains.csv, of a scene with sizes, has a line per grain: the factor on the lengths of its kind, its sieve size and its mass.
-class GrainsFile {
+class GrainsFile : public Table {
  public:
-  explicit GrainsFile(const std::filesystem::path& path);
+  /// `written`: the number of grains that it has already.
+  explicit GrainsFile(const std::filesystem::path& path, std::uint64_t kept = 0, std::size_t written = 0);
   /// Writes the grains that have come since the last call.
   void write(const World& world);
-  void close() { file_.close(); }
+  std::size_t written() const { return written_; }
 
  private:
-  OutputFile file_;
-  std::size_t written_ = 0;
+  std::size_t written_;
 };
 
 }  // namespace falling_particles

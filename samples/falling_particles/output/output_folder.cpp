@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "checkpoint/files.hpp"
 #include "measurements/measuring.hpp"
 #include "output/write_file.hpp"
 #include "output_files.hpp"
@@ -31,7 +32,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMarkFile = "UNFINISHED";
 constexpr std::string_view kMarkText =
     "The run that writes here has not ended. If it was killed, these are its results up to then; the next run of the scene with\n"
-    "the same output folder removes them.\n";
+    "the same output folder removes them, or goes on from the checkpoint, if there is one, with --resume.\n";
 
 bool is_output_file(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename().string();
@@ -79,19 +80,25 @@ bool is_taken_away(int mark) {
 bool is_unfinished_run(const fs::path& folder) {
   if (!fs::is_directory(fs::symlink_status(folder)) || !fs::is_regular_file(fs::symlink_status(folder / kMarkFile))) return false;
   return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
-    return entry.path().filename() == kMarkFile || is_output_file(entry);
+    const std::string name = entry.path().filename().string();
+    return name == kMarkFile || std::ranges::find(kCheckpointFiles, name) != kCheckpointFiles.end() || is_output_file(entry);
   });
+}
+
+/// The folders of runs beside `target` that were killed, or are on their way.
+std::vector<fs::path> unfinished_runs(const fs::path& target) {
+  std::vector<fs::path> folders;
+  if (!fs::is_directory(target.parent_path())) return folders;
+  for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path())) {
+    const bool is_named_so = entry.path().filename().string().starts_with(unfinished_prefix(target));
+    if (is_named_so && is_unfinished_run(entry.path())) folders.push_back(entry.path());
+  }
+  return folders;
 }
 
 /// Removes the folders that killed runs have left beside `target`.
 void remove_leftovers(const fs::path& target) {
-  if (!fs::is_directory(target.parent_path())) return;
-  std::vector<fs::path> folders;
-  for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path())) {
-    if (entry.path().filename().string().starts_with(unfinished_prefix(target))) folders.push_back(entry.path());
-  }
-  for (const fs::path& folder : folders) {
-    if (!is_unfinished_run(folder)) continue;
+  for (const fs::path& folder : unfinished_runs(target)) {
     const int mark = open_mark(folder, 0);
     if (mark < 0) continue;
     std::error_code ignored;
@@ -118,12 +125,13 @@ std::size_t count_missing(fs::path folder) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& parent, const std::string& name)
+OutputFolder::OutputFolder(const fs::path& parent, const std::string& name, bool resumes)
     : target_((parent.empty() ? fs::path(".") : parent) / name), created_parents_(count_missing(target_.parent_path())) {
   try {
     refuse_foreign(target_);
+    if (resumes) take_over();
     remove_leftovers(target_);
-    create_staging();
+    if (staging_.empty()) create_staging();
   } catch (const fs::filesystem_error& error) {
     discard();
     const std::string complaint = "cannot create output folder \"" + target_.string() + "\": " + error.code().message();
@@ -148,11 +156,29 @@ void OutputFolder::create_staging() {
   }
 }
 
+/// Takes over the folder with the latest checkpoint.
+void OutputFolder::take_over() {
+  const auto has_none = [](const fs::path& folder) { return !fs::exists(folder / kCheckpointFile); };
+  std::vector<fs::path> folders = unfinished_runs(target_);
+  std::erase_if(folders, has_none);
+  if (folders.empty()) return;
+  const auto written = [](const fs::path& folder) { return fs::last_write_time(folder / kCheckpointFile); };
+  const fs::path folder = *std::ranges::max_element(folders, {}, written);
+  mark_ = open_mark(folder, 0);
+  if (mark_ < 0) throw fs::filesystem_error("", folder, std::error_code(errno, std::generic_category()));
+  if (!lock(mark_) && errno == EWOULDBLOCK) {
+    close(std::exchange(mark_, -1));
+    throw InputError("output folder \"" + folder.string() + "\" is that of a run on its way; allowed: --resume when it has ended");
+  }
+  staging_ = folder;
+  is_resumed_ = is_kept_ = true;
+}
+
 OutputFolder::~OutputFolder() { discard(); }
 
 void OutputFolder::discard() {
   std::error_code error;
-  if (!staging_.empty()) {
+  if (!staging_.empty() && !is_kept_) {
     fs::remove_all(staging_, error);
     // Folders above that this object has created are removed too, unless somebody else has put anything into them.
     fs::path folder = target_.parent_path();
@@ -167,6 +193,7 @@ void OutputFolder::commit() {
     throw std::runtime_error(reason + "; the results are in \"" + results.string() + '"');
   };
   try {
+    for (const std::string_view name : kCheckpointFiles) fs::remove(results / name);
     fs::remove(results / kMarkFile);
     refuse_foreign(target_);  // somebody may have put something there during the run
     if (!exchange(results, target_)) {

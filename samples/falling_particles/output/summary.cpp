@@ -214,6 +214,10 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
   lines.add("share_solver", solver / total, "dWorldQuickStep");
   lines.add("share_output", (total - c.collision.seconds() - c.contact_setup.seconds() - solver) / total, "the rest");
+  if (s.checkpoints.number > 0) {
+    lines.add("checkpoints", s.checkpoints.number, "written");
+    lines.add("checkpoint_seconds", s.checkpoints.watch.seconds(), "s, besides real: to write them and to go on from them");
+  }
   lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 

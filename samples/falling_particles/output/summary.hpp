@@ -18,11 +18,17 @@
 #include "scene/scene.hpp"
 #include "simulation/compression.hpp"
 #include "simulation/stepper.hpp"
+#include "simulation/stopwatch.hpp"
 
 namespace falling_particles {
 
 /// The bed counts as settled when its kinetic energy would lift it by less than this share of the smallest half-axis.
 constexpr double kSettledHeight = 1e-3;
+
+struct CheckpointCost {
+  unsigned long long number = 0;
+  Stopwatch watch = {};  ///< to write them, and to go on from them
+};
 
 /// The work and the results of a run.
 struct Summary {
@@ -51,6 +57,7 @@ struct Summary {
   double seconds_of_contacts = 0;  ///< s, to gather contacts for the measurements
   std::vector<DrawnSizes> sizes = {};
   const Population* population = nullptr;  ///< where grains come or go
+  CheckpointCost checkpoints = {};
 };
 
 /// Writes TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.

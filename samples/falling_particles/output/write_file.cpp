@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -27,10 +28,21 @@ bool write_all(int file, std::string_view text) {
   return true;
 }
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+OutputFile::OutputFile(std::filesystem::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {
   constexpr mode_t kReadable = 0666;  // less the user's umask
-  file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kReadable);
+  file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (kept == 0 ? O_TRUNC : O_APPEND), kReadable);
   if (file_ < 0) fail();
+  if (kept == 0) return;
+  struct stat status {};
+  const bool is_known = fstat(file_, &status) == 0;
+  const bool is_short = is_known && std::cmp_less(status.st_size, kept);
+  const bool is_cut = is_known && !is_short && ftruncate(file_, static_cast<off_t>(kept)) == 0;
+  if (is_cut) return;
+  const int error = errno;
+  ::close(std::exchange(file_, -1));
+  if (!is_short) fail_to_write(path_, error);
+  throw std::runtime_error("\"" + path_.string() + "\" has " + std::to_string(status.st_size) + " bytes, and had " +
+                           std::to_string(kept) + " when it was last saved");
 }
 
 OutputFile::~OutputFile() {
@@ -39,6 +51,11 @@ OutputFile::~OutputFile() {
 
 void OutputFile::write(std::string_view text) {
   if (!write_all(file_, text)) fail();
+  size_ += text.size();
+}
+
+void OutputFile::sync() {
+  if (fsync(file_) != 0) fail();
 }
 
 void OutputFile::close() {
@@ -57,6 +74,16 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
     std::filesystem::remove(path, ignored);
     throw;
   }
+}
+
+void sync_folder(const std::filesystem::path& path) {
+  const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) fail_to_write(path, errno);
+  const bool is_synced = fsync(folder) == 0;
+  const int error = errno;
+  ::close(folder);
+  // Some file systems have nothing to do for a folder, and say so.
+  if (!is_synced && error != EINVAL) fail_to_write(path, error);
 }
 
 void create_folder(const std::filesystem::path& path) {

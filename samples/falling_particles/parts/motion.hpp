@@ -17,6 +17,11 @@ struct PartPose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
   Vector3 operator()(const Vector3& point) const { return rotation * point + position; }
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(position[0], position[1], position[2], rotation.w(), rotation.x(), rotation.y(), rotation.z());
+  }
 };
 
 /// Of the body's position, and of the body.
@@ -25,6 +30,11 @@ struct PartVelocity {
   Vector3 angular = Vector3::Zero();  ///< rad/s
 
   bool is_zero() const { return linear.isZero(0) && angular.isZero(0); }
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    for (Vector3* vector : {&linear, &angular}) archive((*vector)[0], (*vector)[1], (*vector)[2]);
+  }
 };
 
 /// A constant velocity.

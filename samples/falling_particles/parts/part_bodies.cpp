@@ -159,13 +159,17 @@ void PartBodies::after_step() {
     if (entry.carrier == nullptr || !(entry.is_moving || entry.driven != nullptr)) continue;
     if (entry.driven != nullptr) slide(entry);
     entry.pose = entry.next;
-    set_pose(entry.carrier, entry.pose);
-    if (entry.driven != nullptr) {
-      set_pose(entry.driven, entry.part_pose());
-      set_velocity(entry.driven, entry.part_velocity());
-    }
-    place(entry);
+    put(entry);
   }
+}
+
+void PartBodies::put(const Entry& entry) {
+  set_pose(entry.carrier, entry.pose);
+  if (entry.driven != nullptr) {
+    set_pose(entry.driven, entry.part_pose());
+    set_velocity(entry.driven, entry.part_velocity());
+  }
+  place(entry);
 }
 
 // What the solver has left of a step across the axis is dropped: the part is on its axis, and has not tilted.
@@ -203,5 +207,25 @@ supernormal::effects::Side PartBodies::side_of(dGeomID geom, supernormal::effect
 }
 
 PartState PartBodies::state(std::size_t index) const { return {entries_[index].part_pose(), entries_[index].part_velocity()}; }
+
+PartsState PartBodies::save() const {
+  PartsState state{steps_, {}};
+  state.parts.reserve(entries_.size());
+  for (const Entry& entry : entries_) state.parts.push_back({entry.pose, entry.velocity, entry.position, entry.speed});
+  return state;
+}
+
+void PartBodies::restore(const PartsState& state) {
+  steps_ = state.steps;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    const PartsState::OfPart& saved = state.parts[i];
+    entry.pose = saved.pose;
+    entry.velocity = saved.velocity;
+    entry.position = saved.position;
+    entry.speed = saved.speed;
+    if (entry.carrier != nullptr) put(entry);
+  }
+}
 
 }  // namespace falling_particles

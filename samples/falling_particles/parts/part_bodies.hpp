@@ -18,6 +18,28 @@ struct PartState {
   PartVelocity velocity;  ///< mean of the last step, without that of a conveyor's surface
 };
 
+/// What time alone does not tell of the parts between two steps.
+struct PartsState {
+  struct OfPart {
+    PartPose pose;               ///< of the carrier
+    PartVelocity velocity = {};  ///< of the carrier, in the last step
+    double position = 0;         ///< m, of a driven part along its axis
+    double speed = 0;            ///< m/s
+
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(pose, velocity, position, speed);
+    }
+  };
+  long steps = 0;
+  std::vector<OfPart> parts;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(steps, parts);
+  }
+};
+
 /// The geoms of the parts, and bodies that give contacts their velocities. The geoms have no bodies, since ODE's planes can have
 /// none: a part that moves has a kinematic body beside its geom, with the mean velocity of the step, and is set to its exact pose
 /// after it. A driven part has a body with mass on a slider joint to its kinematic one.
@@ -46,6 +68,10 @@ class PartBodies {
   std::size_t count() const { return entries_.size(); }
   PartState state(std::size_t index) const;
 
+  PartsState save() const;
+  /// Goes on from a state of the same parts, in a world that has made no step.
+  void restore(const PartsState& state);
+
  private:
   struct Entry {
     PartPose pose;               // of the carrier
@@ -70,6 +96,7 @@ class PartBodies {
   void add_drive(Entry& entry, const Drive& drive);
   void push(Entry& entry, double now);
   void slide(Entry& entry);
+  static void put(const Entry& entry);
   static void place(const Entry& entry);
 
   dWorldID world_;

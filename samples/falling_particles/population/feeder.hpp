@@ -23,6 +23,10 @@ struct Amount {
     ++grains;
     mass += mass_of_grain;
   }
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(grains, mass);
+  }
 };
 
 /// A number of grains or a mass of them, in grains or kg; of a rate, in grains/s or kg/s.

@@ -19,12 +19,21 @@ struct FeederState {
   struct Next {
     std::size_t kind;  ///< index into Feeder::mixture
     double scale;      ///< of the grain's lengths
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(kind, scale);
+    }
   };
   Next next = {};
   std::vector<Amount> fed = {};             ///< of each kind of Feeder::mixture
   Random random;                            ///< for sizes, places and attitudes
   std::optional<double> behind_since = {};  ///< s, since when grains that are due have found no place
   Amount when_behind = {};                  ///< what had been fed then
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(next, fed, random, behind_since, when_behind);
+  }
 };
 
 /// Feeds the grains of one feeder. A grain is due as soon as the rate, added up since the start, is owed a whole one; one that
@@ -43,6 +52,11 @@ class Feeding {
   const Grain& grain(std::size_t i) const;  ///< of Feeder::mixture
   const FeederState& state() const { return state_; }
   Amount fed() const;  ///< of all kinds
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(state_);
+  }
 
  private:
   std::size_t next_kind() const;

@@ -28,6 +28,13 @@ class Population {
   Amount taken() const;
   Amount present() const;
 
+  /// What the feeders remember, and the account, into an object of the same scene.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    for (Feeding& feeding : feeders_) archive(feeding);
+    archive(taken_, at_start_);
+  }
+
  private:
   double take();
   double feed(double end);

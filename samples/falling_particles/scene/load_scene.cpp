@@ -206,6 +206,16 @@ void read_output(const TomlTable& root, Scene& scene) {
   scene.pictures = table->choices("pictures", names);
 }
 
+/// The scene file and those that it names, relative to its folder; all have been read.
+std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files = {path, path.parent_path() / root.text("catalogue")};
+  if (!root.has("part")) return files;
+  for (const TomlTable& part : root.tables("part")) {
+    if (const std::optional<std::string> mesh = part.find_text("file")) files.push_back(path.parent_path() / *mesh);
+  }
+  return files;
+}
+
 /// The names of the sections at the top of the file.
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed", "catalogue",   "container",   "drop",        "grain",
@@ -241,6 +251,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   read_output(root, scene);
   check_memory(root, most_at_once(scene));
   check_fit(root, scene);
+  scene.files = files_of(root, path);
   return scene;
 }
 

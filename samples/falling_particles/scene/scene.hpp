@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <supernormal/effects.hpp>
@@ -75,6 +76,7 @@ struct Scene {
   std::vector<Sink> sinks = {};                       ///< into which they go
   PeriodicAxes periodic = {};                         ///< along which it repeats, beside a container that does in all directions
   std::vector<std::string> overrides = {};            ///< values that were not the file's, KEY=VALUE each (toml_override.hpp)
+  std::vector<std::filesystem::path> files = {};      ///< that it was loaded from: its own first, then those that it names
 
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;

@@ -187,6 +187,20 @@ void PeriodicCell::gather() {
   }
 }
 
+Point PeriodicCell::lengths() const {
+  Point lengths{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axes_[axis]) lengths[axis] = axes_[axis]->length;
+  }
+  return lengths;
+}
+
+void PeriodicCell::set_lengths(const Point& lengths) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axes_[axis]) axes_[axis]->length = lengths[axis];
+  }
+}
+
 void PeriodicCell::scale(double factor) {
   for (std::optional<Period>& period : axes_) period->length *= factor;
   for (const Body& body : world_.present()) {

@@ -29,6 +29,9 @@ class PeriodicCell {
   PeriodicCell& operator=(const PeriodicCell&) = delete;
 
   const PeriodicAxes& axes() const { return axes_; }
+  /// m, along x, y and z, as scale() has left them; 0 where the cell is not periodic.
+  Point lengths() const;
+  void set_lengths(const Point& lengths);
   double side() const { return axes_[0]->length; }  ///< m, of a cell that is a cube
 
   bool contains(const dVector3 point) const;

@@ -12,8 +12,13 @@ constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 
 }  // namespace
 
-Progress::Progress(std::FILE* stream, int steps)
-    : stream_(stream), terminal_(isatty(fileno(stream)) == 1), steps_(steps), start_(Clock::now()), last_draw_(start_) {}
+Progress::Progress(std::FILE* stream, int steps, int done)
+    : stream_(stream),
+      terminal_(isatty(fileno(stream)) == 1),
+      steps_(steps),
+      done_(done),
+      start_(Clock::now()),
+      last_draw_(start_) {}
 
 void Progress::update(int step, double simulated, std::size_t contacts) {
   if (terminal_) {
@@ -43,7 +48,7 @@ void Progress::draw(int step, double simulated, std::size_t contacts) {
 
 double Progress::seconds_left(int step) const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  return elapsed * (steps_ - step) / step;
+  return elapsed * (steps_ - step) / (step - done_);
 }
 
 Progress::~Progress() {

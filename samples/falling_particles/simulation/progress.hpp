@@ -9,7 +9,8 @@ namespace falling_particles {
 /// Progress of a run on a stream: one bar that is redrawn on a terminal, a plain line every tenth elsewhere.
 class Progress {
  public:
-  Progress(std::FILE* stream, int steps);
+  /// `done`: the steps that were done before.
+  Progress(std::FILE* stream, int steps, int done = 0);
   /// Ends the bar's line, whatever stops the run.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -26,6 +27,7 @@ class Progress {
   std::FILE* stream_;
   bool terminal_;
   int steps_;
+  int done_;
   Clock::time_point start_;
   Clock::time_point last_draw_;
   int tenths_ = 0;

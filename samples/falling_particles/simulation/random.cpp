@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 namespace falling_particles {
 
@@ -23,5 +24,13 @@ std::array<double, 4> Random::rotation() {
   const double t = std::sqrt(u);
   return {t * std::cos(second), s * std::sin(first), s * std::cos(first), t * std::sin(second)};
 }
+
+std::string Random::state() const {
+  std::ostringstream text;
+  text << engine_;
+  return text.str();
+}
+
+void Random::restore(const std::string& state) { std::istringstream(state) >> engine_; }
 
 }  // namespace falling_particles

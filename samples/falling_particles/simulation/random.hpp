@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <string>
 
 namespace falling_particles {
 
@@ -16,6 +17,18 @@ class Random {
   double uniform();                        ///< in [0, 1)
   std::uint64_t below(std::uint64_t end);  ///< in [0, end), each equally likely
   std::array<double, 4> rotation();        ///< unit quaternion w, x, y, z; uniform over all rotations
+
+  std::string state() const;  ///< text, from which restore() makes the same numbers follow
+  void restore(const std::string& state);
+  template <typename Archive>
+  std::string save_minimal(const Archive& /*archive*/) const {
+    return state();
+  }
+  template <typename Archive>
+  void load_minimal(const Archive& /*archive*/, const std::string& state) {
+    restore(state);
+  }
+
  private:
   std::mt19937_64 engine_;
 };

@@ -3,158 +3,30 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <deque>
-#include <memory>
+#include <exception>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <vector>
 
-#include "compression.hpp"
+#include "checkpoint/archive.hpp"
+#include "checkpoint/checkpoints.hpp"
 #include "interrupt.hpp"
-#include "measure/discharge.hpp"
-#include "measure/energy.hpp"
-#include "measure/leaks.hpp"
 #include "measurements/measuring.hpp"
-#include "output/output_files.hpp"
 #include "output/output_folder.hpp"
-#include "output/picture.hpp"
+#include "output/recorder.hpp"
 #include "output/summary.hpp"
 #include "output/write_file.hpp"
-#include "placement.hpp"
-#include "population/population.hpp"
 #include "progress.hpp"
-#include "random.hpp"
-#include "stepper.hpp"
-#include "world.hpp"
+#include "simulation.hpp"
+#include "stopwatch.hpp"
 
 namespace falling_particles {
 namespace {
-
-/// The watches that run after every step.
-struct Watches {
-  Watches(World& world, const Scene& scene, Random& random) : leaks(world, scene), energy(world, scene) {
-    if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) discharge.emplace(world, *hopper, random);
-    if (scene.compression) compressor.emplace(world, *world.cell(), *scene.compression, scene.time.duration);
-  }
-  void after_step(double time, const Stepper& stepper) {
-    leaks.after_step(time);
-    energy.after_step();
-    if (discharge) discharge->after_step(time);
-    if (compressor) compressor->after_step(time, stepper.contact_geoms());
-  }
-
-  LeakWatch leaks;
-  EnergyWatch energy;
-  std::optional<Discharge> discharge;    // for a hopper
-  std::optional<Compressor> compressor;  // for a periodic cell
-};
-
-/// `stepper`: null before the first step.
-State state_of(const World& world, const Scene& scene, const Watches& watches, const Stepper* stepper) {
-  State state{};
-  if (stepper != nullptr) {
-    for (const dContactGeom& contact : stepper->contact_geoms()) {
-      state.deepest_contact = std::max<double>(state.deepest_contact, contact.depth);
-    }
-    state.deepest_contact_of_all_steps = stepper->deepest_contact();
-  }
-  if (scene.gravity() != nullptr) state.kinetic_height = kinetic_height(world, scene);
-  state.largest_kinetic_energy = largest_kinetic_energy(world);
-  state.energy_lost = watches.energy.lost();
-  state.energy_gained = watches.energy.gained();
-  state.leaked = watches.leaks.count();
-  return state;
-}
-
-/// Writes the frames of a run as it goes.
-class Recorder {
- public:
-  Recorder(const OutputFolder& folder, const World& world, const Scene& scene, const Watches& watches, const Population& population)
-      : world_(world),
-        scene_(scene),
-        watches_(watches),
-        population_(population),
-        contents_(scene.pictures.empty() ? Contents{&scene, {}} : contents_of(world, scene)),
-        trajectory_(folder.file(std::string(kTrajectoryFile))),
-        energies_(folder.file(std::string(kEnergiesFile))),
-        states_(folder.file(std::string(kStateFile))) {
-    if (watches.discharge) discharge_file_.emplace(folder.file(std::string(kDischargeFile)));
-    if (watches.compressor) compression_file_.emplace(folder.file(std::string(kCompressionFile)));
-    if (scene.has_sizes()) grains_file_.emplace(folder.file(std::string(kGrainsFile)));
-    if (std::ranges::any_of(scene.parts, &Part::moves)) parts_file_.emplace(folder.file(std::string(kPartsFile)));
-    if (!scene.feeders.empty()) feeders_file_.emplace(folder.file(std::string(kFeedersFile)));
-    if (!scene.sinks.empty()) sinks_file_.emplace(folder.file(std::string(kSinksFile)));
-    for (const std::string& name : scene.pictures) {
-      const PictureFormat& format = *find_picture_format(name);
-      pictures_.push_back(format.make(folder, format, contents_));
-    }
-  }
-
-  /// `stepper`: null before the first step.
-  void record(double time, const Stepper* stepper) {
-    trajectory_.write(time, world_);
-    const Energy energy = measure_energy(world_, scene_);
-    energies_.write(time, energy, stepper == nullptr ? 0 : stepper->contacts());
-    states_.write(time, state_of(world_, scene_, watches_, stepper));
-    if (discharge_file_) discharge_file_->write(time, watches_.discharge->mass(), watches_.discharge->count());
-    if (compression_file_ && stepper != nullptr) compression_file_->write(time, watches_.compressor->packing());
-    if (grains_file_) grains_file_->write(world_);
-    if (parts_file_) parts_file_->write(time, *world_.parts());
-    if (feeders_file_) feeders_file_->write(time, population_);
-    if (sinks_file_) sinks_file_->write(time, population_, scene_);
-    if (pictures_.empty()) return;
-    add_new_bodies(contents_, world_);
-    const Frame frame = frame_of(time, energy, contents_, world_, stepper);
-    for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
-  }
-
-  /// Whether the contacts of a frame are to tell their forces.
-  bool wants_forces() const { return scene_.forces && !pictures_.empty(); }
-
-  void close_tables() {
-    trajectory_.close();
-    energies_.close();
-    states_.close();
-    if (discharge_file_) discharge_file_->close();
-    if (compression_file_) compression_file_->close();
-    if (grains_file_) grains_file_->close();
-    if (parts_file_) parts_file_->close();
-    if (feeders_file_) feeders_file_->close();
-    if (sinks_file_) sinks_file_->close();
-  }
-
-  void finish_pictures(const std::string& summary) {
-    for (const std::unique_ptr<Picture>& picture : pictures_) picture->finish(summary);
-  }
-
-  std::vector<Rendering> renderings() const {
-    std::vector<Rendering> all;
-    for (const std::unique_ptr<Picture>& picture : pictures_) {
-      for (Rendering& rendering : picture->renderings()) all.push_back(std::move(rendering));
-    }
-    return all;
-  }
-
- private:
-  const World& world_;
-  const Scene& scene_;
-  const Watches& watches_;
-  const Population& population_;
-  Contents contents_;
-  Trajectory trajectory_;
-  Energies energies_;
-  StateFile states_;
-  std::optional<DischargeFile> discharge_file_;
-  std::optional<CompressionFile> compression_file_;
-  std::optional<GrainsFile> grains_file_;  // where sizes differ
-  std::optional<PartsFile> parts_file_;    // where any part moves
-  std::optional<FeedersFile> feeders_file_;
-  std::optional<SinksFile> sinks_file_;
-  std::vector<std::unique_ptr<Picture>> pictures_;
-};
 
 double time_after(int step, const Time& time) {
   return std::round(step * time.step * 1e9) / 1e9;  // 0.7 and not 0.7000000000000001
@@ -169,18 +41,15 @@ struct NoMeasuring {
 /// Stands for Population in a scene whose grains neither come nor go.
 struct NoPopulation {};
 
-/// Steps until the end or until the user interrupts, with a frame at the start, at every interval and at the end. Returns the
-/// number of steps done.
+/// The steps after `step`, up to step `until` or until the user interrupts, with a frame at every interval and at the end. Returns
+/// the number of steps done.
 template <typename Measurements, typename Changes>
-int advance(Stepper& stepper, Watches& watches, Recorder& recorder, Measurements&& measuring, Changes&& population,
-            const Time& time, bool quiet) {
+int advance(Simulation& simulation, Recorder& recorder, Measurements&& measuring, Changes&& population, const Time& time, int step,
+            int until, Progress* progress) {
   const int steps = time.steps();
-  std::optional<Progress> progress;
-  if (!quiet) progress.emplace(stderr, steps);
-  recorder.record(0, nullptr);
-  measuring.after_step(0, 0, stepper.measured_contacts());
-  int step = 0;
-  while (step < steps && !interrupted()) {
+  Stepper& stepper = simulation.stepper;
+  Watches& watches = simulation.watches;
+  while (step < until && !interrupted()) {
     ++step;
     const bool is_frame = step == steps || step % time.steps_per_frame() == 0;
     if constexpr (!std::is_same_v<std::remove_cvref_t<Changes>, NoPopulation>) {
@@ -191,11 +60,10 @@ int advance(Stepper& stepper, Watches& watches, Recorder& recorder, Measurements
     measuring.after_step(step, now, stepper.measured_contacts());  // before a compression scales the cell
     watches.after_step(now, stepper);
     const bool last = step == steps || interrupted();
-    if (last || is_frame) recorder.record(now, &stepper);
-    if (progress) progress->update(step, now, stepper.contacts());
+    if (last || is_frame) recorder.record(now, simulation, true);
+    if (progress != nullptr) progress->update(step, now, stepper.contacts());
     if (last) break;
   }
-  recorder.close_tables();
   return step;
 }
 
@@ -206,71 +74,189 @@ std::optional<Heap> find_heap(const World& world, const Container& container) {
   return measure_heap(world, {0, 0, hopper->dish->height}, hopper->dish->diameter / 2);
 }
 
-}  // namespace
+/// A run up to some step, as its checkpoint holds it.
+struct SavedRun {
+  std::int32_t step = 0;
+  Stopwatch time;
+  CheckpointCost cost;
+  std::string simulation;
+  RecorderState recorder;
+  MeasuringState measuring;
 
-RunEnd run(const Scene& scene, const std::filesystem::path& out, bool quiet, int threads) {
-  OutputFolder folder(out, scene.name);
-  Random random(scene.seed);
-  World world(scene, place(scene, random));
-  Stepper stepper(world, scene, threads);
-  Watches watches(world, scene, random);
-  Population population(world, scene);
-  Recorder recorder(folder, world, scene, watches, population);
-  Measuring measuring(scene, world, folder);
-  snResetStatistics();
-  const auto start = std::chrono::steady_clock::now();
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(step, time, cost.number, cost.watch, simulation, recorder, measuring);
+  }
+};
+
+class Run {
+ public:
+  Run(const Scene& scene, OutputFolder& folder, Checkpoints& checkpoints, const RunOptions& options)
+      : scene_(scene), folder_(folder), checkpoints_(checkpoints), options_(options) {
+    if (checkpoints.last()) {
+      go_on(Reader(*checkpoints.last()).read<SavedRun>());
+      return;
+    }
+    simulation_.emplace(scene, options.threads);
+    recorder_.emplace(folder, scene, *simulation_, checkpoints.are_on());
+    measuring_.emplace(scene, simulation_->world, folder);
+    recorder_->record(0, *simulation_, false);
+    measuring_->after_step(0, 0, simulation_->stepper.measured_contacts());
+  }
+
+  /// Returns true when the results are complete, or the run was interrupted where it cannot be gone on with.
+  bool advance();
+  RunEnd finish();
+  int step() const { return step_; }
+
+ private:
+  void go_on(const SavedRun& saved);
+  void save();
+  void advance_to(int until, Progress* progress);
+  Summary summarize();
+
+  const Scene& scene_;
+  OutputFolder& folder_;
+  Checkpoints& checkpoints_;
+  const RunOptions& options_;
+  std::optional<Simulation> simulation_;
+  std::optional<Recorder> recorder_;
+  std::optional<Measuring> measuring_;
+  int step_ = 0;
+  Stopwatch time_;  // of the steps and their output
+  CheckpointCost cost_;
+};
+
+void Run::go_on(const SavedRun& saved) {
+  simulation_.emplace(scene_, options_.threads, saved.simulation);
+  recorder_.emplace(folder_, scene_, *simulation_, saved.recorder);
+  measuring_.emplace(scene_, simulation_->world, folder_, saved.measuring);
+  step_ = saved.step;
+  time_ = saved.time;
+  cost_ = saved.cost;
+}
+
+// The run goes on from what it has saved, as it would after it was killed: ODE's order of things and remembered normals are lost
+// in both cases alike.
+void Run::save() {
+  const Stopwatch::Lap lap(cost_.watch);
+  ++cost_.number;
+  const std::string state = simulation_->save();
+  Writer writer;
+  writer(SavedRun{step_, time_, cost_, state, recorder_->save(), measuring_->save()});
+  checkpoints_.write(writer.bytes());
+  simulation_.reset();
+  simulation_.emplace(scene_, options_.threads, state);
+  measuring_->go_on_in(simulation_->world);
+}
+
+void Run::advance_to(int until, Progress* progress) {
+  const Stopwatch::Lap lap(time_);
   const auto advance_with = [&](auto&& measurements, auto&& changes) {
-    return advance(stepper, watches, recorder, measurements, changes, scene.time, quiet);
+    step_ = falling_particles::advance(*simulation_, *recorder_, measurements, changes, scene_.time, step_, until, progress);
   };
   const auto advance_measuring = [&](auto&& changes) {
-    return scene.measurements.empty() ? advance_with(NoMeasuring{}, changes) : advance_with(measuring, changes);
+    scene_.measurements.empty() ? advance_with(NoMeasuring{}, changes) : advance_with(*measuring_, changes);
   };
-  const int steps = scene.changes_population() ? advance_measuring(population) : advance_measuring(NoPopulation{});
-  measuring.close_tables();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  snStatistics statistics;  // taken before the measurements at the end add to them
-  snGetStatistics(&statistics);
+  scene_.changes_population() ? advance_measuring(simulation_->population) : advance_measuring(NoPopulation{});
+}
 
-  if (world.cell() != nullptr) world.cell()->place_images();  // the grains have moved since the last images were placed
-  const bool early = steps < scene.time.steps();
-  const Box* box = std::get_if<Box>(&scene.container);
-  const Summary summary{scene,
-                        early,
-                        steps,
-                        steps * scene.time.step,
-                        seconds,
-                        stepper.costs(),
-                        statistics,
-                        world.sweep().axis(),
-                        stepper.contacts(),
-                        stepper.deepest_contact(),
-                        kinetic_height(world, scene),
-                        largest_kinetic_energy(world),
-                        watches.energy,
-                        measure_overlap(world),
-                        count_outside(world, scene),
-                        watches.leaks.count(),
-                        box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, random)),
-                        watches.discharge ? &*watches.discharge : nullptr,
-                        watches.compressor ? std::optional(watches.compressor->packing()) : std::nullopt,
-                        find_heap(world, scene.container),
-                        world.effects().costs(),
-                        measuring.costs(),
-                        measuring.seconds_of_contacts(),
-                        measure_sizes(world, scene),
-                        scene.changes_population() ? &population : nullptr};
-  const std::string text = to_toml(summary);
-  write_file(folder.file(std::string(kSummaryFile)), text);
-  recorder.finish_pictures(text);
-  folder.commit();
-  std::fputs(text.c_str(), stdout);
-  if (early) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", steps, scene.time.steps());
-  if (watches.leaks.first()) {
-    std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", watches.leaks.count(), world.bodies().size(),
-                 describe(*watches.leaks.first()).c_str());
+bool Run::advance() {
+  const int steps = scene_.time.steps();
+  std::optional<Progress> progress;
+  if (!options_.quiet) progress.emplace(stderr, steps, step_);
+  while (step_ < steps && !interrupted()) {
+    const int every = checkpoints_.are_on() ? checkpoints_.every() : steps;
+    advance_to(std::min(steps, step_ + every - step_ % every), progress ? &*progress : nullptr);
+    if (!checkpoints_.are_on() || step_ == steps) continue;
+    save();
+    if (stop_requested()) return false;
   }
-  if (!quiet) std::fprintf(stderr, "Results: %s\n", folder.path().c_str());
-  return {early, watches.leaks.count() > 0, folder.path(), recorder.renderings()};
+  recorder_->close_tables();
+  measuring_->close_tables();
+  return true;
+}
+
+Summary Run::summarize() {
+  World& world = simulation_->world;
+  const Stepper& stepper = simulation_->stepper;
+  const Watches& watches = simulation_->watches;
+  const snStatistics statistics = simulation_->statistics();  // taken before the measurements at the end add to them
+  if (world.cell() != nullptr) world.cell()->place_images();  // the grains have moved since the last images were placed
+  const Box* box = std::get_if<Box>(&scene_.container);
+  return {scene_,
+          step_ < scene_.time.steps(),
+          step_,
+          step_ * scene_.time.step,
+          time_.seconds(),
+          stepper.costs(),
+          statistics,
+          world.sweep().axis(),
+          stepper.contacts(),
+          stepper.deepest_contact(),
+          kinetic_height(world, scene_),
+          largest_kinetic_energy(world),
+          watches.energy,
+          measure_overlap(world),
+          count_outside(world, scene_),
+          watches.leaks.count(),
+          box == nullptr ? std::nullopt : std::optional(measure_bed(world, *box, simulation_->random)),
+          watches.discharge ? &*watches.discharge : nullptr,
+          watches.compressor ? std::optional(watches.compressor->packing()) : std::nullopt,
+          find_heap(world, scene_.container),
+          simulation_->effect_costs(),
+          measuring_->costs(),
+          measuring_->seconds_of_contacts(),
+          measure_sizes(world, scene_),
+          scene_.changes_population() ? &simulation_->population : nullptr,
+          cost_};
+}
+
+RunEnd Run::finish() {
+  const Summary summary = summarize();
+  const std::string text = to_toml(summary);
+  write_file(folder_.file(std::string(kSummaryFile)), text);
+  recorder_->finish_pictures(text);
+  folder_.commit();
+  std::fputs(text.c_str(), stdout);
+  const int steps = scene_.time.steps();
+  if (summary.interrupted) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", step_, steps);
+  const LeakWatch& leaks = simulation_->watches.leaks;
+  if (leaks.first()) {
+    std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", leaks.count(), simulation_->world.bodies().size(),
+                 describe(*leaks.first()).c_str());
+  }
+  if (!options_.quiet) std::fprintf(stderr, "Results: %s\n", folder_.path().c_str());
+  return {summary.interrupted, leaks.count() > 0, folder_.path(), recorder_->renderings()};
+}
+
+constexpr const char* kStopNote =
+    "falling_particles: the run ends at its next checkpoint; a second signal ends it at once, and --resume then goes on from the "
+    "last one\n";
+
+RunEnd run_in(OutputFolder& folder, Checkpoints& checkpoints, const Scene& scene, const RunOptions& options) {
+  if (checkpoints.are_on()) catch_stop_requests(kStopNote);
+  Run run(scene, folder, checkpoints, options);
+  if (folder.is_resumed() && !options.quiet) std::fprintf(stderr, "Goes on after step %d of %d\n", run.step(), scene.time.steps());
+  if (run.advance()) return run.finish();
+  std::fprintf(stderr, "Stopped after step %d of %d: --resume goes on from there.\n", run.step(), scene.time.steps());
+  return {true, false, folder.path(), {}};
+}
+
+}  // namespace
+
+RunEnd run(const Scene& scene, const RunOptions& options) {
+  OutputFolder folder(options.out, scene.name, options.resume);
+  Checkpoints checkpoints(folder, scene, options.checkpoint_every);
+  try {
+    return run_in(folder, checkpoints, scene, options);
+  } catch (const std::exception&) {
+    const std::filesystem::path unfinished = folder.file("");  // none where the run was whole and could not go to its place
+    if (checkpoints.last() && !unfinished.empty()) {
+      std::fprintf(stderr, "The last checkpoint is in \"%s\": --resume goes on from there.\n", unfinished.c_str());
+    }
+    throw;
+  }
 }
 
 }  // namespace falling_particles

@@ -24,6 +24,10 @@ struct StepCosts {
   unsigned long long pairs_tested = 0;
   unsigned long long contacts = 0;
   double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(collision, broad_phase, contact_setup, solver, pairs_tested, contacts);
+  }
 };
 
 /// Advances a world: find contacts, turn them into constraints, step.
@@ -44,6 +48,12 @@ class Stepper {
   const std::deque<MeasuredContact>& measured_contacts() const { return joints_.measured(); }
   double deepest_contact() const { return deepest_contact_; }  ///< m, over all steps
   const StepCosts& costs() const { return costs_; }
+
+  /// What the steps so far have left, but for the contacts of the last one.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(deepest_contact_, costs_);
+  }
 
  private:
   void collide_grains();

@@ -32,6 +32,13 @@ class Stopwatch {
     last_ = now;
   }
 
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    Clock::rep ticks = total_.count();
+    archive(ticks);
+    total_ = Clock::duration(ticks);
+  }
+
   double seconds() const { return std::chrono::duration<double>(total_).count(); }
 
  private:

@@ -20,6 +20,8 @@ struct PairCallback {
   dNearCallback* callback;
 };
 
+Point to_point(const dReal* v) { return {v[0], v[1], v[2]}; }
+
 /// Bodies stay where they are in memory, so the list has room for all from the start.
 std::size_t capacity(const Scene& scene, std::size_t at_start) {
   auto most = static_cast<double>(at_start);
@@ -117,7 +119,7 @@ dMass mass_of(const Body& body) {
   return mass;
 }
 
-World::World(const Scene& scene, const std::vector<Placement>& placements) : scene_(scene) {
+World::World(const Scene& scene) : scene_(scene) {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();
@@ -129,10 +131,27 @@ World::World(const Scene& scene, const std::vector<Placement>& placements) : sce
   // compared with the grains instead, at the cost of the comparison of their boxes.
   walls_.emplace(nullptr, scene.container, kWallBit, kGrainBit, scene.periodic);
   if (!scene.parts.empty()) parts_ = std::make_unique<PartBodies>(world_, scene.parts, scene.time.step, kWallBit, kGrainBit);
+}
+
+World::World(const Scene& scene, const std::vector<Placement>& placements) : World(scene) {
   bodies_.reserve(capacity(scene, placements.size()));
   for (const Placement& placement : placements) add_body(placement);
-  PeriodicAxes axes = scene.periodic;
-  if (const Periodic* cube = std::get_if<Periodic>(&scene.container)) axes.fill(Period{0, cube->side});
+  add_cell();
+}
+
+World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(scene) {
+  bodies_.reserve(capacity(scene, static_cast<std::size_t>(scene.bodies())));
+  for (const SavedBody& saved : state.bodies) restore(saved);
+  add_cell();
+  if (cell_ != nullptr) cell_->set_lengths(state.periods);
+  if (parts_ != nullptr) parts_->restore(state.parts);
+  if (walls_->has_lid() && !state.has_lid) walls_->open_outlet();
+  dRandSetSeed(static_cast<unsigned long>(state.seed));
+}
+
+void World::add_cell() {
+  PeriodicAxes axes = scene_.periodic;
+  if (const Periodic* cube = std::get_if<Periodic>(&scene_.container)) axes.fill(Period{0, cube->side});
   if (is_any(axes)) cell_ = std::make_unique<PeriodicCell>(*this, axes);
 }
 
@@ -200,6 +219,44 @@ void World::add_body(const Placement& placement) {
   const dQuaternion q = {placement.quaternion[0], placement.quaternion[1], placement.quaternion[2], placement.quaternion[3]};
   dBodySetQuaternion(entry.body, q);
   effects_->add_body(entry.body);
+}
+
+WorldState World::save() const {
+  WorldState state;
+  state.seed = dRandGetSeed();
+  state.has_lid = walls_->has_lid();
+  if (cell_ != nullptr) state.periods = cell_->lengths();
+  if (parts_ != nullptr) state.parts = parts_->save();
+  state.bodies.reserve(bodies_.size());
+  for (const Body& body : bodies_) {
+    SavedBody& saved = state.bodies.emplace_back();
+    const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == body.grain; };
+    saved.kind = static_cast<std::uint64_t>(std::ranges::find_if(scene_.grains, is_kind) - scene_.grains.begin());
+    saved.scale = body.scale;
+    saved.mass = body.mass.mass;
+    saved.is_present = body.is_present();
+    if (!body.is_present()) continue;
+    saved.is_awake = dBodyIsEnabled(body.body) != 0;
+    saved.position = body.position();
+    saved.quaternion = body.quaternion();
+    saved.velocity = to_point(dBodyGetLinearVel(body.body));
+    saved.angular_velocity = to_point(dBodyGetAngularVel(body.body));
+  }
+  return state;
+}
+
+void World::restore(const SavedBody& saved) {
+  const auto kind = static_cast<std::size_t>(saved.kind);
+  if (!saved.is_present) {
+    Body& gone = bodies_.emplace_back(Body{nullptr, nullptr, &scene_.grains[kind].grain, {}, saved.scale});
+    gone.mass.mass = saved.mass;
+    return;
+  }
+  add_body({kind, saved.position, saved.quaternion, saved.scale});
+  dBodyID body = bodies_.back().body;
+  dBodySetLinearVel(body, saved.velocity[0], saved.velocity[1], saved.velocity[2]);
+  dBodySetAngularVel(body, saved.angular_velocity[0], saved.angular_velocity[1], saved.angular_velocity[2]);
+  if (!saved.is_awake) dBodyDisable(body);
 }
 
 }  // namespace falling_particles

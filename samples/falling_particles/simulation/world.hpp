@@ -17,12 +17,13 @@
 #include "scene/material.hpp"
 #include "scene/scene.hpp"
 #include "sweep_space.hpp"
+#include "world_state.hpp"
 
 namespace falling_particles {
 
 /// A grain of a world. Its index in the world's list is its own for good: that of a grain that is gone is not used again.
 struct Body {
-  dBodyID body;  ///< null for a grain that is gone, of which all but body and geom is left
+  dBodyID body;  ///< null for a grain that is gone, of which kind, scale and mass.mass are left
   dGeomID geom;  ///< of a compound the first one; geoms() gives all
   const Grain* grain;
   dMass mass;
@@ -97,6 +98,9 @@ class World {
  public:
   /// Throws std::runtime_error when the library refuses a body.
   World(const Scene& scene, const std::vector<Placement>& placements);
+  /// Goes on from a state of the same scene.
+  struct GoOn {};
+  World(const Scene& scene, GoOn how, const WorldState& state);
   World(const Scene&& scene, const std::vector<Placement>& placements) = delete;  // the scene would be gone at once
   ~World();
   World(const World&) = delete;
@@ -141,12 +145,19 @@ class World {
   /// Takes a grain out of the world. Not during a step, of whose contacts those of the grain are no longer valid.
   void remove(std::size_t index);
 
+  /// What the next step follows from. Not all: the order in which ODE holds bodies, geoms and joints, what it knows of the speeds
+  /// of bodies that may fall asleep, and remembered normals are those of a new world in one that goes on from it.
+  WorldState save() const;
+
   /// Takes the lid off a hopper's outlet; call it once.
   void open_outlet() { walls_->open_outlet(); }
 
  private:
+  explicit World(const Scene& scene);
+  void add_cell();
   void set_parameters(const Scene& scene);
   void add_body(const Placement& placement);
+  void restore(const SavedBody& saved);
 
   const Scene& scene_;
   dWorldID world_;

@@ -1,0 +1,30 @@
+// The frames of a run in a file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "output/frame.hpp"
+#include "output/write_file.hpp"
+
+namespace falling_particles {
+
+/// A file to which frames are appended, all their numbers bit for bit: pictures, which keep what they have seen in memory, come
+/// back when they see the same frames again.
+class FrameLog {
+ public:
+  /// Begins a file, or goes on after the first `kept` bytes of one that is there.
+  explicit FrameLog(const std::filesystem::path& path, std::uint64_t kept = 0) : file_(path, kept) {}
+  void add(const Frame& frame);
+  std::uint64_t size() const { return file_.size(); }  ///< bytes
+  void sync() { file_.sync(); }
+
+ private:
+  OutputFile file_;
+};
+
+/// Visits the frames in the first `size` bytes of a log. Throws std::runtime_error where they are not what was written.
+void replay_frames(const std::filesystem::path& path, std::uint64_t size, const std::function<void(const Frame&)>& visit);
+
+}  // namespace falling_particles

@@ -1,0 +1,77 @@
+// The frames of a run as it goes.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "output/frame_log.hpp"
+#include "output/output_files.hpp"
+#include "output/output_folder.hpp"
+#include "output/picture.hpp"
+#include "simulation/simulation.hpp"
+
+namespace falling_particles {
+
+/// What a recorder needs to go on.
+struct RecorderState {
+  std::map<std::string, std::uint64_t> bytes;  ///< of the tables and the frame log, by name
+  std::uint64_t grains_written = 0;            ///< into grains.csv
+  double top = 0;                              ///< m, top_of() the start
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(bytes, grains_written, top);
+  }
+};
+
+/// Writes the frames of a run into its tables and pictures.
+class Recorder {
+ public:
+  /// Of a run that has not started. `logs_frames`: keeps the frames of pictures in a file, so that another recorder can go on.
+  Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, bool logs_frames);
+  /// Goes on where another one was saved.
+  Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, const RecorderState& saved);
+
+  void record(double time, const Simulation& simulation, bool has_stepped);
+
+  /// Whether the contacts of a frame are to tell their forces.
+  bool wants_forces() const { return scene_.forces && !pictures_.empty(); }
+
+  void close_tables();
+  void finish_pictures(const std::string& summary);
+  std::vector<Rendering> renderings() const;
+
+  /// What there is so far, in files that survive a power cut.
+  RecorderState save();
+
+ private:
+  Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, const RecorderState& saved,
+           bool logs_frames);
+  template <typename File>
+  void add(std::optional<File>& file, std::string_view name);
+
+  const OutputFolder& folder_;
+  const Scene& scene_;
+  RecorderState kept_;
+  Contents contents_;
+  std::optional<Trajectory> trajectory_;
+  std::optional<Energies> energies_;
+  std::optional<StateFile> states_;
+  std::optional<DischargeFile> discharge_;
+  std::optional<CompressionFile> compression_;
+  std::optional<GrainsFile> grains_;  // where sizes differ
+  std::optional<PartsFile> parts_;    // where any part moves
+  std::optional<FeedersFile> feeders_;
+  std::optional<SinksFile> sinks_;
+  std::vector<std::pair<std::string, Table*>> tables_;  // all of these
+  std::vector<std::unique_ptr<Picture>> pictures_;
+  std::optional<FrameLog> log_;
+};
+
+}  // namespace falling_particles
