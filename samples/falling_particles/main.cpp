@@ -14,9 +14,12 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
+#include "check/forecast.hpp"
 #include "measurements/measurement.hpp"
 #include "output/lammps_input.hpp"
 #include "output/rendering.hpp"
+#include "parts/list_parts.hpp"
+#include "population/list_population.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene.hpp"
 #include "simulation/interrupt.hpp"
@@ -49,11 +52,21 @@ void list() {
   std::puts("  interval: s, from sample to sample, a multiple of time.step; name: of the table, the kind without it;");
   std::puts("  from, until: s, of the first and the last sample, the whole run without them\n");
   std::fputs(falling_particles::list_measurements().c_str(), stdout);
+  std::puts("\nWalls besides those of its container, which stand, move or are driven, are its sections [[part]].\n");
+  std::fputs(falling_particles::list_parts().c_str(), stdout);
+  std::puts("\nGrains come from its sections [[feeder]], and go into its sections [[sink]].\n");
+  std::fputs(falling_particles::list_population().c_str(), stdout);
+}
+
+void check(const std::string& scene_path, const std::vector<std::string>& overrides) {
+  const falling_particles::Scene scene = falling_particles::load_scene(scene_path, overrides);
+  std::fputs(describe(scene, falling_particles::forecast(scene)).c_str(), stdout);
 }
 
 struct Options {
   std::string scene_path;
   std::vector<std::string> overrides;
+  std::string check_path;
   falling_particles::RunOptions run;
   bool check_leaks = false;
   bool no_pictures = false;
@@ -80,7 +93,11 @@ ExitCode simulate(const Options& options) {
 ExitCode run_program(int argc, char** argv) {
   CLI::App app("Simulates falling grains in a container with ODE and Supernormal.", "falling_particles");
   Options options;
-  app.add_option("-s,--scene", options.scene_path, "scene file (TOML)")->required();
+  CLI::Option* const scene = app.add_option("-s,--scene", options.scene_path, "scene file (TOML)");
+  CLI::Option* const checked =
+      app.add_option("--check", options.check_path,
+                     "scene file: say what its run would do and take, and end. Takes a second or two, and writes nothing");
+  checked->excludes(scene);
   app.add_option("--set", options.overrides, "another value than the scene's, once for each: time.step=1e-3, grain[pea].count=20")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -102,21 +119,24 @@ ExitCode run_program(int argc, char** argv) {
     list();
     throw CLI::Success();
   };
-  app.add_flag_callback("--list", list_and_end,
-                        "print the effects and measurements that a scene may name, with units, ranges, costs and sources");
+  app.add_flag_callback(
+      "--list", list_and_end,
+      "print the effects, measurements, parts, feeders and sinks that a scene may name, with units, ranges, costs and sources");
   app.footer(kFooter);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::RequiredError& error) {
-    // A misspelt --scene is reported as unknown, and not as missing.
+    if (scene->count() + checked->count() == 0) throw CLI::RequiredError("--scene");
+  } catch (const CLI::ExtrasError&) {
     std::vector<std::string> unknown = app.remaining();
-    std::ranges::reverse(unknown);  // ExtrasError expects this order
-    unknown.empty() ? app.exit(error) : app.exit(CLI::ExtrasError(unknown));
+    std::ranges::reverse(unknown);  // ExtrasError tells them the other way round
+    app.exit(CLI::ExtrasError(unknown));
     return BadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? Done : BadInput;
   }
-  return simulate(options);
+  if (checked->count() == 0) return simulate(options);
+  check(options.check_path, options.overrides);
+  return Done;
 }
 
 /// Opens streams that are closed, because a file that is opened while stdin, stdout or stderr is closed would take its number,

@@ -46,6 +46,23 @@ measurements_are_written() {
   for name in friction stress part_force surface; do grep -q "[[\"]$name[]\"]" "$work/log" || fail "--list does not name $name"; done
 }
 
+# What a scene would do, and what it may name, is told without a run.
+scenes_are_checked() {
+  (cd "$work" && expect 0 "$program" --check "$samples/scenes/short.toml" && [ ! -e out ]) || fail "--check has left something"
+  local line
+  for line in 'steps *1000 of 5e-04 s, 51 frames' 'grains *60 at the start: ' 'effects *friction: ' 'memory *[0-9.]* MB' 'disk *[0-9.]* kB' \
+    'time *about [0-9.]* s of processor time'; do
+    grep -q "^$line" "$work/log" || fail "--check does not say $line: $(cat "$work/log")"
+  done
+  sed 's/^step = .*/step = -1/' "$samples/scenes/short.toml" >"$work/scenes/bad.toml"
+  expect 2 "$program" --check "$work/scenes/bad.toml"
+  grep -q 'bad.toml:[0-9]*: time.step is -1; allowed: ' "$work/log" || fail "unclear message: $(cat "$work/log")"
+  expect 0 "$program" --list
+  for line in '\[\[part\]\] shape = "mesh"' '\[\[part.motion\]\] kind = "conveyor"' '\[part.drive\]' '\[\[feeder\]\]' '\[\[sink\]\]'; do
+    grep -q "^$line" "$work/log" || fail "--list does not name $line"
+  done
+}
+
 other_seed_other_result() {
   sed 's/^seed = .*/seed = 4711/' "$samples/scenes/short.toml" >"$work/scenes/short.toml"
   expect 0 "$program" -q --scene "$work/scenes/short.toml" --out "$work/third"
@@ -280,6 +297,7 @@ a_killed_run_leaves_whole_frames_until_the_next() {
 mkdir "$work/scenes" && cp -r "$samples/data" "$work/data"
 same_seed_same_result
 measurements_are_written
+scenes_are_checked
 other_seed_other_result
 values_are_set
 bad_input_leaves_nothing

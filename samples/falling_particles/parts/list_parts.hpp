@@ -1,0 +1,11 @@
+// The parts that a scene may name, as text.
+#pragma once
+
+#include <string>
+
+namespace falling_particles {
+
+/// The shapes, motions and drives of [[part]] with their parameters, units and ranges, for users.
+std::string list_parts();
+
+}  // namespace falling_particles
