@@ -20,10 +20,10 @@ constexpr const char* kWayOut = "; without --resume the run starts anew and remo
   throw InputError("checkpoint \"" + path.string() + "\" " + reason + kWayOut);
 }
 
-std::string words(const std::vector<std::string>& list) {
+std::string words(const std::vector<std::string>& list, const char* none) {
   std::string text;
   for (const std::string& word : list) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? "no pictures" : text;
+  return text.empty() ? none : text;
 }
 
 std::string precision(std::uint32_t bytes) { return bytes == sizeof(double) ? "double precision" : "single precision"; }
@@ -31,7 +31,7 @@ std::string precision(std::uint32_t bytes) { return bytes == sizeof(double) ? "d
 }  // namespace
 
 Origin origin_of(const Scene& scene, int every) {
-  Origin origin{FALLING_PARTICLES_VERSION, sizeof(dReal), {}, scene.pictures, every};
+  Origin origin{FALLING_PARTICLES_VERSION, sizeof(dReal), {}, scene.overrides, scene.pictures, every};
   for (const std::filesystem::path& file : scene.files) origin.files.push_back({file.filename().string(), hash_of_file(file)});
   return origin;
 }
@@ -75,9 +75,13 @@ void refuse_other(const Origin& saved, const Origin& here, const std::filesystem
     if (saved.files[i].hash == here.files[i].hash) continue;
     refuse(path, "is of another scene: the text of " + here.files[i].name + " was another one when it was written");
   }
+  if (saved.overrides != here.overrides) {
+    refuse(path, "is of a run with " + words(saved.overrides, "nothing") + " set; this one has " +
+                     words(here.overrides, "nothing") + " (see --set)");
+  }
   if (saved.pictures != here.pictures) {
-    refuse(path, "is of a run that leaves " + words(saved.pictures) + "; this one leaves " + words(here.pictures) +
-                     " (see --no-pictures)");
+    refuse(path, "is of a run that leaves " + words(saved.pictures, "no pictures") + "; this one leaves " +
+                     words(here.pictures, "no pictures") + " (see --no-pictures)");
   }
   if (here.every != 0 && saved.every != here.every) {
     refuse(path, "is of a run with --checkpoint-every " + std::to_string(saved.every) + "; allowed: the same, or none, and not " +

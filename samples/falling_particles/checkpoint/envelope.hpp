@@ -22,15 +22,16 @@ struct Origin {
       archive(name, hash);
     }
   };
-  std::string program;                ///< its version
-  std::uint32_t bytes_of_a_real = 0;  ///< of dReal: ODE's precision
-  std::vector<File> files;            ///< the scene's, then those that it names
-  std::vector<std::string> pictures;  ///< formats that the run leaves
-  std::int32_t every = 0;             ///< steps from checkpoint to checkpoint
+  std::string program;                 ///< its version
+  std::uint32_t bytes_of_a_real = 0;   ///< of dReal: ODE's precision
+  std::vector<File> files;             ///< the scene's, then those that it names
+  std::vector<std::string> overrides;  ///< of the scene's values
+  std::vector<std::string> pictures;   ///< formats that the run leaves
+  std::int32_t every = 0;              ///< steps from checkpoint to checkpoint
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(program, bytes_of_a_real, files, pictures, every);
+    archive(program, bytes_of_a_real, files, overrides, pictures, every);
   }
 };
 

@@ -22,7 +22,7 @@ constexpr double kOverlap = 0.01;  // of the smallest half-axis, in the fastest 
 constexpr double kStepsPerImpact = 50;
 constexpr double kRigidRestitution = 0.1;  // of contacts that do not bounce
 constexpr double kHertzImpact =
-    2.9432675;  // duration of Hertz's impact of spheres, in largest depths over speeds (Johnson 1985, eq. 11.24)
+    2.9432675;  // duration of an impact of two balls, in largest depths over speeds (Johnson 1985, 11.24)
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what) {
   throw InputError(scene.name + ": " + what + " has no counterpart in LAMMPS' input: leave it out");
@@ -83,17 +83,24 @@ double volume_of(const Grain& grain) {
   return supernormal::Superellipsoid(axes, grain.delta, grain.epsilon).mass_properties().volume;
 }
 
-void refuse_what_lammps_has_not(const Scene& scene) {
-  if (scene.parts.size() > parts_in(scene.container).size()) refuse(scene, "[[part]]");
-  if (!scene.feeders.empty()) refuse(scene, "[[feeder]]");
-  if (!scene.sinks.empty()) refuse(scene, "[[sink]]");
-  if (is_any(scene.periodic)) refuse(scene, "[periodic]");
-  for (const GrainCount& kind : scene.grains) {
-    const GrainBody::Shape shape = kind.grain.all_parts().front().body.shape;
-    if (!kind.grain.parts.empty() || shape != GrainBody::Shape::Superellipsoid) {
-      refuse(scene, "grain \"" + kind.grain.name + "\", which is no superellipsoid,");
-    }
+/// What springs and steps depend on.
+struct Extremes {
+  double lightest = INFINITY, heaviest = 0;  // kg
+  double smallest = INFINITY;                // m; half-axis
+  double fall = 0;                           // m; from the highest start
+};
+
+Extremes find_extremes(const Scene& scene, const std::vector<Placement>& grains) {
+  Extremes found;
+  for (const Placement& grain : grains) {
+    const Grain& kind = scene.grains[grain.kind].grain;
+    const double mass = kind.density * volume_of(kind) * std::pow(grain.scale, 3);
+    found.lightest = std::min(found.lightest, mass);
+    found.heaviest = std::max(found.heaviest, mass);
+    found.smallest = std::min(found.smallest, grain.scale * kind.smallest_half_axis());
+    found.fall = std::max(found.fall, grain.position[2] - lowest_start(scene.container));
   }
+  return found;
 }
 
 /// The words of a contact, and the step that it takes.
@@ -102,15 +109,9 @@ struct Contacts {
   double step;  // s
 };
 
-Contacts find_contacts(const Scene& scene, const Law& law, double fall) {
-  double lightest = INFINITY, heaviest = 0;
-  for (const GrainCount& kind : scene.grains) {
-    const double mass = kind.grain.density * volume_of(kind.grain);
-    lightest = std::min(lightest, std::pow(kind.smallest_scale(), 3) * mass);
-    heaviest = std::max(heaviest, std::pow(kind.largest_scale(), 3) * mass);
-  }
+Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extremes) {
+  const auto& [lightest, heaviest, smallest, fall] = extremes;
   const double speed = std::sqrt(2 * fall * (scene.gravity() != nullptr ? scene.gravity()->acceleration.norm() : 0));
-  const double smallest = scene.smallest_half_axis();
   std::ostringstream words;
   words.precision(9);
   double impact = 0;  // s, of the lightest pair
@@ -184,26 +185,32 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains)
   out << "\nEllipsoids\n\n";
   for (std::size_t i = 0; i < grains.size(); ++i) {
     out << i + 1;
-    for (const double half_axis : scene.grains[grains[i].kind].grain.half_axes) {
-      out << ' ' << 2 * grains[i].scale * half_axis;
-    }
+    for (const double half_axis : scene.grains[grains[i].kind].grain.half_axes) out << ' ' << 2 * grains[i].scale * half_axis;
     for (const double component : grains[i].quaternion) out << ' ' << component;
     out << '\n';
   }
   return out.str();
 }
 
+void refuse_what_has_no_counterpart(const Scene& scene) {
+  if (scene.parts.size() > parts_in(scene.container).size()) refuse(scene, "[[part]]");
+  if (scene.changes_population()) refuse(scene, "a feeder or a sink");
+  if (is_any(scene.periodic)) refuse(scene, "periodic");
+  for (const GrainCount& kind : scene.grains) {
+    if (!kind.grain.parts.empty() || kind.grain.is_capsule) refuse(scene, kind.grain.name + ", a compound or capsule,");
+  }
+}
+
 }  // namespace
 
 LammpsInput lammps_input(const Scene& scene) {
-  refuse_what_lammps_has_not(scene);
+  refuse_what_has_no_counterpart(scene);
   LawReader reader{scene};
   for (const fx::Effect& effect : scene.effects) std::visit(reader, effect);
   Random random(scene.seed);
   const std::vector<Placement> grains = place(scene, random);
-  double top = 0;
-  for (const Placement& grain : grains) top = std::max(top, grain.position[2] - lowest_start(scene.container));
-  const Contacts contacts = find_contacts(scene, reader.law, top);
+  const Extremes extremes = find_extremes(scene, grains);
+  const Contacts contacts = find_contacts(scene, reader.law, extremes);
 
   std::ostringstream out;
   out.precision(9);
@@ -218,8 +225,8 @@ LammpsInput lammps_input(const Scene& scene) {
     out << "pair_coeff " << k + 1 << ' ' << k + 1 << " exponents " << grain.delta << ' ' << grain.epsilon << "  # " << grain.name
         << '\n';
   }
-  out << "neighbor " << 0.5 * scene.smallest_half_axis() << " bin\nneigh_modify delay 0 every 1 check yes\ntimestep "
-      << contacts.step << "\nfix move all nve/supernormal\n";
+  out << "neighbor " << 0.5 * extremes.smallest << " bin\nneigh_modify delay 0 every 1 check yes\ntimestep " << contacts.step
+      << "\nfix move all nve/supernormal\n";
   if (const fx::Gravity* gravity = scene.gravity()) {
     const supernormal::Vector3& g = gravity->acceleration;
     out << "fix fall all gravity " << g.norm() << " vector " << g.x() << ' ' << g.y() << ' ' << g.z() << '\n';

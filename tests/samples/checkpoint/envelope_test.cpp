@@ -15,7 +15,8 @@ using namespace falling_particles;
 namespace {
 
 Checkpoint sample() {
-  return {{"1.2.3", 8, {{"box.toml", {1, 2}}, {"grains.toml", {3, 4}}}, {"page", "glb"}, 100}, std::string("state\0of a run", 14)};
+  return {{"1.2.3", 8, {{"box.toml", {1, 2}}, {"grains.toml", {3, 4}}}, {"seed=5"}, {"page", "glb"}, 100},
+          std::string("state\0of a run", 14)};
 }
 
 /// The complaint of what throws an InputError; empty when it does not.
@@ -48,6 +49,7 @@ TEST_CASE("checkpoint: what is sealed comes out of its envelope") {
   CHECK(checkpoint.origin.bytes_of_a_real == 8);
   CHECK(checkpoint.origin.files[1].name == "grains.toml");
   CHECK(checkpoint.origin.files[1].hash == Hash{3, 4});
+  CHECK(checkpoint.origin.overrides == std::vector<std::string>{"seed=5"});
   CHECK(checkpoint.origin.pictures == std::vector<std::string>{"page", "glb"});
   CHECK(checkpoint.origin.every == 100);
 }
@@ -87,6 +89,7 @@ TEST_CASE("checkpoint: one of another run is refused, and it is told why") {
   check_refused([](Origin& here) { here.files[1].hash[0] = 5; },
                 "another scene: the text of grains.toml was another one when it was written");
   check_refused([](Origin& here) { here.files.pop_back(); }, "another scene, which names other files");
+  check_refused([](Origin& here) { here.overrides.clear(); }, "a run with seed=5 set; this one has nothing (see --set)");
   check_refused([](Origin& here) { here.pictures.clear(); },
                 "a run that leaves page, glb; this one leaves no pictures (see --no-pictures)");
   check_refused(
