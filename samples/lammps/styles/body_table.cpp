@@ -83,7 +83,7 @@ void BodyTable::read_motion() {
 }
 
 double BodyTable::bytes() const {
-  return static_cast<double>(bodies_.capacity() * sizeof(Body) + shapes_.capacity() * sizeof(shapes_[0]) +
+  return static_cast<double>(bodies_.capacity() * sizeof(Body) + shapes_.capacity() * sizeof(void*) +
                              cache_.size() * (sizeof(ParticleShape) + 100));
 }
 

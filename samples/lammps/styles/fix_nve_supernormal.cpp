@@ -23,7 +23,7 @@ FixNveSupernormal::FixNveSupernormal(LAMMPS* lammps, int count, char** words) : 
   global_freq = 1;
   restart_peratom = 1;
   maxexchange = kForces;
-  grow_arrays(atom->nmax);
+  FixNveSupernormal::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
 }

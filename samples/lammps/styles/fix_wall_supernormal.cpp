@@ -28,7 +28,7 @@ FixWallSupernormal::FixWallSupernormal(LAMMPS* lammps, int count, char** words)
   create_attribute = 1;
   restart_peratom = restart_global = 1;
   maxexchange = 1 + WallHistory::kMost * ContactHistory::kSize;
-  grow_arrays(atom->nmax);
+  FixWallSupernormal::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
 }

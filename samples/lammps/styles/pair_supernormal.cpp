@@ -31,7 +31,7 @@ PairSupernormal::PairSupernormal(LAMMPS* lammps) : Pair(lammps) {
   // The history goes along with every pair of which anything is known, also of those that are apart.
   beyond_contact = 1;
   nondefault_history_transfer = 1;
-  nextra = kSums;
+  nextra = SumCount;
   pvector = sums_.data();
   single_extra = kSingles;
   svector = singles_.data();
@@ -177,11 +177,11 @@ void PairSupernormal::compute_neighbors(int i, double step) {
     }
     // With newton off, two ranks count a pair of an owned particle and a ghost.
     const double share = force->newton_pair != 0 || j < atom->nlocal ? 1 : 0.5;
-    sums_[kQueries] += share;
-    sums_[kEvaluations] += share * pair.evaluations;
+    sums_[Queries] += share;
+    sums_[Evaluations] += share * pair.evaluations;
     if (pair.state == PairState::Apart) continue;
-    sums_[kContacts] += share;
-    sums_[kSlipping] += pair.force.slips ? share : 0;
+    sums_[Contacts] += share;
+    sums_[Slipping] += pair.force.slips ? share : 0;
     apply(i, j, pair);
   }
 }

@@ -42,8 +42,8 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   const supernormal::Settings& query_settings() const { return query_settings_; }
 
  private:
-  enum Sum { kContacts, kSlipping, kQueries, kEvaluations, kSums };  // compute pair
-  static constexpr int kSingles = 12;                                // compute pair/local
+  enum Sum { Contacts, Slipping, Queries, Evaluations, SumCount };  // compute pair
+  static constexpr int kSingles = 12;                               // compute pair/local
 
   void allocate();
   void report_volumes() const;
@@ -60,7 +60,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   std::vector<ContactMaterial> materials_;  // by pair of types
   supernormal::Settings query_settings_;
   LAMMPS_NS::FixNeighHistory* history_ = nullptr;
-  std::array<double, kSums> sums_{};
+  std::array<double, SumCount> sums_{};
   std::array<double, kSingles> singles_{};
 };
 
