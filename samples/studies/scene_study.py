@@ -1,0 +1,129 @@
+"""What the studies of scenes share: they write scenes from a template, run each with several seeds, and keep means with errors.
+
+A run whose results are in place is not run again, so a study that was stopped goes on where it was, and more seeds cost only
+themselves.
+"""
+
+import argparse
+import csv
+import math
+import pathlib
+import string
+import subprocess
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "build/release/samples/falling_particles/falling_particles"
+
+
+class Study:
+    """Scenes that differ in what `values` of run() says, under `out/studies/<name>/`."""
+
+    def __init__(self, folder, description, seeds=3):
+        self.folder = pathlib.Path(folder).resolve().parent
+        parser = argparse.ArgumentParser(description=description)
+        parser.add_argument("--seeds", type=int, default=seeds, help="runs of each case, with seeds 1, 2, ... (%(default)s)")
+        parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/studies") / self.folder.name)
+        parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
+        parser.add_argument("--match", default="", help="run only the cases whose names contain this; the table has all that are there")
+        self.arguments = parser.parse_args()
+        self.seeds = range(1, self.arguments.seeds + 1)
+        self.out = self.arguments.out
+        self.out.mkdir(parents=True, exist_ok=True)
+
+    def run(self, case, seed, values, template="scene.toml.in", catalogue="grains.toml.in"):
+        """The folder with the results of one scene, or None where it was not run; `case` names it."""
+        name = f"{case}_{seed}"
+        values = {**values, "seed": seed, "catalogue": f"{name}.grains.toml"}
+        texts = {
+            self.out / f"{name}.toml": fill(self.folder / template, values),
+            self.out / f"{name}.grains.toml": fill(self.folder / catalogue, values),
+        }
+        results = self.out / name
+        is_same = all(path.exists() and path.read_text() == text for path, text in texts.items())
+        if is_same and (results / "summary.toml").exists():
+            return results
+        if self.arguments.match not in name:
+            return None
+        for path, text in texts.items():
+            path.write_text(text)
+        scene_file = self.out / f"{name}.toml"
+        print(f"{name} ...", flush=True)
+        command = [self.arguments.program, "--quiet", "--threads", "1", "--no-pictures", "--scene", scene_file, "--out", self.out]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        return results
+
+    def write(self, header, rows):
+        """results.csv, a table on stdout and figure.svg by the study's plot.gp."""
+        table = self.out / "results.csv"
+        with table.open("w", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(header)
+            writer.writerows(rows)
+        print("| " + " | ".join(header) + " |\n|" + "---|" * len(header))
+        for row in rows:
+            print("| " + " | ".join(format_cell(cell) for cell in row) + " |")
+        figure = self.out / "figure.svg"
+        with figure.open("wb") as file:
+            subprocess.run(["gnuplot", "-c", self.folder / "plot.gp", table], check=True, stdout=file)
+        print(f"{table}, {figure}")
+
+
+def fill(template, values):
+    return string.Template(template.read_text()).substitute(values)
+
+
+def format_cell(cell):
+    return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
+
+
+def read_table(path):
+    """A CSV file as a list of dictionaries of numbers, where a cell is one."""
+    with path.open(newline="") as file:
+        return [{key: to_number(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
+
+
+def to_number(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        return cell or None
+
+
+def read_summary(results):
+    return tomllib.loads((results / "summary.toml").read_text())
+
+
+HEALTH = ["deepest_overlap_percent", "leaked"]
+
+
+def health(runs):
+    """Of all runs: the deepest overlap at the end relative to the smallest half-axis, and the grains that have leaked."""
+    summaries = [read_summary(results) for results in runs]
+    deepest = max(summary["end"]["deepest_overlap_relative"] for summary in summaries)
+    return [100 * deepest, sum(summary["end"]["bodies_leaked"] for summary in summaries)]
+
+
+def mean(values):
+    values = list(values)
+    return math.fsum(values) / len(values)
+
+
+def standard_error(values):
+    """Of the mean of independent values; not a number for one of them."""
+    values = list(values)
+    if len(values) < 2:
+        return math.nan
+    m = mean(values)
+    return math.sqrt(math.fsum((v - m) ** 2 for v in values) / (len(values) - 1) / len(values))
+
+
+def deviation(values):
+    values = list(values)
+    return standard_error(values) * math.sqrt(len(values))
+
+
+def superball_half_axis(exponent, diameter):
+    """Of |x|^p + |y|^p + |z|^p = a^p with the volume of a sphere of that diameter, in its unit."""
+    volume = 8 * math.gamma(1 + 1 / exponent) ** 3 / math.gamma(1 + 3 / exponent)
+    return (math.pi / 6 / volume) ** (1 / 3) * diameter

@@ -1,0 +1,107 @@
+"""What studies of scenes compute of their runs, held to closed forms; and every study fills its templates."""
+
+import importlib.machinery
+import importlib.util
+import math
+import pathlib
+import sys
+import tempfile
+import tomllib
+import unittest
+from unittest import mock
+
+STUDIES = pathlib.Path(__file__).resolve().parents[2] / "samples/studies"
+sys.path.insert(0, str(STUDIES))
+sys.dont_write_bytecode = True
+
+import scene_study  # noqa: E402
+
+
+def load(name):
+    """The program samples/studies/NAME/study as a module."""
+    loader = importlib.machinery.SourceFileLoader(f"study_{name}", str(STUDIES / name / "study"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
+class Statistics(unittest.TestCase):
+    def test_the_error_of_a_mean(self):
+        values = [1.0, 2.0, 3.0, 4.0]
+        self.assertAlmostEqual(scene_study.mean(values), 2.5)
+        self.assertAlmostEqual(scene_study.deviation(values), math.sqrt(5 / 3))
+        self.assertAlmostEqual(scene_study.standard_error(values), math.sqrt(5 / 3) / 2)
+
+    def test_one_value_has_no_error(self):
+        self.assertTrue(math.isnan(scene_study.standard_error([3.0])))
+
+    def test_superballs_have_the_volume_of_the_sphere(self):
+        self.assertAlmostEqual(scene_study.superball_half_axis(2, 6e-3), 3e-3)
+        cube = (math.pi / 6) ** (1 / 3) * 6e-3 / 2
+        self.assertAlmostEqual(scene_study.superball_half_axis(1e6, 6e-3), cube, delta=1e-8)
+        octahedron = (math.pi / 6 / (4 / 3)) ** (1 / 3) * 6e-3
+        self.assertAlmostEqual(scene_study.superball_half_axis(1, 6e-3), octahedron)
+
+
+class Order(unittest.TestCase):
+    def test_cubes_side_by_side(self):
+        study = load("superball_compression")
+        upright = study.axes(1, 0, 0, 0)
+        self.assertAlmostEqual(study.cubatic_order([upright] * 5), 1)
+        quarter = study.axes(math.sqrt(0.5), 0, 0, math.sqrt(0.5))
+        self.assertAlmostEqual(study.cubatic_order([upright, quarter]), 1)
+
+    def test_a_cube_turned_by_an_eighth_has_less(self):
+        study = load("superball_compression")
+        eighth = study.axes(math.cos(math.pi / 8), 0, 0, math.sin(math.pi / 8))
+        # P4 of the pair: 1 of the common axis, 3/8 of it with four others, and (35/4 - 15 + 3)/8 of four at 45 degrees.
+        pair = 1 + 4 * 3 / 8 + 4 * (35 / 4 - 15 + 3) / 8
+        expected = math.sqrt((2 * 5.25 + 2 * pair) / 5.25) / 2
+        self.assertAlmostEqual(study.cubatic_order([study.axes(1, 0, 0, 0), eighth]), expected)
+
+
+class Formula(unittest.TestCase):
+    def test_of_zhou(self):
+        self.assertAlmostEqual(load("plate_heap").published(0.2, 1), 19.7, delta=0.05)
+
+
+class Scenes(unittest.TestCase):
+    def test_every_study_fills_its_templates(self):
+        for study in sorted(STUDIES.glob("*/study")):
+            with self.subTest(study=study.parent.name), tempfile.TemporaryDirectory() as out:
+                module = load(study.parent.name)
+                ran = []
+                arguments = [str(study), "--seeds", "1", "--out", out]
+                with mock.patch.object(sys, "argv", arguments), mock.patch("builtins.print"):
+                    with mock.patch.object(scene_study.subprocess, "run", lambda command, **_: ran.append(command)):
+                        with self.assertRaises(FileNotFoundError):  # of the first results that it reads
+                            module.main()
+                self.assertTrue(ran)
+                for path in pathlib.Path(out).glob("*.toml"):
+                    tomllib.loads(path.read_text())
+
+
+class Again(unittest.TestCase):
+    def test_what_is_there_is_not_run_again(self):
+        with tempfile.TemporaryDirectory() as out:
+            arguments = ["study", "--seeds", "1", "--out", out]
+            with mock.patch.object(sys, "argv", arguments):
+                study = scene_study.Study(STUDIES / "drum_exponents/study", "")
+            ran = []
+
+            def run(command, **_):
+                ran.append(command)
+                results = pathlib.Path(out) / "case_1"
+                results.mkdir(exist_ok=True)
+                (results / "summary.toml").write_text("")
+
+            with mock.patch.object(scene_study.subprocess, "run", run), mock.patch("builtins.print"):
+                study.run("case", 1, {"exponent": 2, "half_axis": 0.003})
+                study.run("case", 1, {"exponent": 2, "half_axis": 0.003})
+                self.assertEqual(len(ran), 1)
+                study.run("case", 1, {"exponent": 3, "half_axis": 0.003})
+                self.assertEqual(len(ran), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
