@@ -41,7 +41,7 @@ class Study:
         }
         results = self.out / name
         is_same = all(path.exists() and path.read_text() == text for path, text in texts.items())
-        if is_same and (results / "summary.toml").exists():
+        if is_same and is_complete(results):
             return results
         if self.arguments.match not in name:
             return None
@@ -67,6 +67,11 @@ class Study:
         with figure.open("wb") as file:
             subprocess.run(["gnuplot", "-c", self.folder / "plot.gp", table], check=True, stdout=file)
         print(f"{table}, {figure}")
+
+
+def is_complete(results):
+    """Whether a run was there, and not stopped on its way."""
+    return (results / "summary.toml").exists() and not read_summary(results)["run"]["interrupted"]
 
 
 def fill(template, values):

@@ -65,6 +65,24 @@ class Formula(unittest.TestCase):
         self.assertAlmostEqual(load("plate_heap").published(0.2, 1), 19.7, delta=0.05)
 
 
+class Rods(unittest.TestCase):
+    def test_distances_of_segments(self):
+        distance = load("rod_packings").segment_distance
+        x, z = (1, 0, 0), (0, 0, 1)
+        self.assertAlmostEqual(distance([0, 2, 0], z, x, 1), 2)  # crossed
+        self.assertAlmostEqual(distance([0, 2, 0.5], z, z, 1), 2)  # side by side
+        self.assertAlmostEqual(distance([0, 0, 5], z, z, 1), 3)  # end to end
+        self.assertAlmostEqual(distance([0, 0, 3], z, x, 1), 2)  # end to side
+        self.assertAlmostEqual(distance([4, 0, 4], z, x, 1), math.sqrt(9 + 9))  # end to end, across
+
+    def test_rattlers_are_taken_away(self):
+        study = load("rod_packings")
+        five = [(i, j, 0.0) for i in range(5) for j in range(i)]  # each touches the four others
+        hanging = [(5, 0, 0.0), (6, 0, 0.0), (6, 1, 0.0), (6, 5, 0.0)]
+        self.assertAlmostEqual(study.coordination(five + hanging, 1e-3), 4)
+        self.assertAlmostEqual(study.coordination(five, -1e-3), 0)
+
+
 class Scenes(unittest.TestCase):
     def test_every_study_fills_its_templates(self):
         for study in sorted(STUDIES.glob("*/study")):
@@ -93,7 +111,7 @@ class Again(unittest.TestCase):
                 ran.append(command)
                 results = pathlib.Path(out) / "case_1"
                 results.mkdir(exist_ok=True)
-                (results / "summary.toml").write_text("")
+                (results / "summary.toml").write_text(f"[run]\ninterrupted = {'true' if len(ran) == 2 else 'false'}\n")
 
             with mock.patch.object(scene_study.subprocess, "run", run), mock.patch("builtins.print"):
                 study.run("case", 1, {"exponent": 2, "half_axis": 0.003})
@@ -101,6 +119,10 @@ class Again(unittest.TestCase):
                 self.assertEqual(len(ran), 1)
                 study.run("case", 1, {"exponent": 3, "half_axis": 0.003})
                 self.assertEqual(len(ran), 2)
+                study.run("case", 1, {"exponent": 3, "half_axis": 0.003})  # since the one before was interrupted
+                self.assertEqual(len(ran), 3)
+                study.run("case", 1, {"exponent": 3, "half_axis": 0.003})
+                self.assertEqual(len(ran), 3)
 
 
 if __name__ == "__main__":
