@@ -3,8 +3,8 @@ set terminal svg size 640,400 background "white"
 set datafile separator ","
 set key off
 set logscale x
-set xrange [0.3:3]
-set xtics ("0.35" 0.35, "0.6" 0.6, "1" 1, "1.5" 1.5, "2.5" 2.5)
+set xrange [0.3:2.5]
+set xtics ("0.4" 0.4, "0.6" 0.6, "1" 1, "1.5" 1.5, "2" 2)
 set grid
 set xlabel "aspect ratio"
 set ylabel "mass flow / that of spheres"
