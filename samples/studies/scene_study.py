@@ -128,6 +128,14 @@ def deviation(values):
     return standard_error(values) * math.sqrt(len(values))
 
 
+def pooled_deviation(groups):
+    """Of values about the means of their groups, as if all groups scattered alike: few seeds say little of each group's own scatter."""
+    freedom = sum(len(group) - 1 for group in groups)
+    if freedom == 0:
+        return math.nan
+    return math.sqrt(math.fsum((v - mean(group)) ** 2 for group in groups for v in group) / freedom)
+
+
 def superball_half_axis(exponent, diameter):
     """Of |x|^p + |y|^p + |z|^p = a^p with the volume of a sphere of that diameter, in its unit."""
     volume = 8 * math.gamma(1 + 1 / exponent) ** 3 / math.gamma(1 + 3 / exponent)

@@ -35,6 +35,10 @@ class Statistics(unittest.TestCase):
     def test_one_value_has_no_error(self):
         self.assertTrue(math.isnan(scene_study.standard_error([3.0])))
 
+    def test_scatter_about_the_means_of_groups(self):
+        self.assertAlmostEqual(scene_study.pooled_deviation([[1.0, 3.0], [10.0, 14.0], [5.0]]), math.sqrt((2 + 8) / 2))
+        self.assertTrue(math.isnan(scene_study.pooled_deviation([[1.0], [2.0]])))
+
     def test_superballs_have_the_volume_of_the_sphere(self):
         self.assertAlmostEqual(scene_study.superball_half_axis(2, 6e-3), 3e-3)
         cube = (math.pi / 6) ** (1 / 3) * 6e-3 / 2
