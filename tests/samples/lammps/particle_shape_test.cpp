@@ -26,7 +26,7 @@ TEST_CASE("lammps: the bounding radius is the farthest point's distance") {
       for (int i = 0; i < 3000; ++i) n = (n + shape.body.point(n).normalized()).normalized();
       farthest = std::max(farthest, shape.body.point(n).norm());
     }
-    CAPTURE(delta);
+    CAPTURE(shape.body.delta());
     CHECK(shape.bounding_radius == relative(farthest).epsilon(1e-4));
     CHECK(shape.bounding_radius >= farthest * (1 - 1e-12));
   }
