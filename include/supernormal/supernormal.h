@@ -66,8 +66,8 @@ SUPERNORMAL_API dGeomID snCreateSuperellipsoid(dSpaceID space, dReal a, dReal b,
 SUPERNORMAL_API dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c, dReal delta, dReal epsilon, dReal taper_x,
                                            dReal taper_y);
 
-/** The points within `radius` of a segment of `length` along z, both in m, in [1e-30, 1e30] and [0, 1e30]: what dCreateCapsule makes,
- * as a body of ours. Its rounding is `radius` already: snGeomSetRounding adds to it. */
+/** The points within `radius` of a segment of `length` along z, both in m, in [1e-30, 1e30] and [0, 1e30]: what dCreateCapsule
+ * makes, as a body of ours. Its rounding is `radius` already: snGeomSetRounding adds to it. */
 SUPERNORMAL_API dGeomID snCreateCapsule(dSpaceID space, dReal radius, dReal length);
 
 /** A body that the program itself describes, by its support function and the boundary point of a normal. Directions are unit

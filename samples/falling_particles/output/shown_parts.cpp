@@ -36,8 +36,8 @@ std::vector<ShownPart> shown_parts(const Frame& frame, const Contents& contents)
     }
     const double scale = contents.scale(k);
     for (const GrainPart& part : parts) {
-      ShownPart& body = shown.emplace_back(
-          ShownPart{index++, k, scaled(part.body, scale), state.position, state.quaternion, state.velocity, state.angular_velocity});
+      ShownPart& body = shown.emplace_back(ShownPart{index++, k, scaled(part.body, scale), state.position, state.quaternion,
+                                                     state.velocity, state.angular_velocity});
       if (contents.grain(k).parts.empty()) continue;  // to the last digit what the grain is
       const Quaterniond attitude = to_quaternion(state.quaternion);
       const Vector3d offset = attitude * (scale * to_vector(part.position));
