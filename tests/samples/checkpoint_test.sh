@@ -161,7 +161,7 @@ out_of_space() {
   for size in 150000 300000 600000 1200000; do
     got=0
     (ulimit -c 0 && prlimit --fsize=$size "$program" -q --scene "$work/scenes/$scene.toml" --out "$work/out" --checkpoint-every "$every" \
-      --resume) >/dev/null 2> >(cat >"$work/log") || got=$?
+      --resume) >/dev/null 2>"$work/log" || got=$?
     [ $got -eq 1 ] || fail "$scene, $size bytes: exit code $got: $(cat "$work/log")"
     grep -q "^falling_particles: cannot write .*: File too large" "$work/log" || fail "unclear: $(cat "$work/log")"
   done
