@@ -70,7 +70,8 @@ TEST_CASE("lammps: Hertz's force passes into that of a flat punch without a jump
   const ContactMaterial material{.law = NormalLaw::Hertz, .stiffness = 1e7};
   const supernormal::ContactCurvature curvature{0.3, 200};
   double last = 0;
-  for (double depth = 1e-6; depth < 0.05; depth *= 1.1) {
+  for (int i = 0; i < 114; ++i) {  // up to 0.05
+    const double depth = 1e-6 * std::pow(1.1, i);
     const double h = 1e-5 * depth;
     const NormalForce here = hertz_force(material, depth, curvature, 0.01);
     const double slope =
