@@ -1,10 +1,12 @@
 #include "output/lammps_input.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <supernormal/supernormal.hpp>
+#include <utility>
 #include <vector>
 
 #include "output/write_file.hpp"
@@ -134,46 +136,21 @@ Contacts find_contacts(const Scene& scene, const Law& law, const Extremes& extre
   return {words.str(), impact / kStepsPerImpact};
 }
 
-struct WallWriter {
-  const Scene& scene;
-  const std::string& law;
-  std::ostream& out;
-
-  void operator()(const Box& box) const {
-    out << "fix container all wall/supernormal box 0 0 0 " << box.width[0] << ' ' << box.width[1] << " 1e3 " << law << '\n';
-  }
-  void operator()(const Drum& drum) const {
-    const double z = drum.radius();
-    out << "fix container all wall/supernormal cylinder 0 0 " << z << " 0 1 0 " << drum.radius() << ' ' << law
-        << " move rotate 0 1 0 0 0 " << z << ' ' << drum.rpm << " from " << drum.turns_at << '\n';
-    for (const double y : {0.0, drum.length}) {
-      out << "fix end" << (y > 0 ? 2 : 1) << " all wall/supernormal plane 0 " << y << ' ' << z << " 0 " << (y > 0 ? -1 : 1) << " 0 "
-          << law << " move rotate 0 1 0 0 0 " << z << ' ' << drum.rpm << " from " << drum.turns_at << '\n';
-    }
-  }
-  template <typename Other>
-  void operator()(const Other& /*container*/) const {
-    refuse(scene, std::string("a container of kind ") + kind_of(scene.container));
-  }
-};
-
-std::string write_data(const Scene& scene, const std::vector<Placement>& grains) {
+std::string write_data(const Scene& scene, const std::vector<Placement>& grains, const LammpsWalls& walls) {
   std::ostringstream out;
   out.precision(17);
   out << scene.name << "\n\n"
       << grains.size() << " atoms\n"
       << grains.size() << " ellipsoids\n"
       << scene.grains.size() << " atom types\n\n";
-  const Rectangle plan = plan_of(scene.container);
+  std::array<std::array<double, 2>, 3> bounds = walls.bounds;
+  for (const Placement& grain : grains) bounds[2][1] = std::max(bounds[2][1], grain.position[2]);
   const double margin = 2 * scene.largest_bounding_radius();
-  double top = 0;
-  for (const Placement& grain : grains) top = std::max(top, grain.position[2]);
-  const auto write_bounds = [&](std::size_t axis, const char* names) {
-    out << plan.corner.at(axis) - margin << ' ' << plan.corner.at(axis) + plan.width.at(axis) + margin << names;
-  };
-  write_bounds(0, " xlo xhi\n");
-  write_bounds(1, " ylo yhi\n");
-  out << lowest_start(scene.container) - margin << ' ' << top + margin << " zlo zhi\n\nAtoms # ellipsoid\n\n";
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const char name = "xyz"[axis];
+    out << bounds.at(axis)[0] - margin << ' ' << bounds.at(axis)[1] + margin << ' ' << name << "lo " << name << "hi\n";
+  }
+  out << "\nAtoms # ellipsoid\n\n";
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Grain& kind = scene.grains[grains[i].kind].grain;
     // LAMMPS multiplies the density by the volume of the ellipsoid.
@@ -231,19 +208,27 @@ LammpsInput lammps_input(const Scene& scene) {
     const supernormal::Vector3& g = gravity->acceleration;
     out << "fix fall all gravity " << g.norm() << " vector " << g.x() << ' ' << g.y() << ' ' << g.z() << '\n';
   }
-  std::visit(WallWriter{scene, contacts.words, out}, scene.container);
-  const auto steps = [&](double seconds) { return std::max(1LL, std::llround(seconds / contacts.step)); };
+  LammpsWalls walls = lammps_walls(scene, contacts.words);
+  out << walls.commands;
+  const auto steps = [&](double seconds) { return std::max(0LL, std::llround(seconds / contacts.step)); };
+  const long long frame = std::max(1LL, steps(scene.time.frame));
   out << "compute shape all property/atom shapex shapey shapez quati quatj quatk quatw\n"
-      << "dump grains all custom " << steps(scene.time.frame) << ' ' << scene.name
+      << "dump grains all custom " << frame << ' ' << scene.name
       << ".lammpstrj id type x y z c_shape[1] c_shape[2] c_shape[3] c_shape[4] c_shape[5] c_shape[6] c_shape[7]\n"
-      << "thermo " << steps(scene.time.frame) << "\nrun " << steps(scene.time.duration) << '\n';
-  return {out.str(), write_data(scene, grains)};
+      << "thermo " << frame << '\n';
+  const long long all = steps(scene.time.duration);
+  const bool changes = walls.change && walls.change->time < scene.time.duration;
+  const long long before = changes ? steps(walls.change->time) : 0;
+  if (changes) out << "run " << before << '\n' << walls.change->commands;
+  out << "run " << all - before << '\n';
+  return {out.str(), write_data(scene, grains, walls), std::move(walls.files)};
 }
 
 void write_lammps_input(const Scene& scene, const std::filesystem::path& folder) {
   const LammpsInput input = lammps_input(scene);
   create_folder(folder);
   write_file(folder / (scene.name + ".data"), input.data);
+  for (const LammpsFile& file : input.files) write_file(folder / file.name, file.text);
   write_file(folder / (scene.name + ".in"), input.commands);
 }
 

@@ -3,10 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <variant>
 
 #include "relative.hpp"
 #include "scene/input_error.hpp"
@@ -78,6 +80,30 @@ TEST_CASE("to LAMMPS: a drum turns from when it does in the scene") {
   CHECK(has(input.commands, "plane 0 0.05 0.06 0 -1 0"));
 }
 
+TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid goes when the outlet opens") {
+  const Scene scene = scene_of("heap");
+  const LammpsInput input = lammps_input(scene);
+  CHECK(has(input.commands, "fix tray all wall/supernormal box -0.15 -0.15 0 0.15 0.15 1e3 hooke"));
+  CHECK(has(input.commands, "fix lid all wall/supernormal plane 0 0 0.085 0 0 1 hooke"));
+  CHECK(has(input.commands, "fix dish all wall/supernormal mesh heap.dish.obj 1 hooke"));
+  const double step = number_after(input.commands, "timestep ");
+  const std::size_t lid = input.commands.find("unfix lid");
+  REQUIRE(lid != std::string::npos);
+  CHECK(number_after(input.commands.substr(0, lid), "\nrun ") == relative(0.5 / step).epsilon(1e-5));
+  CHECK(number_after(input.commands.substr(lid), "\nrun ") == relative(3.5 / step).epsilon(1e-5));
+  // Grains fall off the dish, into a tray that is wider than the hopper.
+  CHECK(number_after(input.data, "types\n\n") < -0.15);
+
+  const Mesh mesh = make_mesh(std::get<Hopper>(scene.container));
+  REQUIRE(input.files.size() == 2);
+  CHECK(input.files[0].name == "heap.hopper.obj");
+  const std::string& text = input.files[0].text;
+  CHECK(static_cast<std::size_t>(std::ranges::count(text, 'v')) == mesh.vertices.size());
+  CHECK(static_cast<std::size_t>(std::ranges::count(text, 'f')) == mesh.triangles.size());
+  CHECK(number_after(text, "v ") == relative(mesh.vertices[0][0]).epsilon(1e-7));
+  CHECK(number_after(text, "f ") == mesh.triangles[0][0] + 1);
+}
+
 TEST_CASE("to LAMMPS: a scene's own springs are kept") {
   Scene scene = scene_of("short");
   scene.effects.emplace_back(fx::Hertz{1e8, 0.3, 0.7, {}});
@@ -85,7 +111,7 @@ TEST_CASE("to LAMMPS: a scene's own springs are kept") {
 }
 
 TEST_CASE("to LAMMPS: what has no counterpart is refused by name") {
-  CHECK(has(refusal(scene_of("hopper")), "a container of kind hopper has no counterpart"));
+  CHECK(has(refusal(scene_of("terrain")), "a container of kind terrain has no counterpart"));
   Scene scene = scene_of("short");
   scene.effects.emplace_back(fx::StokesDrag{});
   CHECK(has(refusal(scene), "stokes_drag has no counterpart"));
