@@ -5,6 +5,8 @@ import argparse
 import re
 
 import gas
+import heap
+import walls
 from driver import Driver, read_tables
 
 COPIES = {10240: (5, 2, 2), 100352: (7, 7, 4)}  # of the bed with 512 particles
@@ -64,7 +66,13 @@ def study_gas(driver):
             print(f"{what}: {value:.2g}", flush=True)
 
 
-STUDIES = {"cost": study_cost, "scaling": study_scaling, "gas": study_gas}
+def study_drum(driver):
+    """A drum that turns for a million steps."""
+    for what, value, _ in walls.check_drum(driver, steps=1000000):
+        print(f"{what}: {value:.2g}", flush=True)
+
+
+STUDIES = {"cost": study_cost, "scaling": study_scaling, "gas": study_gas, "heap": heap.study, "drum": study_drum}
 
 
 def main():

@@ -42,14 +42,13 @@ def check_weight(driver):
         yield f"{name}: weight that is borne", max(abs(row["v_borne"] - 1) for row in table[-3:]), 1e-3
 
 
-def check_drum(driver):
-    steps = 60000
+def check_drum(driver, steps=60000):
     (table,) = driver.run("drum", 1, rpm=40, steps=steps, every=steps, out="drum")
     steady = table[len(table) // 3 :]
     torque = sum(row["f_mean[1]"] for row in steady) / len(steady)
     lever = sum(row["f_mean[2]"] for row in steady) / len(steady)
-    yield "drum: torque against the weight's", abs(torque / lever - 1), 0.03
-    yield "drum: particles lost", table[0]["Atoms"] - table[-1]["Atoms"], 0
+    yield f"drum, {steps} steps: torque against the weight's", abs(torque / lever - 1), 0.03
+    yield f"drum, {steps} steps: particles lost", table[0]["Atoms"] - table[-1]["Atoms"], 0
 
 
 def check_restart(driver):
