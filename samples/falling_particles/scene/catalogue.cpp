@@ -83,7 +83,11 @@ std::array<double, 4> read_attitude(const TomlTable& table) {
   return {std::cos(half), s * axis[0], s * axis[1], s * axis[2]};
 }
 
-Grain read_compound(const TomlTable& table, const std::string& name) {
+CatalogueEntry compound_entry(const std::string& name, const std::vector<GrainPart>& parts, const std::string& source) {
+  return {name, [=] { return make_compound(name, parts, source); }};
+}
+
+CatalogueEntry read_compound(const TomlTable& table, const std::string& name) {
   table.refuse_unknown_keys({"parts", "density", "source"});
   const std::vector<TomlTable> tables = table.tables("parts");
   constexpr std::size_t kMostParts = 100;
@@ -105,10 +109,10 @@ Grain read_compound(const TomlTable& table, const std::string& name) {
     }
     read.quaternion = read_attitude(part);
   }
-  return make_compound(name, std::move(parts), table.text("source"));
+  return compound_entry(name, parts, table.text("source"));
 }
 
-Grain read_grain(const TomlTable& table, const std::string& name) {
+CatalogueEntry read_grain(const TomlTable& table, const std::string& name) {
   if (table.has("parts")) return read_compound(table, name);
   const Shape shape = shape_in(table);
   std::vector<std::string> keys = keys_of(shape);
@@ -118,22 +122,29 @@ Grain read_grain(const TomlTable& table, const std::string& name) {
   const double density = read_density(table);
   const std::string source = table.text("source");
   // The centre of mass of a superovoid is not the origin of its frame.
-  if (shape == Shape::Superovoid) return make_compound(name, {{body, density}}, source);
-  return {name, body.half_axes, body.delta, body.epsilon, body.rounding, density, source, shape == Shape::Capsule};
+  if (shape == Shape::Superovoid) return compound_entry(name, {{body, density}}, source);
+  const Grain grain{name, body.half_axes, body.delta, body.epsilon, body.rounding, density, source, shape == Shape::Capsule};
+  return {name, [grain] { return grain; }};
 }
 
 }  // namespace
 
-std::vector<Grain> load_catalogue(const std::string& path) {
+std::vector<CatalogueEntry> open_catalogue(const std::string& path) {
   const TomlTable root = TomlFile(path, "grain catalogue").root();
-  std::vector<Grain> grains;
+  std::vector<CatalogueEntry> entries;
   for (const std::string& name : root.names()) {
     // Names are written into CSV files without quotes.
     if (name.find_first_not_of(kNameCharacters) != std::string::npos) {
       root.fail(name, "grain name \"" + name + "\"; allowed: letters, digits, _ and -");
     }
-    grains.push_back(read_grain(root.table(name), name));
+    entries.push_back(read_grain(root.table(name), name));
   }
+  return entries;
+}
+
+std::vector<Grain> load_catalogue(const std::string& path) {
+  std::vector<Grain> grains;
+  for (const CatalogueEntry& entry : open_catalogue(path)) grains.push_back(entry.make());
   return grains;
 }
 

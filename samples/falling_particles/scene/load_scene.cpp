@@ -28,23 +28,23 @@ constexpr std::int64_t kMostBodies = 1'000'000;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
 
 /// Reads the catalogue that the scene names, relative to the scene's folder.
-std::vector<Grain> read_catalogue(const TomlTable& root, const std::string& scene_path) {
+std::vector<CatalogueEntry> read_catalogue(const TomlTable& root, const std::string& scene_path) {
   const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
   const std::string allowed = "; allowed: a grain catalogue, its path relative to the scene file";
   if (std::filesystem::is_directory(path)) root.fail("catalogue", "catalogue: \"" + path.string() + "\" is a folder" + allowed);
   if (!std::filesystem::is_regular_file(path)) {
     root.fail("catalogue", "catalogue: there is no file \"" + path.string() + "\"" + allowed);
   }
-  return load_catalogue(path.string());
+  return open_catalogue(path.string());
 }
 
-const Grain& find_grain(const std::vector<Grain>& catalogue, const TomlTable& entry) {
+const CatalogueEntry& find_grain(const std::vector<CatalogueEntry>& catalogue, const TomlTable& entry) {
   const std::string name = entry.text("name");
-  const auto found = std::ranges::find(catalogue, name, &Grain::name);
+  const auto found = std::ranges::find(catalogue, name, &CatalogueEntry::name);
   if (found != catalogue.end()) return *found;
   std::vector<std::string> names;
   names.reserve(catalogue.size());
-  for (const Grain& grain : catalogue) names.push_back(grain.name);
+  for (const CatalogueEntry& grain : catalogue) names.push_back(grain.name);
   entry.fail("name", "unknown grain \"" + name + "\"" + did_you_mean(name, names) + "; allowed (the catalogue's): " + join(names));
 }
 
@@ -92,15 +92,17 @@ std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTa
 
 std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop, const std::string& scene_path,
                                     std::uint64_t seed) {
-  const std::vector<Grain> catalogue = read_catalogue(root, scene_path);
+  const std::vector<CatalogueEntry> catalogue = read_catalogue(root, scene_path);
   const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction", "size"});
   const bool by_fraction = entries.front().has("fraction");
   std::vector<GrainCount> grains;
   std::set<std::string> seen;
   for (const TomlTable& entry : entries) {
-    grains.push_back({find_grain(catalogue, entry), 0});
-    const std::string& name = grains.back().grain.name;
-    if (!seen.insert(name).second) entry.fail("name", "grain \"" + name + "\" is listed twice; allowed: once, with the sum");
+    const CatalogueEntry& found = find_grain(catalogue, entry);
+    if (!seen.insert(found.name).second) {
+      entry.fail("name", "grain \"" + found.name + "\" is listed twice; allowed: once, with the sum");
+    }
+    grains.push_back({found.make(), 0});
     const char* other = by_fraction ? "count" : "fraction";
     if (entry.has(other)) {
       entry.fail(other, entry.full_name(other) + " is mixed with " + (by_fraction ? "fraction" : "count") +
