@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "check/forecast.hpp"
@@ -25,12 +24,6 @@ class Lines {
  private:
   std::string text_, last_;
 };
-
-std::string rounded(double number) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", number);
-  return text.data();
-}
 
 std::string in_bytes(double bytes) {
   constexpr double kThousand = 1000;
@@ -65,10 +58,7 @@ std::string from_until(double from, double until) {
 }
 
 std::string describe(const Feeder& feeder) {
-  const auto in_words = [](const Quantity& quantity) {
-    return shortest(quantity.number) + (quantity.of == Quantity::Of::Mass ? " kg" : " grains");
-  };
-  return feeder.name + ": " + in_words(feeder.rate) + "/s" + (feeder.total ? ", " + in_words(*feeder.total) + " in all" : "") +
+  return feeder.name + ": " + feeder.rate.in_words() + "/s" + (feeder.total ? ", " + feeder.total->in_words() + " in all" : "") +
          from_until(feeder.from, feeder.until);
 }
 

@@ -57,8 +57,7 @@ double time_start(Simulation& simulation) {
 
 Forecast forecast(const Scene& scene) {
   Forecast result;
-  double most = scene.bodies();
-  for (const Feeder& feeder : scene.feeders) most += most_grains(feeder, scene);
+  const double most = scene.bodies() + most_fed(scene);
   result.most_grains = static_cast<int>(most);
   result.steps = scene.time.steps();
   result.frames = 1 + (result.steps + scene.time.steps_per_frame() - 1) / scene.time.steps_per_frame();

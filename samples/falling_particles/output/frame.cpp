@@ -98,11 +98,9 @@ Contents contents_of(const World& world, const Scene& scene, double top) {
 }
 
 void add_new_bodies(Contents& contents, const World& world) {
-  const std::vector<GrainCount>& grains = contents.scene->grains;
   contents.kind_of_body.reserve(world.bodies().capacity());
   for (std::size_t i = contents.kind_of_body.size(); i < world.bodies().size(); ++i) {
-    const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == world.bodies()[i].grain; };
-    contents.kind_of_body.push_back(static_cast<std::size_t>(std::ranges::find_if(grains, is_kind) - grains.begin()));
+    contents.kind_of_body.push_back(contents.scene->kind_of(*world.bodies()[i].grain));
     if (contents.scene->has_sizes()) contents.scale_of_body.push_back(world.bodies()[i].scale);
   }
 }

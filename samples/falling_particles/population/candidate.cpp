@@ -16,12 +16,4 @@ Candidate::~Candidate() {
   dWorldDestroy(world_);
 }
 
-void Candidate::put(const Placement& place) const {
-  const auto& [x, y, z] = place.position;
-  const auto& [qw, qx, qy, qz] = place.quaternion;
-  const dQuaternion q = {qw, qx, qy, qz};
-  dBodySetPosition(body_.body, x, y, z);
-  dBodySetQuaternion(body_.body, q);
-}
-
 }  // namespace falling_particles

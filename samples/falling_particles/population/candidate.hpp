@@ -22,7 +22,7 @@ class Candidate {
 
   const Body& body() const { return body_; }
   const std::vector<dGeomID>& geoms() const { return geoms_; }
-  void put(const Placement& place) const;
+  void put(const Placement& place) const { falling_particles::put(body_.body, place); }
 
  private:
   dWorldID world_;

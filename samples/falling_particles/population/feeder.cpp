@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/grain_shape.hpp"
+#include "scene/interval.hpp"
 #include "scene/scene.hpp"
 
 namespace falling_particles {
@@ -18,10 +19,7 @@ double smallest_mass(const GrainCount& kind) { return std::pow(kind.smallest_sca
 
 }  // namespace
 
-double mass_of(const Grain& grain) {
-  if (grain.compound_mass) return grain.compound_mass->mass;
-  return grain.density * shape_of(grain.all_parts().front().body)->mass_properties().volume;
-}
+std::string Quantity::in_words() const { return shortest(number) + (of == Of::Mass ? " kg" : " grains"); }
 
 double most_grains(const Feeder& feeder, const Scene& scene) {
   double lightest = INFINITY;
@@ -30,6 +28,12 @@ double most_grains(const Feeder& feeder, const Scene& scene) {
   double most = most_grains({feeder.rate.number * on, feeder.rate.of}, lightest);
   if (feeder.total) most = std::min(most, most_grains(*feeder.total, lightest));
   return std::ceil(1.001 * most) + 1;  // the mass of the geom may differ in the last digits
+}
+
+double most_fed(const Scene& scene) {
+  double most = 0;
+  for (const Feeder& feeder : scene.feeders) most += most_grains(feeder, scene);
+  return most;
 }
 
 }  // namespace falling_particles

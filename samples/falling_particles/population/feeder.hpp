@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "container/open.hpp"
-#include "scene/grain.hpp"
 
 namespace falling_particles {
 
@@ -22,6 +21,11 @@ struct Amount {
   void add(double mass_of_grain) {
     ++grains;
     mass += mass_of_grain;
+  }
+  Amount& operator+=(const Amount& other) {
+    grains += other.grains;
+    mass += other.mass;
+    return *this;
   }
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -37,6 +41,7 @@ struct Quantity {
 
   /// What of the amount is counted here.
   double in(const Amount& amount) const { return of == Of::Mass ? amount.mass : static_cast<double>(amount.grains); }
+  std::string in_words() const;  ///< "0.2 kg"
 };
 
 /// A share of a kind in what a feeder feeds.
@@ -59,11 +64,11 @@ struct Feeder {
   double patience = 1;                                     ///< s, for which the region may be too full for the rate
 };
 
-/// kg, of a grain of scale 1
-double mass_of(const Grain& grain);
-
 /// A number of grains that the feeder cannot reach within the duration of the scene.
 double most_grains(const Feeder& feeder, const Scene& scene);
+
+/// The same of all feeders of the scene.
+double most_fed(const Scene& scene);
 
 /// What is below a plane.
 struct HalfSpace {

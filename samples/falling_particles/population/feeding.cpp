@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -16,17 +15,7 @@ namespace {
 constexpr int kTries = 64;          // places for a grain in a step: a region of which a tenth is free is found full in one of 800
 constexpr double kRounding = 1e-9;  // of the amount that is due: times are multiples of a step, rounded
 
-std::string in_words(const Quantity& quantity, const char* per = "") {
-  return shortest(quantity.number) + (quantity.of == Quantity::Of::Mass ? " kg" : " grains") + per;
-}
-
 std::string in_brackets(const Point& p) { return "[" + shortest(p[0]) + ", " + shortest(p[1]) + ", " + shortest(p[2]) + "] m"; }
-
-std::string rounded(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
 
 }  // namespace
 
@@ -41,10 +30,7 @@ const Grain& Feeding::grain(std::size_t i) const { return world_.scene().grains[
 
 Amount Feeding::fed() const {
   Amount sum;
-  for (const Amount& amount : state_.fed) {
-    sum.grains += amount.grains;
-    sum.mass += amount.mass;
-  }
+  for (const Amount& amount : state_.fed) sum += amount;
   return sum;
 }
 
@@ -133,7 +119,7 @@ void Feeding::check_patience(double now) {
   const double passed = (unit.in(fed()) - unit.in(state_.when_behind)) / waited;
   const char* const of = unit.of == Quantity::Of::Mass ? " kg/s" : " grains/s";
   throw std::runtime_error(
-      "feeder \"" + feeder_.name + "\" has been behind its rate of " + in_words(feeder_.rate, "/s") + " for " + rounded(waited) +
+      "feeder \"" + feeder_.name + "\" has been behind its rate of " + feeder_.rate.in_words() + "/s for " + rounded(waited) +
       " s, at t = " + shortest(now) + " s: its region, " + in_brackets(feeder_.region.size) + " from " +
       in_brackets(feeder_.region.corner) + ", had room for " + rounded(passed) + of +
       " in that time; allowed: a rate that it has room for, a larger region (wider for grains that leave it downwards), a velocity "

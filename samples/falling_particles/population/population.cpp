@@ -13,16 +13,6 @@ Amount present_in(const World& world) {
   return amount;
 }
 
-void add(Amount& sum, const Amount& amount) {
-  sum.grains += amount.grains;
-  sum.mass += amount.mass;
-}
-
-std::size_t kind_of(const Body& body, const Scene& scene) {
-  const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == body.grain; };
-  return static_cast<std::size_t>(std::ranges::find_if(scene.grains, is_kind) - scene.grains.begin());
-}
-
 }  // namespace
 
 Population::Population(World& world, const Scene& scene)
@@ -45,7 +35,7 @@ double Population::take() {
     const auto sink = std::ranges::find_if(scene_.sinks, contains);
     if (sink == scene_.sinks.end()) continue;
     energy -= energy_of(body, scene_);
-    taken_[static_cast<std::size_t>(sink - scene_.sinks.begin())][kind_of(body, scene_)].add(body.mass.mass);
+    taken_[static_cast<std::size_t>(sink - scene_.sinks.begin())][scene_.kind_of(*body.grain)].add(body.mass.mass);
     world_.remove(i);
   }
   return energy;
@@ -63,14 +53,14 @@ double Population::feed(double end) {
 
 Amount Population::fed() const {
   Amount sum;
-  for (const Feeding& feeding : feeders_) add(sum, feeding.fed());
+  for (const Feeding& feeding : feeders_) sum += feeding.fed();
   return sum;
 }
 
 Amount Population::taken() const {
   Amount sum;
   for (const std::vector<Amount>& kinds : taken_) {
-    for (const Amount& amount : kinds) add(sum, amount);
+    for (const Amount& amount : kinds) sum += amount;
   }
   return sum;
 }

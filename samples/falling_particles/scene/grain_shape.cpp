@@ -33,6 +33,11 @@ std::shared_ptr<const supernormal::Shape> shape_of(const GrainBody& body, double
   return std::make_shared<supernormal::Rounded>(std::move(core), scale * body.rounding);
 }
 
+double mass_of(const Grain& grain) {
+  if (grain.compound_mass) return grain.compound_mass->mass;
+  return grain.density * shape_of(grain.all_parts().front().body)->mass_properties().volume;
+}
+
 supernormal::Pose pose_of(const GrainPart& part, double scale) {
   const auto [w, x, y, z] = part.quaternion;
   const auto [px, py, pz] = part.position;

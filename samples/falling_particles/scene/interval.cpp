@@ -28,4 +28,10 @@ std::string shortest(double value) {
   return {buffer.data(), end};
 }
 
+std::string rounded(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
 }  // namespace falling_particles

@@ -28,4 +28,7 @@ struct Interval {
 /// Shortest text that reads back as the same number.
 std::string shortest(double value);
 
+/// With three digits.
+std::string rounded(double value);
+
 }  // namespace falling_particles

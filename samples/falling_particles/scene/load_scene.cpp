@@ -126,13 +126,7 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
 }
 
 /// Grains that a scene may have at once. How many its sinks leave cannot be told.
-int most_at_once(const Scene& scene) {
-  double most = scene.bodies();
-  if (scene.sinks.empty()) {
-    for (const Feeder& feeder : scene.feeders) most += most_grains(feeder, scene);
-  }
-  return static_cast<int>(most);
-}
+int most_at_once(const Scene& scene) { return static_cast<int>(scene.bodies() + (scene.sinks.empty() ? most_fed(scene) : 0)); }
 
 void check_memory(const TomlTable& root, int grains) {
   constexpr double kGigabyte = 1e9;

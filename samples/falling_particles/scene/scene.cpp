@@ -32,6 +32,11 @@ int Scene::bodies() const {
   return sum;
 }
 
+std::size_t Scene::kind_of(const Grain& grain) const {
+  const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == &grain; };
+  return static_cast<std::size_t>(std::ranges::find_if(grains, is_kind) - grains.begin());
+}
+
 bool Scene::has_sizes() const {
   return std::ranges::any_of(grains, [](const GrainCount& kind) { return kind.size.has_value(); });
 }

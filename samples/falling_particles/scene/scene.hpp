@@ -81,7 +81,8 @@ struct Scene {
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;
 
-  int bodies() const;  ///< at the start
+  int bodies() const;                             ///< at the start
+  std::size_t kind_of(const Grain& grain) const;  ///< index into grains, of one of these objects
   /// Whether grains come or go during the run.
   bool changes_population() const { return !feeders.empty() || !sinks.empty(); }
   bool has_sizes() const;                  ///< whether any kind has a distribution of sizes

@@ -24,9 +24,7 @@ Point to_point(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 /// Bodies stay where they are in memory, so the list has room for all from the start.
 std::size_t capacity(const Scene& scene, std::size_t at_start) {
-  auto most = static_cast<double>(at_start);
-  for (const Feeder& feeder : scene.feeders) most += most_grains(feeder, scene);
-  return static_cast<std::size_t>(most);
+  return static_cast<std::size_t>(static_cast<double>(at_start) + most_fed(scene));
 }
 
 void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
@@ -103,6 +101,14 @@ dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID b
     dGeomSetOffsetQuaternion(geom, q);
   }
   return first;
+}
+
+void put(dBodyID body, const Placement& place) {
+  const auto [x, y, z] = place.position;
+  const auto [qw, qx, qy, qz] = place.quaternion;
+  const dQuaternion q = {qw, qx, qy, qz};
+  dBodySetPosition(body, x, y, z);
+  dBodySetQuaternion(body, q);
 }
 
 dMass mass_of(const Body& body) {
@@ -214,10 +220,7 @@ void World::add_body(const Placement& placement) {
   entry.geom = attach_geoms(sweep_->id(), grain, entry.scale, entry.body, &entry);
   entry.mass = mass_of(entry);
   dBodySetMass(entry.body, &entry.mass);
-  const auto [x, y, z] = placement.position;
-  dBodySetPosition(entry.body, x, y, z);
-  const dQuaternion q = {placement.quaternion[0], placement.quaternion[1], placement.quaternion[2], placement.quaternion[3]};
-  dBodySetQuaternion(entry.body, q);
+  put(entry.body, placement);
   effects_->add_body(entry.body);
 }
 
@@ -230,8 +233,7 @@ WorldState World::save() const {
   state.bodies.reserve(bodies_.size());
   for (const Body& body : bodies_) {
     SavedBody& saved = state.bodies.emplace_back();
-    const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == body.grain; };
-    saved.kind = static_cast<std::uint64_t>(std::ranges::find_if(scene_.grains, is_kind) - scene_.grains.begin());
+    saved.kind = scene_.kind_of(*body.grain);
     saved.scale = body.scale;
     saved.mass = body.mass.mass;
     saved.is_present = body.is_present();

@@ -90,6 +90,9 @@ dGeomID create_geom(dSpaceID space, const GrainBody& body, double scale = 1);
 /// std::runtime_error when the library refuses one.
 dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID body, void* data);
 
+/// Moves and turns a body to where a grain is to be.
+void put(dBodyID body, const Placement& place);
+
 /// The mass of a grain that has its geoms, about its centre. Throws std::runtime_error when the library refuses it.
 dMass mass_of(const Body& body);
 

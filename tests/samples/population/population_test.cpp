@@ -14,6 +14,7 @@
 #include "measure/leaks.hpp"
 #include "relative.hpp"
 #include "scene/compound.hpp"
+#include "scene/grain_shape.hpp"
 #include "scenes.hpp"
 #include "simulation/stepper.hpp"
 #include "simulation/world.hpp"
