@@ -22,7 +22,8 @@ namespace fx = supernormal::effects;
 
 constexpr double kOverlap = 0.01;  // of the smallest half-axis, in the fastest impact
 constexpr double kStepsPerImpact = 50;
-constexpr double kRigidRestitution = 0.1;  // of contacts that do not bounce
+constexpr double kRigidRestitution = 0.1;   // of contacts that do not bounce
+constexpr double kLeastRestitution = 0.05;  // that pair_style supernormal takes
 constexpr double kHertzImpact =
     2.9432675;  // duration of an impact of two balls, in largest depths over speeds (Johnson 1985, 11.24)
 
@@ -56,12 +57,12 @@ struct LawReader {
   }
   void operator()(const fx::Restitution& restitution) {
     require_all(restitution.on, "restitution");
-    law.restitution = std::max(restitution.coefficient, 0.05);
+    law.restitution = std::max(restitution.coefficient, kLeastRestitution);
   }
   void operator()(const fx::Hertz& hertz) {
     require_all(hertz.on, "hertz");
     law.hertz = &hertz;
-    law.restitution = hertz.restitution;
+    law.restitution = std::max(hertz.restitution, kLeastRestitution);
   }
   void operator()(const fx::Compliance& compliance) {
     require_all(compliance.on, "compliance");
@@ -194,7 +195,8 @@ LammpsInput lammps_input(const Scene& scene) {
   out << "# " << scene.name << ", converted by falling_particles --to-lammps for samples/lammps. What differs:\n"
       << "# contacts are springs, which overlap; a step is " << kStepsPerImpact
       << " times shorter than an impact; contacts without\n"
-      << "# restitution have " << kRigidRestitution << "; flat faces rest on one point; grains are not rounded; nothing sleeps.\n"
+      << "# restitution have " << kRigidRestitution << ", and none has less than " << kLeastRestitution
+      << "; it holds at every velocity; flat faces\n# rest on one point; grains are not rounded; nothing sleeps.\n"
       << "units si\natom_style ellipsoid\ncomm_modify vel yes\nboundary f f m\nread_data " << scene.name << ".data\n"
       << "pair_style supernormal\npair_coeff * * " << contacts.words << '\n';
   for (std::size_t k = 0; k < scene.grains.size(); ++k) {
