@@ -36,6 +36,7 @@ struct Options {
   std::string title = "One pair of bodies";
   std::string hard_case;
   std::string scene, trajectory;
+  std::vector<std::string> overrides;
   double time = 0;
   std::vector<std::size_t> bodies;
   std::string out = "pair.svg";
@@ -75,7 +76,7 @@ Pair chosen_pair(const Options& options) {
   }
   std::optional<std::size_t> second;
   if (options.bodies.size() > 1) second = options.bodies[1];
-  return recorded_pair({options.scene, options.trajectory, options.time, options.bodies[0], second});
+  return recorded_pair({options.scene, options.trajectory, options.time, options.bodies[0], second, options.overrides});
 }
 
 void print(const Explanation& explanation) {
@@ -106,6 +107,10 @@ ExitCode run_program(int argc, char** argv) {
       ->group("Hard case");
   const std::string run = "Two grains of a run";
   app.add_option("--scene", options.scene, "scene file")->group(run);
+  app.add_option("--set", options.overrides, "what the run was given with --set, once for each")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group(run);
   app.add_option("--trajectory", options.trajectory, "trajectory.csv that its run has left")->group(run);
   app.add_option("--time", options.time, "s, of a frame")->group(run);
   app.add_option("--bodies", options.bodies, "their indices; of one alone: with its neighbour")->expected(1, 2)->group(run);

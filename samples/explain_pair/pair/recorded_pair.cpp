@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <supernormal/proximity/solve.hpp>
 #include <vector>
@@ -36,8 +37,9 @@ struct RecordedBody {
   Pose pose;
 };
 
-double number_of(std::string_view text, const std::string& path, unsigned line) {
-  double value = 0;
+template <typename Number = double>
+Number number_of(std::string_view text, const std::string& path, unsigned line) {
+  Number value = 0;
   const auto [end, error] = std::from_chars(text.begin(), text.end(), value);
   if (error != std::errc() || end != text.end()) throw InputError(path, line, "\"" + std::string(text) + "\" is not a number");
   return value;
@@ -56,10 +58,10 @@ std::array<std::string_view, kColumns> columns_of(std::string_view row, const st
   return columns;
 }
 
-/// The frame nearest to a time: its time and its bodies, in order.
+/// The frame nearest to a time: its time and its bodies by their indices, some of which may have gone.
 struct NearestFrame {
   double time = std::numeric_limits<double>::infinity();
-  std::vector<RecordedBody> bodies = {};
+  std::map<std::size_t, RecordedBody> bodies = {};
 };
 
 NearestFrame nearest_frame(const std::string& path, double wanted) {
@@ -78,7 +80,8 @@ NearestFrame nearest_frame(const std::string& path, double wanted) {
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = number_of(columns[3 + k], path, line);
     const auto place = path + ":" + std::to_string(line) + ": the quaternion";
     const std::array quaternion = {numbers[3], numbers[4], numbers[5], numbers[6]};
-    nearest.bodies.push_back({std::string(columns[2]), {{numbers[0], numbers[1], numbers[2]}, rotation_of(place, quaternion)}});
+    nearest.bodies[number_of<std::size_t>(columns[1], path, line)] = {
+        std::string(columns[2]), {{numbers[0], numbers[1], numbers[2]}, rotation_of(place, quaternion)}};
   }
   if (nearest.bodies.empty()) throw InputError("\"" + path + "\" has no frames; allowed: the trajectory.csv of a run");
   if (!(std::abs(nearest.time - wanted) <= kSameTime)) {
@@ -93,7 +96,7 @@ class Grains {
  public:
   Grains(const Recording& recording)
       : recording_(recording),
-        scene_(falling_particles::load_scene(recording.scene_path)),
+        scene_(falling_particles::load_scene(recording.scene_path, recording.overrides)),
         bodies_(nearest_frame(recording.trajectory_path, recording.time).bodies) {
     if (!scene_.has_sizes()) return;
     falling_particles::Random random(scene_.seed);  // as the run drew them
@@ -105,10 +108,11 @@ class Grains {
   const Scene& scene() const { return scene_; }
 
   void require_index(std::size_t index) const {
-    if (index >= bodies_.size()) {
-      throw InputError("--bodies: there is no body " + std::to_string(index) + "; allowed: 0 to " +
-                       std::to_string(bodies_.size() - 1));
-    }
+    if (bodies_.contains(index)) return;
+    const std::size_t low = bodies_.begin()->first, high = bodies_.rbegin()->first;
+    const bool is_whole = high - low + 1 == bodies_.size();
+    throw InputError("--bodies: there is no body " + std::to_string(index) + "; allowed: " + std::to_string(low) + " to " +
+                     std::to_string(high) + (is_whole ? "" : ", without those that have gone"));
   }
 
   PlacedBody body(std::size_t index) const {
@@ -117,7 +121,11 @@ class Grains {
     if (!grain.parts.empty()) {
       throw InputError("--bodies: " + text + " is a compound; allowed: grains of one convex body");
     }
-    return {text, falling_particles::shape_of(grain.all_parts().front().body, scale_of(index)), bodies_[index].pose};
+    if (scene_.has_sizes() && index >= scales_.size()) {
+      throw InputError("--bodies: " + text + " came from a feeder, and a trajectory does not tell its size; allowed: 0 to " +
+                       std::to_string(scales_.size() - 1));
+    }
+    return {text, falling_particles::shape_of(grain.all_parts().front().body, scale_of(index)), bodies_.at(index).pose};
   }
 
   /// The body with the least gap to that one.
@@ -125,8 +133,8 @@ class Grains {
     const PlacedBody body1 = body(first);
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = first;
-    for (std::size_t index = 0; index < bodies_.size(); ++index) {
-      const double between = (bodies_[index].pose.position - body1.pose.position).norm();
+    for (const auto& [index, other] : bodies_) {
+      const double between = (other.pose.position - body1.pose.position).norm();
       // Spheres around the two bodies bound their gap from below.
       if (index == first || between - radius_of(first) - radius_of(index) > least) continue;
       const PlacedBody body2 = body(index);
@@ -145,7 +153,7 @@ class Grains {
   double radius_of(std::size_t index) const { return scale_of(index) * kind_of(index).bounding_radius(); }
 
   const Grain& kind_of(std::size_t index) const {
-    const std::string& name = bodies_[index].grain;
+    const std::string& name = bodies_.at(index).grain;
     const auto kind = std::ranges::find_if(scene_.grains, [&](const auto& one) { return one.grain.name == name; });
     if (kind == scene_.grains.end()) {
       throw InputError("\"" + recording_.trajectory_path + "\" has a grain \"" + name + "\", which \"" + recording_.scene_path +
@@ -156,7 +164,7 @@ class Grains {
 
   const Recording& recording_;
   Scene scene_;
-  std::vector<RecordedBody> bodies_;
+  std::map<std::size_t, RecordedBody> bodies_;
   std::vector<double> scales_;  // of the grains' lengths; none where all are 1
 };
 

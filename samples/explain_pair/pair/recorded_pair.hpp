@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pair/pair.hpp"
 
@@ -10,11 +11,12 @@ namespace explain_pair {
 
 /// Which grains of a run.
 struct Recording {
-  std::string scene_path;             ///< the scene file that was run
-  std::string trajectory_path;        ///< its trajectory.csv
-  double time;                        ///< s; of a frame
-  std::size_t first;                  ///< index of a body
-  std::optional<std::size_t> second;  ///< of the other; the body nearest to the first, or deepest in it, if empty
+  std::string scene_path;                   ///< the scene file that was run
+  std::string trajectory_path;              ///< its trajectory.csv
+  double time;                              ///< s; of a frame
+  std::size_t first;                        ///< index of a body
+  std::optional<std::size_t> second;        ///< of the other; the body nearest to the first, or deepest in it, if empty
+  std::vector<std::string> overrides = {};  ///< what the run was given with --set
 };
 
 /// Throws falling_particles::InputError. The two grains are in the frame of the run.

@@ -105,6 +105,23 @@ TEST_CASE("pair: two grains of a run, or one and its neighbour") {
   CHECK(recorded_pair(run.recording(0, 0, {})).body2.pose.position == Vector3(0, 0, 0.05));
 }
 
+TEST_CASE("pair: grains keep their indices when others go") {
+  const Run run("time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n0,1,pea,0.1,0,0,1,0,0,0\n0,4,pea,0.2,0,0,1,0,0,0\n");
+  const Pair pair = recorded_pair(run.recording(0, 4, {}));
+  CHECK(pair.body1.pose.position == Vector3(0.2, 0, 0));
+  CHECK(pair.body2.description.starts_with("body 1: "));
+  check_complaint([&] { recorded_pair(run.recording(0, 2, {})); }, {"no body 2", "1 to 4, without those that have gone"});
+}
+
+TEST_CASE("pair: a run that was given other values than the scene's") {
+  const Run run;
+  Recording recording = run.recording(0.5, 0, 1);
+  recording.overrides = {"grain[pea].count=3"};
+  CHECK(recorded_pair(recording).body1.pose.position == Vector3(0, 0, 0.1));
+  recording.overrides = {"grain[pea].counts=3"};
+  CHECK(complaint_of([&] { recorded_pair(recording); }).find("counts") != std::string::npos);
+}
+
 TEST_CASE("pair: mistakes in a run are named with what is allowed") {
   const Run run;
   const auto pair = [&](double time, std::size_t first, std::optional<std::size_t> second) {
