@@ -87,6 +87,14 @@ class Rods(unittest.TestCase):
         self.assertAlmostEqual(study.coordination(five, -1e-3), 0)
 
 
+    def test_contacts_of_a_window_of_steps(self):
+        study = load("rod_packings")
+        steps = [(4.998, 0, 1, 2.0), (4.999, 1, 2, 1.0), (4.999, 0, 2, 0.0), (5.0, 3, 0, 1.0), (5.0, 0, 1, 1.0)]
+        lines = [dict(zip(("time_s", "grain1", "grain2", "normal_force_N"), line)) for line in steps]
+        self.assertEqual(sorted(study.bearing(lines, 1)), [(0, 1, 0.0), (3, 0, 0.0)])
+        self.assertEqual(sorted(study.bearing(lines, 2)), [(0, 1, 0.0), (1, 2, 0.0), (3, 0, 0.0)])
+
+
 class Scenes(unittest.TestCase):
     def test_every_study_fills_its_templates(self):
         for study in sorted(STUDIES.glob("*/study")):
