@@ -95,6 +95,15 @@ class Rods(unittest.TestCase):
         self.assertEqual(sorted(study.bearing(lines, 2)), [(0, 1, 0.0), (1, 2, 0.0), (3, 0, 0.0)])
 
 
+class Hopper(unittest.TestCase):
+    def test_the_flow_is_a_slope_in_grams_per_second(self):
+        study = load("rectangular_hopper")
+        # Steady from 0.25 to 0.75 s after the slot opens, and slower before and after.
+        times = [study.OPENS + t / 20 for t in range(21)]
+        lines = [{"time_s": t, "kg": 0.1 * t if 0.24 < t - study.OPENS < 0.76 else 0.0} for t in times]
+        self.assertAlmostEqual(study.flow(lines), 100)
+
+
 class Scenes(unittest.TestCase):
     def test_every_study_fills_its_templates(self):
         for study in sorted(STUDIES.glob("*/study")):
