@@ -86,7 +86,6 @@ class Rods(unittest.TestCase):
         self.assertAlmostEqual(study.coordination(five + hanging, 1e-3), 4)
         self.assertAlmostEqual(study.coordination(five, -1e-3), 0)
 
-
     def test_contacts_of_a_window_of_steps(self):
         study = load("rod_packings")
         steps = [(4.998, 0, 1, 2.0), (4.999, 1, 2, 1.0), (4.999, 0, 2, 0.0), (5.0, 3, 0, 1.0), (5.0, 0, 1, 1.0)]
@@ -101,7 +100,7 @@ class Hopper(unittest.TestCase):
         # Steady from 0.25 to 0.75 s after the slot opens, and slower before and after.
         times = [study.OPENS + t / 20 for t in range(21)]
         lines = [{"time_s": t, "kg": 0.1 * t if 0.24 < t - study.OPENS < 0.76 else 0.0} for t in times]
-        self.assertAlmostEqual(study.flow(lines), 100)
+        self.assertAlmostEqual(study.flow(lines, 0.25), 100)
 
 
 class Scenes(unittest.TestCase):

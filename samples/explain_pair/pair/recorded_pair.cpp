@@ -116,14 +116,10 @@ class Grains {
   }
 
   PlacedBody body(std::size_t index) const {
-    const Grain& grain = kind_of(index);
+    const Grain& grain = kind_of(index).grain;
     std::string text = "body " + std::to_string(index) + ": " + grain.name;
     if (!grain.parts.empty()) {
       throw InputError("--bodies: " + text + " is a compound; allowed: grains of one convex body");
-    }
-    if (scene_.has_sizes() && index >= scales_.size()) {
-      throw InputError("--bodies: " + text + " came from a feeder, and a trajectory does not tell its size; allowed: 0 to " +
-                       std::to_string(scales_.size() - 1));
     }
     return {text, falling_particles::shape_of(grain.all_parts().front().body, scale_of(index)), bodies_.at(index).pose};
   }
@@ -149,17 +145,26 @@ class Grains {
   }
 
  private:
-  double scale_of(std::size_t index) const { return index < scales_.size() ? scales_[index] : 1; }
-  double radius_of(std::size_t index) const { return scale_of(index) * kind_of(index).bounding_radius(); }
+  double scale_of(std::size_t index) const {
+    if (index < scales_.size()) return scales_[index];
+    const auto& kind = kind_of(index);
+    if (kind.size) {
+      throw InputError(
+          "--bodies: body " + std::to_string(index) + ": " + kind.grain.name +
+          " came from a feeder, and a trajectory does not tell its size; allowed: runs in which such kinds are not fed");
+    }
+    return 1;
+  }
+  double radius_of(std::size_t index) const { return scale_of(index) * kind_of(index).grain.bounding_radius(); }
 
-  const Grain& kind_of(std::size_t index) const {
+  const falling_particles::GrainCount& kind_of(std::size_t index) const {
     const std::string& name = bodies_.at(index).grain;
     const auto kind = std::ranges::find_if(scene_.grains, [&](const auto& one) { return one.grain.name == name; });
     if (kind == scene_.grains.end()) {
       throw InputError("\"" + recording_.trajectory_path + "\" has a grain \"" + name + "\", which \"" + recording_.scene_path +
                        "\" has not; allowed: the trajectory of a run of this scene");
     }
-    return kind->grain;
+    return *kind;
   }
 
   const Recording& recording_;

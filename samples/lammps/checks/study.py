@@ -49,14 +49,17 @@ def study_cost(driver):
 def study_scaling(driver):
     """Time of a step and memory for 10 240 and 100 352 particles on 1 and 2 ranks."""
     bed = prepare_bed(driver)
-    print("| particles | ranks | ms per step | us per particle and step | in pairs | MB per rank |\n|---:|---:|---:|---:|---:|---:|")
+    print("| particles | ranks | ms per step | us per particle and step | in pairs | ns per pair asked | MB per rank |\n|---:|---:|---:|---:|---:|---:|---:|")
     for particles, copies in COPIES.items():
         for ranks in (1, 2):
             settings = dict(zip(("nx", "ny", "nz"), copies), bed=bed, steps=20000 // (particles // 100))
             text = driver.output("cost_supernormal", ranks, **settings)
             step, pairs = processor_times(text)
+            asked = read_tables(text)[-1][-1]["c_pair[3]"]
             memory = float(re.findall(r"Maximum resident set size: (\S+) Mbyte", text)[-1])
-            print(f"| {particles} | {ranks} | {1e3 * step:.1f} | {1e6 * step * ranks / particles:.2f} | {100 * pairs / step:.0f} % | {memory:.0f} |", flush=True)
+            cells = [particles, ranks, f"{1e3 * step:.1f}", f"{1e6 * step * ranks / particles:.2f}", f"{100 * pairs / step:.0f} %"]
+            cells += [f"{1e9 * pairs * ranks / asked:.0f}", f"{memory:.0f}"]
+            print("| " + " | ".join(map(str, cells)) + " |", flush=True)
 
 
 def study_gas(driver):

@@ -44,9 +44,9 @@ constexpr const char* kTrajectory =
 /// A run of the scene of the loader's tests.
 class Run {
  public:
-  explicit Run(const std::string& trajectory = kTrajectory) {
+  explicit Run(const std::string& trajectory = kTrajectory, const std::string& scene = kSceneText) {
     folder_.write("grains.toml", kCatalogueText);
-    recording_ = {folder_.write("scene.toml", kSceneText), folder_.write("trajectory.csv", trajectory), 0, 0, {}};
+    recording_ = {folder_.write("scene.toml", scene), folder_.write("trajectory.csv", trajectory), 0, 0, {}};
   }
   Recording recording(double time, std::size_t first, std::optional<std::size_t> second) const {
     Recording out = recording_;
@@ -111,6 +111,18 @@ TEST_CASE("pair: grains keep their indices when others go") {
   CHECK(pair.body1.pose.position == Vector3(0.2, 0, 0));
   CHECK(pair.body2.description.starts_with("body 1: "));
   check_complaint([&] { recorded_pair(run.recording(0, 2, {})); }, {"no body 2", "1 to 4, without those that have gone"});
+}
+
+TEST_CASE("pair: the size of a grain that a feeder brought is not known") {
+  const std::string size = "size = { distribution = \"uniform\", smallest = 5e-3, largest = 7e-3 }";
+  const std::string scene = replaced(kSceneText, "count = 5", "count = 5\n" + size);
+  const Run run(
+      "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,pea,0,0,0,1,0,0,0\n0,7,die,0.1,0,0,1,0,0,0\n0,8,pea,0.2,0,0,1,0,0,0\n",
+      scene);
+  CHECK(recorded_pair(run.recording(0, 0, 7)).body2.pose.position == Vector3(0.1, 0, 0));
+  check_complaint([&] { recorded_pair(run.recording(0, 0, 8)); }, {"body 8: pea", "does not tell its size"});
+  // It might be the neighbour.
+  check_complaint([&] { recorded_pair(run.recording(0, 0, {})); }, {"body 8: pea", "does not tell its size"});
 }
 
 TEST_CASE("pair: a run that was given other values than the scene's") {
