@@ -8,6 +8,7 @@
 #include "proximity/local/ascent.hpp"
 #include "proximity/local/certified_newton.hpp"
 #include "proximity/local/first_guess.hpp"
+#include "proximity/local/meeting_point.hpp"
 #include "proximity/local/vertex_cache.hpp"
 #include "proximity/solvers.hpp"
 #include "proximity/tuning.hpp"
@@ -54,6 +55,20 @@ Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Se
   return out;
 }
 
+/// Ends an ascent of two bodies with kinks: `best` is its last normal, `out` its answer.
+void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& out) {
+  const double tolerance = absolute_tolerance(gap, settings);
+  MeetingPoint meeting(gap);
+  if (meeting.settle(tolerance, settings.max_evaluations, best)) {
+    const double upper = out.gap + out.global_error;
+    out = answer(gap, settings, best, out.error, out.status);
+    out.global_error = std::min(out.global_error, upper - out.gap);
+  }
+  out.point1 = best.jet1.r;
+  out.point2 = best.jet1.r + best.d;
+  out.contact = meeting.contact(tolerance, best);
+}
+
 /// Climbs from the start, a normal or what was evaluated there; if the bodies overlap so deeply against their sharpest edges that
 /// there may be other maxima, looks for a higher one, but leaves the branch of an earlier pose only when it has stopped being
 /// nearly the best.
@@ -68,7 +83,11 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPl
     const ExpandingPolytope::Goal goal = search_goal(gap, settings, branch, tolerance, -best.s);
     if (goal.max_evaluations > 0) out = search(gap, cuts, ascent, settings, goal, best, status);
   }
-  out.contact = contact_point(gap, best);
+  if (gap.shape1().has_kinks() && gap.shape2().has_kinks() && status != Status::InvalidInput) {
+    meet(gap, settings, best, out);
+  } else {
+    out.contact = contact_point(gap, best);
+  }
   if (gap.shape2().has_kinks() && status != Status::InvalidInput) {
     const Vector3 held = ascent.best().n == best.n ? ascent.held_normal() : VertexCache(gap).held_normal(best);
     if ((held - best.n).norm() <= kSameNormal) out.normal = held;

@@ -1,0 +1,126 @@
+#include "proximity/local/meeting_point.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "proximity/local/piecewise_model.hpp"
+#include "shapes/finite.hpp"
+
+namespace supernormal {
+namespace {
+
+// Curvature added to the pieces, in units of the bodies' sizes: vertices have none, and a maximum needs one. At the maximum itself
+// the weights do not depend on it.
+constexpr double kCurvature = 1e-3;
+
+// Heights that differ by less than so many times the rounding of s are the same.
+constexpr double kRounding = 4;
+
+// Of a curved face only a triangle is named, towards the other body's point, which a pass may have moved.
+constexpr int kPasses = 4;
+
+/// The active vertices of a body; its boundary point if it names none.
+ActiveVertices vertices_of(const Shape& shape, const Vector3& n, const Jet& jet, const Vector3& toward) {
+  ActiveVertices vertices;
+  shape.add_active_vertices(n, toward, vertices);
+  if (vertices.size() == 0) vertices.add(jet.r);
+  return vertices;
+}
+
+TangentPlane plane_at(const Vector3& n) {
+  int axis = 0;
+  n.cwiseAbs().minCoeff(&axis);
+  return {n, Vector3::Unit(axis)};
+}
+
+/// m; the distance of the two witness points in the plane across the normal.
+double distance_across(const GapJet& jet) { return (jet.d - jet.s * jet.n).norm(); }
+
+}  // namespace
+
+/// The maximum of the pieces near a normal.
+struct MeetingPoint::Maximum {
+  double gain;                                                 ///< m; of s
+  Vector3 n;                                                   ///< its normal, of unit length
+  Vector3 point1 = Vector3::Zero(), point2 = Vector3::Zero();  ///< m; of each body, in its frame
+  double drop = 0;  ///< m; how far they are below the tangent planes of the normal that the pieces are near
+};
+
+MeetingPoint::Maximum MeetingPoint::maximum_near(const GapJet& jet) const {
+  const Matrix3& rotation = gap_.rotation();
+  const ActiveVertices one = vertices_of(gap_.shape1(), jet.n, jet.jet1, jet.jet1.r + jet.d);
+  const ActiveVertices two = vertices_of(gap_.shape2(), jet.m, jet.jet2, rotation.transpose() * (jet.jet1.r - gap_.offset()));
+  const TangentPlane plane = plane_at(jet.n);
+  std::array<Piece, ActiveVertices::kCapacity * ActiveVertices::kCapacity> pieces;
+  std::size_t count = 0;
+  for (int i = 0; i < one.size(); ++i) {
+    const double drop1 = std::max(jet.jet1.h - jet.n.dot(one[i]), 0.0);
+    for (int j = 0; j < two.size(); ++j) {
+      const double drop2 = std::max(jet.jet2.h - jet.m.dot(two[j]), 0.0);
+      const Vector3 difference = rotation * two[j] + (gap_.offset() - one[i]);
+      pieces[count++] = {drop1 + drop2, plane.project(difference)};
+    }
+  }
+  Symmetric2 curvature;
+  if (gap_.has_hessian()) curvature = Symmetric2::project(plane, gap_.curvature(jet));
+  const double size = gap_.shape1().half_extents().norm() + gap_.shape2().half_extents().norm();
+  const PiecewiseModel::Peak peak = PiecewiseModel{{pieces.data(), count}, curvature.plus_identity(kCurvature * size)}.maximize();
+
+  Maximum maximum{peak.gain, (jet.n + plane.lift(peak.u)).normalized()};
+  for (std::size_t k = 0; k < peak.count; ++k) {
+    const auto pair = static_cast<int>(peak.active[k]);
+    maximum.drop += peak.weight[k] * pieces[peak.active[k]].value;
+    maximum.point1 += peak.weight[k] * one[pair / two.size()];
+    maximum.point2 += peak.weight[k] * two[pair % two.size()];
+  }
+  return maximum;
+}
+
+/// Moves the normal to the maximum, if that is higher.
+bool MeetingPoint::climb(GapJet& jet) {
+  const Maximum maximum = maximum_near(jet);
+  if (!(maximum.gain > kRounding * gap_.rounding()) || !all_finite(maximum.n)) return false;
+  GapJet trial;
+  gap_.evaluate(maximum.n, gap_.has_hessian() ? Order::Hessian : Order::Point, trial);
+  if (!(trial.s > jet.s)) return false;
+  jet = trial;
+  return true;
+}
+
+// A climb that gains less than the tolerance is for the witness points alone, and counts for nothing where it does not bring them
+// together: near the normal of a curved face the vertices are no longer all of its points.
+bool MeetingPoint::settle(double tolerance, int max_evaluations, GapJet& jet) {
+  const double rounding = kRounding * gap_.rounding();
+  move_witnesses(rounding, jet);
+  GapJet higher = jet;
+  while (distance_across(higher) > tolerance && gap_.evaluations() < max_evaluations && climb(higher)) {
+    move_witnesses(rounding, higher);
+  }
+  if (higher.s - jet.s <= tolerance && distance_across(higher) >= distance_across(jet)) return false;
+  jet = higher;
+  return true;
+}
+
+Vector3 MeetingPoint::contact(double tolerance, const GapJet& jet) const {
+  GapJet meeting = jet;
+  move_witnesses(tolerance, meeting);
+  const Vector3 middle = meeting.jet1.r + 0.5 * meeting.d;
+  return middle + (jet.jet1.h + 0.5 * jet.s - jet.n.dot(middle)) * jet.n;
+}
+
+/// Takes the points at the maximum, as long as these are nearer to each other across the normal, and not farther below their
+/// tangent planes than `largest_drop` (m).
+void MeetingPoint::move_witnesses(double largest_drop, GapJet& jet) const {
+  for (int pass = 0; pass < kPasses && distance_across(jet) > gap_.rounding(); ++pass) {
+    const Maximum maximum = maximum_near(jet);
+    if (!(maximum.drop <= largest_drop)) return;
+    GapJet moved = jet;
+    moved.jet1.r = maximum.point1;
+    moved.jet2.r = maximum.point2;
+    moved.d = gap_.rotation() * moved.jet2.r + (gap_.offset() - moved.jet1.r);
+    if (!(distance_across(moved) < distance_across(jet))) return;
+    jet = moved;
+  }
+}
+
+}  // namespace supernormal
