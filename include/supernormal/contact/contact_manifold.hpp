@@ -54,8 +54,9 @@ SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, 
 /// `flatness`. With less room the corners replace it, at their full depths: the body rests on the points around it.
 constexpr bool has_room_for_deepest(int room) { return room > ContactManifold::kMaxCorners; }
 
-/// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places, of which there are
-/// none or two to four. Where they replace the deepest point, the deepest corner comes first. With room for two or three,
+/// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places. Beside the deepest
+/// point there are up to four at other places than its own; where they replace it, there are none or two to four, and the deepest
+/// comes first. With room for two or three,
 /// neighbours are united at a place between them. The result is as continuous as the manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 

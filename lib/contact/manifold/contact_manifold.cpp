@@ -293,8 +293,9 @@ ContactManifold reduced_to(ContactManifold manifold, int room) {
     }
   }
   remove_repeated(manifold, has_room_for_deepest(room));
-  if (manifold.corner_count == 1) manifold.corner_count = 0;  // that corner would repeat the deepest point
-  if (!has_room_for_deepest(room)) put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)});
+  if (has_room_for_deepest(room)) return manifold;
+  if (manifold.corner_count == 1) manifold.corner_count = 0;  // all corners are at one place, that of the deepest point
+  put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)});
   return manifold;
 }
 

@@ -79,18 +79,50 @@ double tangent_of_tilt(double reach, double height) {
   return std::sqrt(x * std::sqrt(x * std::sqrt(x)));
 }
 
+/// The straight edge of a body that is round across it, a capsule or a cylinder on its side: the two ends. The ends of the body lie
+/// beside it on what is round, however far the normal is tilted.
+class StraightEdge {
+ public:
+  StraightEdge(const Shape& shape, const Vector3& n, const Vector3& support_point) {
+    if (!shape.has_kinks()) return;
+    ActiveVertices named;
+    shape.add_active_vertices(n, support_point, named);
+    if (named.size() != 2) return;
+    ends_ = {named[0], named[1]};
+    const Vector3 way = ends_[1] - ends_[0];
+    const double length = way.norm();
+    exists_ = length > 0;
+    if (exists_) direction_ = way / length;
+  }
+
+  bool exists() const { return exists_; }
+
+  /// The end that is the support point of a tilted normal, beside which `point`, that of the whole body, is drawn in to the edge.
+  Vector3 point_at(const Vector3& tilted, const Vector3& point) const {
+    const Vector3& end = tilted.dot(ends_[1] - ends_[0]) > 0 ? ends_[1] : ends_[0];
+    const Vector3 beside = point - end;
+    return end + kThinnest * (beside - direction_.dot(beside) * direction_);
+  }
+
+ private:
+  std::array<Vector3, 2> ends_ = {Vector3::Zero(), Vector3::Zero()};
+  Vector3 direction_ = Vector3::Zero();
+  bool exists_ = false;
+};
+
 }  // namespace
 
 /// Evaluates points of a body relative to its support point, all in the body's frame.
 class SupportPolygon::Observer {
  public:
   Observer(const Shape& shape, const Vector3& n, const std::array<Vector3, 2>& axes, const Vector3& support_point)
-      : shape_(&shape), n_(n), axes_(axes), support_point_(support_point) {}
+      : shape_(&shape), n_(n), axes_(axes), support_point_(support_point), edge_(shape, n, support_point) {}
 
   PatchSupport of(const Tilt& tilt) const {
     Jet jet;
-    shape_->evaluate(tilted(tilt).normalized(), Order::Point, jet);
-    return sight_of(jet.r);
+    const Vector3 normal = tilted(tilt).normalized();
+    shape_->evaluate(normal, Order::Point, jet);
+    return sight_of(normal, jet.r);
   }
 
   /// Finds the support points of the normals that are tilted towards each of the four diagonals.
@@ -109,15 +141,15 @@ class SupportPolygon::Observer {
       for (std::size_t k = 0; k < 4; ++k) shape_->evaluate(normals[k], Order::Point, jets[k]);
     }
     std::array<PatchSupport, 4> sights;
-    for (std::size_t k = 0; k < 4; ++k) sights[k] = sight_of(jets[k].r);
+    for (std::size_t k = 0; k < 4; ++k) sights[k] = sight_of(normals[k], jets[k].r);
     return sights;
   }
 
  private:
   Vector3 tilted(const Tilt& tilt) const { return n_ + tilt[0] * axes_[0] + tilt[1] * axes_[1]; }
 
-  PatchSupport sight_of(const Vector3& point) const {
-    const Vector3 way = point - support_point_;
+  PatchSupport sight_of(const Vector3& normal, const Vector3& point) const {
+    const Vector3 way = (edge_.exists() ? edge_.point_at(normal, point) : point) - support_point_;
     return {{axes_[0].dot(way), axes_[1].dot(way)}, std::max(0.0, -n_.dot(way))};
   }
 
@@ -125,6 +157,7 @@ class SupportPolygon::Observer {
   Vector3 n_;
   std::array<Vector3, 2> axes_;
   Vector3 support_point_;
+  StraightEdge edge_;
 };
 
 /// Compares the drops of the four points with the turns, which are the ways to them times the tilts.

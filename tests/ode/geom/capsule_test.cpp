@@ -1,6 +1,7 @@
 // Tests of snCreateCapsule: a capsule as a body of ours beside ODE's own.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -15,6 +16,57 @@ namespace {
 constexpr dReal kRadius = 2, kLength = 5;
 
 bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
+
+/// A capsule of radius 0.1 and length 0.4 (m) that falls on its side, a little inclined, onto a plane or a box.
+class Fall {
+ public:
+  Fall(bool is_on_box, int room) : room_(room) {
+    dWorldSetGravity(world_, 0, 0, dReal(-9.81));
+    dGeomID floor = is_on_box ? dCreateBox(space_, 4, 4, 1) : dCreatePlane(space_, 0, 0, 1, 0);
+    if (is_on_box) dGeomSetPosition(floor, 0, 0, dReal(-0.5));
+    dMass mass;
+    dMassSetCapsule(&mass, 1000, 3, dReal(0.1), dReal(0.4));
+    dBodySetMass(body_, &mass);
+    dGeomSetBody(snCreateCapsule(space_, dReal(0.1), dReal(0.4)), body_);
+    dMatrix3 lying;
+    dRFromAxisAndAngle(lying, 1, 0, 0, dReal(1.62));
+    dBodySetRotation(body_, lying);
+    dBodySetPosition(body_, 0, 0, dReal(0.3));
+  }
+  Fall(const Fall&) = delete;
+  Fall& operator=(const Fall&) = delete;
+  ~Fall() {
+    dSpaceDestroy(space_);
+    dJointGroupDestroy(contacts_);
+    dWorldDestroy(world_);
+  }
+
+  void step(double seconds) {
+    dSpaceCollide(space_, this, [](void* fall, dGeomID a, dGeomID b) { static_cast<Fall*>(fall)->add_contacts(a, b); });
+    dWorldQuickStep(world_, static_cast<dReal>(seconds));
+    dJointGroupEmpty(contacts_);
+  }
+  double height() const { return dBodyGetPosition(body_)[2]; }
+  double spin() const { return dCalcVectorLength3(dBodyGetAngularVel(body_)); }
+
+ private:
+  void add_contacts(dGeomID a, dGeomID b) {
+    std::array<dContact, 8> found{};
+    const int count = dCollide(a, b, room_, &found[0].geom, sizeof(dContact));
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = found[static_cast<std::size_t>(i)];
+      contact.surface.mu = dReal(0.5);
+      dJointAttach(dJointCreateContact(world_, contacts_, &contact), dGeomGetBody(a), dGeomGetBody(b));
+    }
+  }
+
+  OdeSession session_;
+  dWorldID world_ = dWorldCreate();
+  dSpaceID space_ = dSimpleSpaceCreate(nullptr);
+  dJointGroupID contacts_ = dJointGroupCreate(0);
+  dBodyID body_ = dBodyCreate(world_);
+  int room_;
+};
 
 }  // namespace
 
@@ -41,27 +93,65 @@ TEST_CASE("capsule: size, mass and depth are those of ODE's") {
   }
 }
 
-TEST_CASE("capsule: lying on a plane it has a contact at each end") {
+TEST_CASE("capsule: lying on a plane, a box or a capsule it has a contact at each end, as deep as it is there") {
   OdeSession session;
   const Geom capsule(snCreateCapsule(nullptr, kRadius, kLength));
+  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
+  const Geom box(dCreateBox(nullptr, 20, 20, 2));
+  dGeomSetPosition(box, 0, 0, -1);
+  const Geom other(snCreateCapsule(nullptr, kRadius, 2 * kLength));
+  dGeomSetPosition(other, 0, 0, -kRadius);
   dMatrix3 lying;
   dRFromAxisAndAngle(lying, 0, 1, 0, dReal(1.5707963267948966));
-  dGeomSetRotation(capsule, lying);
-  dGeomSetPosition(capsule, 0, 0, kRadius - dReal(0.001));  // as deep as what rests; deeper ones are drawn in to one end
-  const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
-  std::array<dContactGeom, 8> contacts{};
-  const int count = dCollide(capsule, plane, 8, contacts.data(), sizeof(dContactGeom));
-  REQUIRE(count >= 2);
-  double least = 0;
-  double most = 0;
-  for (int i = 0; i < count; ++i) {
-    const dContactGeom& contact = contacts[static_cast<std::size_t>(i)];
-    CHECK(contact.depth == relative(0.001).epsilon(1e-3));
-    least = std::min<double>(least, contact.pos[0]);
-    most = std::max<double>(most, contact.pos[0]);
+  dGeomSetRotation(other, lying);
+  for (const auto support : {static_cast<dGeomID>(plane), static_cast<dGeomID>(box), static_cast<dGeomID>(other)}) {
+    for (const double depth : {1e-3, 1e-2, 1e-1, 0.5}) {
+      for (const double tilt : {0.0, 1e-4, 1e-3, 1e-2}) {
+        const double lean = kLength * std::sin(tilt);
+        if (lean > depth) continue;
+        dRFromAxisAndAngle(lying, 0, 1, 0, static_cast<dReal>(1.5707963267948966 + tilt));
+        dGeomSetRotation(capsule, lying);
+        dGeomSetPosition(capsule, 0, 0, static_cast<dReal>(kRadius - depth + 0.5 * lean));
+        std::array<dContactGeom, 8> contacts{};
+        const int count = dCollide(capsule, support, 8, contacts.data(), sizeof(dContactGeom));
+        CAPTURE(depth);
+        CAPTURE(tilt);
+        REQUIRE(count >= 2);
+        CHECK(contacts[0].depth == relative(depth).epsilon(1e-3));
+        double least = 0;
+        double most = 0;
+        for (int i = 0; i < count; ++i) {
+          const dContactGeom& contact = contacts[static_cast<std::size_t>(i)];
+          const double there = depth - lean * (0.5 - contact.pos[0] / kLength);
+          if (tilt > 0) CHECK(std::abs(contact.depth - there) <= 0.01 * depth + 1e-5);
+          least = std::min<double>(least, contact.pos[0]);
+          most = std::max<double>(most, contact.pos[0]);
+        }
+        CHECK(std::abs(least + 0.5 * kLength) <= 0.01 * kLength);
+        CHECK(std::abs(most - 0.5 * kLength) <= 0.01 * kLength);
+      }
+    }
   }
-  CHECK(least == relative(-kLength / 2).epsilon(0.06));
-  CHECK(most == relative(kLength / 2).epsilon(0.06));
+}
+
+TEST_CASE("capsule: it lies still, whatever the step, the room for contacts and what is below") {
+  for (const bool is_on_box : {false, true}) {
+    for (const double step : {0.005, 0.02, 0.05}) {
+      for (const int room : {3, 4, 8}) {
+        Fall fall(is_on_box, room);
+        double late_spin = 0;
+        for (double time = 0; time < 5; time += step) {
+          fall.step(step);
+          if (time > 4) late_spin = std::max(late_spin, fall.spin());
+        }
+        CAPTURE(is_on_box);
+        CAPTURE(step);
+        CAPTURE(room);
+        CHECK(late_spin <= 0.01);  // a dCapsule on a dBox has 0.2, 1.5 and 1.9
+        CHECK(fall.height() >= 0.0995);
+      }
+    }
+  }
 }
 
 TEST_CASE("capsule: refusals") {
