@@ -70,6 +70,20 @@ TEST_CASE("walls have friction of their own if the scene says so") {
   CHECK(found[1].on.is_pair());
 }
 
+TEST_CASE("walls have rolling resistance of their own if the scene says so") {
+  const Scene scene = scene_of(std::string(kSceneText) + "[rolling_resistance]\nrolling = 1e-4\nspinning = 3e-5\nwalls = 2e-4\n");
+  std::vector<fx::RollingResistance> found;
+  for (const fx::Effect& each : scene.effects) {
+    if (const auto* resistance = std::get_if<fx::RollingResistance>(&each)) found.push_back(*resistance);
+  }
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].on.is_all());
+  CHECK(found[0].rolling == 1e-4);
+  CHECK(found[1].on.is_pair());
+  CHECK(found[1].rolling == 2e-4);
+  CHECK(found[1].spinning == 3e-5);
+}
+
 TEST_CASE("an effect without a section is absent") {
   const Scene scene = scene_of(std::string(kSceneText, std::strstr(kSceneText, "[gravity]")));
   CHECK(scene.gravity() == nullptr);

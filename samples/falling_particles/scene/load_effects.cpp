@@ -60,8 +60,10 @@ class Reader {
       list_.emplace_back(fx::AnisotropicFriction{section->number("along"), section->number("across"), section->vector("direction"),
                                                  fx::MaterialSelector::of(kGrainMaterial)});
     }
-    if (const auto section = find_section(root_, "rolling_resistance", {"rolling", "spinning"})) {
-      list_.emplace_back(fx::RollingResistance{section->number_or("rolling", 0), section->number_or("spinning", 0), {}});
+    if (const auto section = find_section(root_, "rolling_resistance", {"rolling", "spinning", "walls"})) {
+      const double spinning = section->number_or("spinning", 0);
+      list_.emplace_back(fx::RollingResistance{section->number_or("rolling", 0), spinning, {}});
+      if (section->has("walls")) list_.emplace_back(fx::RollingResistance{section->number("walls"), spinning, kGrainOnWall});
     }
     if (const auto section = find_section(root_, "restitution", {"coefficient", "threshold", "walls"})) {
       const double threshold = section->number_or("threshold", 0);
