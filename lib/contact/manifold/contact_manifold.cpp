@@ -245,7 +245,8 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth);
   manifold.evaluations += polygon2.evaluations();
   if (polygon2.flatness() == 0) return manifold;
-  const ContactFrame frame{TangentPlane(proximity.normal, polygon1.axis()), proximity.contact};
+  const bool is_on_edge2 = polygon2.has_straight_edge() && !polygon1.has_straight_edge();
+  const ContactFrame frame{TangentPlane(proximity.normal, is_on_edge2 ? polygon2.axis() : polygon1.axis()), proximity.contact};
   const Side side1(polygon1, frame, false);
   const Side side2(polygon2, frame, true);
   const ConvexPolygon region = common_region(side1.outline(), side2.outline());

@@ -96,6 +96,7 @@ class StraightEdge {
   }
 
   bool exists() const { return exists_; }
+  const Vector3& direction() const { return direction_; }
 
   /// The end that is the support point of a tilted normal, beside which `point`, that of the whole body, is drawn in to the edge.
   Vector3 point_at(const Vector3& tilted, const Vector3& point) const {
@@ -115,8 +116,9 @@ class StraightEdge {
 /// Evaluates points of a body relative to its support point, all in the body's frame.
 class SupportPolygon::Observer {
  public:
-  Observer(const Shape& shape, const Vector3& n, const std::array<Vector3, 2>& axes, const Vector3& support_point)
-      : shape_(&shape), n_(n), axes_(axes), support_point_(support_point), edge_(shape, n, support_point) {}
+  Observer(const Shape& shape, const Vector3& n, const std::array<Vector3, 2>& axes, const Vector3& support_point,
+           const StraightEdge& edge)
+      : shape_(&shape), n_(n), axes_(axes), support_point_(support_point), edge_(edge) {}
 
   PatchSupport of(const Tilt& tilt) const {
     Jet jet;
@@ -157,7 +159,7 @@ class SupportPolygon::Observer {
   Vector3 n_;
   std::array<Vector3, 2> axes_;
   Vector3 support_point_;
-  StraightEdge edge_;
+  const StraightEdge& edge_;
 };
 
 /// Compares the drops of the four points with the turns, which are the ways to them times the tilts.
@@ -200,7 +202,12 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
     : support_point_(support_point) {
   const Matrix3 to_body = pose.rotation.transpose();
   const Vector3 normal = to_body * n;
-  const std::array<Vector3, 2> axes = axes_in_plane(normal);
+  const Vector3 support = to_body * (support_point - pose.position);
+  const StraightEdge edge(shape, normal, support);
+  has_straight_edge_ = edge.exists();
+  std::array<Vector3, 2> axes = axes_in_plane(normal);
+  // Where two corners are united, they are to be at the same end of an edge: those that differ along the first axis.
+  if (std::abs(axes[0].dot(edge.direction())) > std::abs(axes[1].dot(edge.direction()))) axes = {axes[1], -axes[0]};
   axes_ = {pose.rotation * axes[0], pose.rotation * axes[1]};
   const Vector3 half_extents = shape.half_extents();
   // The extents are those of the ellipsoid with the body's half-extents.
@@ -212,7 +219,7 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   const double tangent = tangent_of_tilt(reach_, height);
   const Tilt diagonal = {tangent * height / extents_[0], tangent * height / extents_[1]};
 
-  const Observer observer(shape, normal, axes, to_body * (support_point - pose.position));
+  const Observer observer(shape, normal, axes, support, edge);
   const std::array<PatchSupport, 4> sights = observer.of_diagonals(diagonal);
   evaluations_ = 4;
   const Tilt tilt = tilt_of_face(sights, diagonal);

@@ -47,8 +47,10 @@ class SupportPolygon {
 
   const Vector3& support_point() const { return support_point_; }
 
-  /// The axis of the body's frame that lies between the diagonals, projected into the tangent plane; unit.
+  /// The axis of the body's frame that lies between the diagonals, projected into the tangent plane; unit. It is across a straight
+  /// edge.
   const Vector3& axis() const { return axes_[0]; }
+  bool has_straight_edge() const { return has_straight_edge_; }
 
   /// The product of the half-extents of the body along the plane, m^2, and the smaller one, m.
   double area() const { return extents_[0] * extents_[1]; }
@@ -91,6 +93,7 @@ class SupportPolygon {
   double reach_;
   double largest_lean_;
   double flatness_ = 0;
+  bool has_straight_edge_ = false;
   std::array<Vertex, 4> vertices_;
   int evaluations_ = 0;
 };
