@@ -36,7 +36,8 @@ Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start
 // Asked of the entries first: squares and sums of what is not in range would raise floating-point exceptions.
 bool is_usable(const Vector3& normal) { return all_within(normal, 2) && std::abs(normal.squaredNorm() - 1) < 1e-6; }
 
-// Of two bodies only the second may have faces and edges that the solver knows of; those of the first it finds by cuts.
+// Of two bodies only the second may have faces and edges that the ascent knows of; those of the first it finds by cuts, and where
+// both have some, at its end (MeetingPoint).
 Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                    const Settings& settings, const Vector3* first_normal) {
   const bool is_warm = first_normal != nullptr && is_usable(*first_normal);

@@ -51,7 +51,7 @@ void add_on_edges(std::vector<HardCase>& cases, const Smooth& smooth) {
 }
 
 void add_of_two(std::vector<HardCase>& cases) {
-  const std::string reason = "both bodies have faces: the solver knows those of one";
+  const std::string reason = "both bodies have faces: the ascent knows those of one";
   const Body cube = box(Vector3::Constant(0.5));
   cases.push_back(pair("colliders: box on box, flush", reason, cube, cube, at({0, 0, 1.0625}), 0.0625));
   cases.push_back(pair("colliders: box in box, concentric", reason, cube, cube, {}, -1));
