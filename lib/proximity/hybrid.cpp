@@ -61,7 +61,7 @@ void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& o
   MeetingPoint meeting(gap);
   if (meeting.settle(tolerance, settings.max_evaluations, best)) {
     const double upper = out.gap + out.global_error;
-    out = answer(gap, settings, best, out.error, out.status);
+    out = answer(gap, settings, best, std::max(out.error - gap.rounding(), 0.0), out.status);  // which adds the rounding
     out.global_error = std::min(out.global_error, upper - out.gap);
   }
   out.point1 = best.jet1.r;

@@ -24,6 +24,13 @@ struct TangentPlane {
     t2 = n.cross(t1);
   }
 
+  /// The plane with t1 along the axis that is nearest to it.
+  static TangentPlane at(const Eigen::Vector3d& normal) {
+    int axis = 0;
+    normal.cwiseAbs().minCoeff(&axis);
+    return {normal, Eigen::Vector3d::Unit(axis)};
+  }
+
   /// The same plane in another frame, x' = R x.
   TangentPlane rotated(const Eigen::Matrix3d& R) const { return TangentPlane(R * n, R * t1, R * t2); }
 

@@ -27,12 +27,6 @@ ActiveVertices vertices_of(const Shape& shape, const Vector3& n, const Jet& jet,
   return vertices;
 }
 
-TangentPlane plane_at(const Vector3& n) {
-  int axis = 0;
-  n.cwiseAbs().minCoeff(&axis);
-  return {n, Vector3::Unit(axis)};
-}
-
 /// m; the distance of the two witness points in the plane across the normal.
 double distance_across(const GapJet& jet) { return (jet.d - jet.s * jet.n).norm(); }
 
@@ -50,7 +44,7 @@ MeetingPoint::Maximum MeetingPoint::maximum_near(const GapJet& jet) const {
   const Matrix3& rotation = gap_.rotation();
   const ActiveVertices one = vertices_of(gap_.shape1(), jet.n, jet.jet1, jet.jet1.r + jet.d);
   const ActiveVertices two = vertices_of(gap_.shape2(), jet.m, jet.jet2, rotation.transpose() * (jet.jet1.r - gap_.offset()));
-  const TangentPlane plane = plane_at(jet.n);
+  const TangentPlane plane = TangentPlane::at(jet.n);
   std::array<Piece, ActiveVertices::kCapacity * ActiveVertices::kCapacity> pieces;
   std::size_t count = 0;
   for (int i = 0; i < one.size(); ++i) {

@@ -11,9 +11,8 @@ namespace supernormal {
 ///  1. Near a normal s is the least of smooth functions, one for each pair of an active vertex of body 1 and one of body 2: the
 ///     pieces of a PiecewiseModel.
 ///  2. Pieces meet at its maximum. Their weights, whose sum of gradients vanishes across the normal, make one point of each body
-///  from
-///     the vertices: where the two faces or edges with this normal are nearest to each other. Two edges touch where they cross, and
-///     not at their ends.
+///     from the vertices: where the two faces or edges with this normal are nearest to each other. Two edges touch where they
+///     cross, and not at their ends.
 ///  3. If these points are not opposite one another, the maximum is beside the normal, which then moves there.
 class MeetingPoint {
  public:

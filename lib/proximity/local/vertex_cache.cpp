@@ -11,19 +11,13 @@ namespace {
 // the normal of an edge is itself rounded.
 constexpr double kTieUnits = 16;
 
-TangentPlane plane_at(const Vector3& n) {
-  int axis = 0;
-  n.cwiseAbs().minCoeff(&axis);
-  return {n, Vector3::Unit(axis)};
-}
-
 }  // namespace
 
 PiecewiseModel::Peak VertexCache::project_witness(GapJet& jet, ActiveVertices& here) {
   here.clear();
   const Vector3 toward = jet.jet2.r - gap_.rotation().transpose() * jet.d;  // body 1's boundary point in body 2's frame
   gap_.shape2().add_active_vertices(jet.m, toward, here);
-  collect(jet, here, plane_at(jet.n));
+  collect(jet, here, TangentPlane::at(jet.n));
   if (here.is_partial()) remember(jet.jet2.r);
   // Only the pieces that meet here, as if they met exactly.
   const double lowest = lowest_value({pieces_.data(), count_});
