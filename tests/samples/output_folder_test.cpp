@@ -80,6 +80,22 @@ TEST_CASE("what a killed run has left goes, but only where it is a run's") {
   CHECK(content_of(folder.path() / "scene/summary.toml") == "finished");
 }
 
+TEST_CASE("a run that was killed while it took its place is finished by the next one") {
+  const TemporaryFolder folder;
+  const auto leave = [&folder](const std::string& name, const std::string& file) {
+    fs::create_directories(folder.path() / name);
+    folder.write(name + "/" + file, "killed");
+  };
+  // Its results are there, with what is removed at the end; what it has replaced is a leftover, and another one is all but gone.
+  for (const char* file : {"summary.toml", "UNFINISHED", "checkpoint", "checkpoint.frames"}) leave("scene", file);
+  for (const char* file : {"summary.toml", "UNFINISHED"}) leave("scene.unfinished-1", file);
+  fs::create_directories(folder.path() / "scene.unfinished-2");
+  run_once(folder.path(), "again", true);
+  CHECK(entries(folder.path()) == 1);
+  CHECK(entries(folder.path() / "scene") == 1);
+  CHECK(content_of(folder.path() / "scene/summary.toml") == "again");
+}
+
 TEST_CASE("what a run has not written is never deleted") {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "scene");

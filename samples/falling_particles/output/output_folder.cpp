@@ -41,6 +41,12 @@ bool is_output_file(const fs::directory_entry& entry) {
   return holds(kOutputFiles) || name == kMeasurementFolder || std::ranges::any_of(picture_formats(), writes);
 }
 
+/// Whether a run has written it: results, or what its folder holds until it has ended.
+bool is_file_of_run(const fs::directory_entry& entry) {
+  const std::string name = entry.path().filename().string();
+  return name == kMarkFile || std::ranges::find(kCheckpointFiles, name) != kCheckpointFiles.end() || is_output_file(entry);
+}
+
 /// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run, and it is not
 /// write-protected.
 void refuse_foreign(const fs::path& target) {
@@ -49,7 +55,7 @@ void refuse_foreign(const fs::path& target) {
     throw InputError("output \"" + target.string() + "\" exists and is not a folder; allowed: a new folder or an earlier run's");
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
-    if (!is_output_file(entry)) {
+    if (!is_file_of_run(entry)) {
       throw InputError("output folder \"" + target.string() + "\" holds " + entry.path().filename().string() +
                        ", which no run writes; allowed: a new folder or an earlier run's (see --out)");
     }
@@ -76,13 +82,22 @@ bool is_taken_away(int mark) {
   return fstat(mark, &status) == 0 && status.st_nlink == 0;
 }
 
-/// Whether the folder holds our mark and, besides, only files that a run writes.
+/// Whether the folder holds our mark and, besides, only files that a run writes, or nothing: the mark is the first file to come and
+/// the last to go.
 bool is_unfinished_run(const fs::path& folder) {
-  if (!fs::is_directory(fs::symlink_status(folder)) || !fs::is_regular_file(fs::symlink_status(folder / kMarkFile))) return false;
-  return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
-    const std::string name = entry.path().filename().string();
-    return name == kMarkFile || std::ranges::find(kCheckpointFiles, name) != kCheckpointFiles.end() || is_output_file(entry);
-  });
+  if (!fs::is_directory(fs::symlink_status(folder))) return false;
+  if (fs::is_empty(folder)) return true;
+  return fs::is_regular_file(fs::symlink_status(folder / kMarkFile)) &&
+         std::ranges::all_of(fs::directory_iterator(folder), is_file_of_run);
+}
+
+/// Removes the folder of an unfinished run so that, if this is killed, the next run removes the rest.
+void remove_unfinished(const fs::path& folder, std::error_code& error) {
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (entry->path().filename() != kMarkFile) fs::remove_all(entry->path(), error);
+    if (error) return;
+  }
+  if (!error) fs::remove_all(folder, error);
 }
 
 /// The folders of runs beside `target` that were killed, or are on their way.
@@ -96,13 +111,23 @@ std::vector<fs::path> unfinished_runs(const fs::path& target) {
   return folders;
 }
 
+/// Removes what marks a run as unfinished: no other run may remove its results any more.
+void mark_finished(const fs::path& folder) {
+  std::error_code ignored;  // if the mark stays, the next run of the scene replaces the results all the same
+  for (const std::string_view name : kCheckpointFiles) fs::remove(folder / name, ignored);
+  fs::remove(folder / kMarkFile, ignored);
+}
+
 /// Removes the folders that killed runs have left beside `target`.
 void remove_leftovers(const fs::path& target) {
   for (const fs::path& folder : unfinished_runs(target)) {
-    const int mark = open_mark(folder, 0);
-    if (mark < 0) continue;
     std::error_code ignored;
-    if (lock(mark)) fs::remove_all(folder, ignored);  // otherwise its run is alive
+    const int mark = open_mark(folder, 0);
+    if (mark < 0) {
+      fs::remove(folder, ignored);  // if it is empty
+      continue;
+    }
+    if (lock(mark)) remove_unfinished(folder, ignored);  // otherwise its run is alive
     close(mark);
   }
 }
@@ -147,6 +172,7 @@ void OutputFolder::create_staging() {
     if (!fs::create_directory(folder)) continue;
     staging_ = folder;
     mark_ = open_mark(staging_, O_CREAT);
+    if (mark_ < 0 && errno == ENOENT) continue;  // another run took the empty folder for a leftover
     if (mark_ < 0 || !write_all(mark_, kMarkText)) {
       throw fs::filesystem_error("", staging_, std::error_code(errno, std::generic_category()));
     }
@@ -179,7 +205,7 @@ OutputFolder::~OutputFolder() { discard(); }
 void OutputFolder::discard() {
   std::error_code error;
   if (!staging_.empty() && !is_kept_) {
-    fs::remove_all(staging_, error);
+    remove_unfinished(staging_, error);
     // Folders above that this object has created are removed too, unless somebody else has put anything into them.
     fs::path folder = target_.parent_path();
     for (std::size_t i = 0; i < created_parents_ && fs::remove(folder, error); ++i) folder = folder.parent_path();
@@ -187,27 +213,32 @@ void OutputFolder::discard() {
   if (mark_ >= 0) close(mark_);
 }
 
+// Whenever this is killed, either the run is unfinished, with its checkpoint, or it is in its place, and what it has replaced is
+// marked as a leftover.
 void OutputFolder::commit() {
   const fs::path results = std::exchange(staging_, {});  // the run is whole, and stays there if it cannot go to its place
   const auto fail = [&results](const std::string& reason) {
+    mark_finished(results);
     throw std::runtime_error(reason + "; the results are in \"" + results.string() + '"');
   };
+  bool has_replaced = false;
   try {
-    for (const std::string_view name : kCheckpointFiles) fs::remove(results / name);
-    fs::remove(results / kMarkFile);
     refuse_foreign(target_);  // somebody may have put something there during the run
-    if (!exchange(results, target_)) {
+    if (const int mark = open_mark(target_, O_CREAT); mark >= 0) close(mark);  // if there is an earlier run
+    has_replaced = exchange(results, target_);
+    if (!has_replaced) {
       fs::remove_all(target_);
       fs::rename(results, target_);
-      return;
     }
   } catch (const InputError& error) {
     fail(error.what());
   } catch (const fs::filesystem_error& error) {
     fail("cannot create output folder \"" + target_.string() + "\": " + error.code().message());
   }
+  mark_finished(target_);
+  if (!has_replaced) return;
   std::error_code error;
-  fs::remove_all(results, error);
+  remove_unfinished(results, error);
   if (!error) return;
   throw std::runtime_error("cannot remove the earlier run's results, which are in \"" + results.string() +
                            "\" now: " + error.message() + "; the new ones are in \"" + target_.string() + '"');
