@@ -17,9 +17,9 @@ sys.dont_write_bytecode = True
 import scene_study  # noqa: E402
 
 
-def load(name):
-    """The program samples/studies/NAME/study as a module."""
-    loader = importlib.machinery.SourceFileLoader(f"study_{name}", str(STUDIES / name / "study"))
+def load(name, program="study"):
+    """The program samples/studies/NAME/study, or another one there, as a module."""
+    loader = importlib.machinery.SourceFileLoader(f"{program}_{name}", str(STUDIES / name / program))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
@@ -64,9 +64,19 @@ class Order(unittest.TestCase):
         self.assertAlmostEqual(study.cubatic_order([study.axes(1, 0, 0, 0), eighth]), expected)
 
 
-class Formula(unittest.TestCase):
-    def test_of_zhou(self):
-        self.assertAlmostEqual(load("plate_heap").published(0.2, 1), 19.7, delta=0.05)
+class Heap(unittest.TestCase):
+    def test_formula_of_zhou(self):
+        self.assertAlmostEqual(load("plate_heap").published(0.2, 1, 1), 19.7, delta=0.05)
+        # The exponents of rolling friction are 0.06 between spheres and 0.12 on walls.
+        self.assertAlmostEqual(load("plate_heap").published(0.2, 0.25, 0.5), 19.67 * 0.25**0.06 * 0.5**0.12, delta=0.05)
+
+    def test_slope_of_spheres_in_lammps(self):
+        heap = load("plate_heap", "soft_spheres")
+        rise = math.tan(math.radians(20))
+        places = [(i * 1e-3, j * 1e-3) for i in range(121) for j in range(80)]
+        spheres = [(side * x, y, 0.1 - rise * x) for x, y in places for side in (1, -1)]
+        self.assertAlmostEqual(heap.slope(spheres, 1), 20, delta=0.1)
+        self.assertAlmostEqual(heap.slope(spheres, -1), 20, delta=0.1)
 
 
 class Rods(unittest.TestCase):
@@ -86,12 +96,14 @@ class Rods(unittest.TestCase):
         self.assertAlmostEqual(study.coordination(five + hanging, 1e-3), 4)
         self.assertAlmostEqual(study.coordination(five, -1e-3), 0)
 
-    def test_contacts_of_a_window_of_steps(self):
+    def test_forces_that_do_not_balance(self):
         study = load("rod_packings")
-        steps = [(4.998, 0, 1, 2.0), (4.999, 1, 2, 1.0), (4.999, 0, 2, 0.0), (5.0, 3, 0, 1.0), (5.0, 0, 1, 1.0)]
-        lines = [dict(zip(("time_s", "grain1", "grain2", "normal_force_N"), line)) for line in steps]
-        self.assertEqual(sorted(study.bearing(lines, 1)), [(0, 1, 0.0), (3, 0, 0.0)])
-        self.assertEqual(sorted(study.bearing(lines, 2)), [(0, 1, 0.0), (1, 2, 0.0), (3, 0, 0.0)])
+        keys = ("grain1", "grain2", "normal_force_N", "normal_x", "normal_y", "normal_z")
+        # Three rods in a row, of which the outer ones have nothing behind them.
+        row = [dict(zip(keys, line)) for line in ((0, 1, 2.0, 1, 0, 0), (1, 2, 2.0, 1, 0, 0))]
+        with mock.patch.object(study, "COUNT", 3):
+            self.assertAlmostEqual(study.unbalanced_force(row), 1)
+            self.assertAlmostEqual(study.unbalanced_force(row[:1] + [{**row[1], "normal_force_N": 1.0}]), 1 / 1.5)
 
 
 class Hopper(unittest.TestCase):
