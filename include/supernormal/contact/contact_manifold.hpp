@@ -56,8 +56,8 @@ constexpr bool has_room_for_deepest(int room) { return room > ContactManifold::k
 
 /// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places. Beside the deepest
 /// point there are up to four at other places than its own; where they replace it, there are none or two to four, and the deepest
-/// comes first. With room for two or three,
-/// neighbours are united at a place between them. The result is as continuous as the manifold.
+/// comes first. With room for two or three, neighbours are united at a place between them. The result is as continuous as the
+/// manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 
 }  // namespace supernormal

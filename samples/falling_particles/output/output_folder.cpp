@@ -91,13 +91,15 @@ bool is_unfinished_run(const fs::path& folder) {
          std::ranges::all_of(fs::directory_iterator(folder), is_file_of_run);
 }
 
-/// Removes the folder of an unfinished run so that, if this is killed, the next run removes the rest.
+/// Removes the folder of an unfinished run so that, if this is killed, the next run removes the rest. It may do so meanwhile: what
+/// is gone is no error.
 void remove_unfinished(const fs::path& folder, std::error_code& error) {
   for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error)) {
     if (entry->path().filename() != kMarkFile) fs::remove_all(entry->path(), error);
     if (error) return;
   }
   if (!error) fs::remove_all(folder, error);
+  if (error == std::errc::no_such_file_or_directory) error.clear();
 }
 
 /// The folders of runs beside `target` that were killed, or are on their way.
