@@ -26,6 +26,17 @@ bool bracket(SupportProbe& probe, const Arc& arc, ArcSample& low, ArcSample& hig
   return true;
 }
 
+/// Narrows the interval to the side of `middle` that the gap rises into. Where `middle` is lower than the higher end by more than
+/// the tolerance (m), a maximum as high as that end lies between these two, wherever else there is one; the interval may then be
+/// one that the gap rises into from that end only.
+void narrow(const ArcSample& middle, ArcSample& low, ArcSample& high, double tolerance) {
+  const bool is_beyond_maximum = low.gap >= high.gap && middle.gap < low.gap - tolerance;
+  const bool is_before_maximum = low.gap < high.gap && middle.gap < high.gap - tolerance;
+  (is_before_maximum || (middle.slope > 0 && !is_beyond_maximum) ? low : high) = middle;
+}
+
+bool is_bracket(const ArcSample& low, const ArcSample& high) { return low.slope >= 0 && high.slope <= 0; }
+
 /// Chooses the next angle by the ITP method (Oliveira, Takahashi: An enhancement of the bisection method average performance
 /// preserving minmax optimality, ACM TOMS 47, 2020): never more than one step worse than bisection, superlinear on a smooth
 /// slope.
@@ -92,19 +103,22 @@ ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, 
   ArcMaximum best;
   if (!bracket(probe, arc, low, high, last_evaluation)) return best;
   Interpolation interpolation(high.angle - low.angle);
-  const bool is_bracketed = low.slope >= 0 && high.slope <= 0;
-  best.error =
-      is_bracketed ? bound_above(low, high) : std::max(std::abs(low.slope), std::abs(high.slope)) * (high.angle - low.angle);
   const auto is_inside = [&](double angle) { return low.angle < angle && angle < high.angle; };
-  for (int step = 0; is_bracketed && best.error > tolerance && probe.evaluations() < last_evaluation; ++step) {
+  const auto is_settled = [&] { return !is_bracket(low, high) || bound_above(low, high) <= tolerance; };
+  for (int step = 0; !is_settled() && probe.evaluations() < last_evaluation; ++step) {
     double angle = step % 2 == 0 ? kink_between(arc, low, high) : interpolation.next(low, high);
     if (!is_inside(angle)) angle = interpolation.next(low, high);
     if (!is_inside(angle)) break;  // `low` and `high` are neighbouring numbers
     const ArcSample middle = arc.sample(angle, probe);
     if (middle.gap > 0) return best;
-    (middle.slope > 0 ? low : high) = middle;
-    best.error = bound_above(low, high);
+    narrow(middle, low, high, tolerance);
+    if (is_bracket(low, high)) continue;
+    if (!bracket(probe, arc, low, high, last_evaluation)) return best;
+    interpolation = Interpolation(high.angle - low.angle);
   }
+  const bool is_bracketed = is_bracket(low, high);
+  best.error =
+      is_bracketed ? bound_above(low, high) : std::max(std::abs(low.slope), std::abs(high.slope)) * (high.angle - low.angle);
   // The point is interpolated also where the two are far apart: a flat side of the body lies across the edge then, and all of it
   // is the support of one normal.
   const double descent = low.slope - high.slope;

@@ -43,8 +43,8 @@ struct ArcMaximum {
 /// higher one. Slopes within `level` (m per radian) count as 0.
 bool have_maximum_between(const ArcSample& low, const ArcSample& high, double level);
 
-/// Finds that maximum, or one of them where there are several. Ends at the first normal that separates the bodies. `tolerance` of
-/// the gap in m.
+/// Finds that maximum, or one of them where there are several: one that is as high as either sample, to the tolerance. Ends at the
+/// first normal that separates the bodies. `tolerance` of the gap in m.
 ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, ArcSample high, double tolerance,
                             int max_evaluations);
 
