@@ -10,11 +10,9 @@ Vector3 flattest_axis(const Matrix3& H, double& radius) {
   return Vector3::Unit(axis);
 }
 
-/// A coordinate axis that is far from parallel to n.
-Vector3 axis_across(const Vector3& n) {
-  int axis = 0;
-  n.cwiseAbs().minCoeff(&axis);
-  return Vector3::Unit(axis);
+/// The plane across the normal along the flattest axis. A point has no curvature at all, and so no such axis.
+TangentPlane plane_along(const Vector3& axis, double radius, const Vector3& normal) {
+  return radius > 0 ? TangentPlane(normal, axis) : TangentPlane::at(normal);
 }
 
 QuadraticModel model_of(const TangentPlane& plane, const GapJet& jet, const Symmetric2& A) {
@@ -30,10 +28,7 @@ LocalModel LocalModel::of(const GapFunction& gap, const GapJet& jet) {
   const Vector3 axis1 = flattest_axis(jet.jet1.H, radius1);
   const Vector3 axis2 = flattest_axis(jet.jet2.H, radius2);
   const bool first_is_flatter = radius1 >= radius2;
-  // Two points have no curvature at all: any axis that is not the normal itself.
-  const bool is_flat = radius1 > 0 || radius2 > 0;
-  const TangentPlane plane =
-      first_is_flatter ? TangentPlane(jet.n, is_flat ? axis1 : axis_across(jet.n)) : TangentPlane(-jet.m, axis2);
+  const TangentPlane plane = first_is_flatter ? plane_along(axis1, radius1, jet.n) : plane_along(axis2, radius2, -jet.m);
   const TangentPlane plane1 = first_is_flatter ? plane : plane.rotated(R);
   const TangentPlane plane2 = first_is_flatter ? plane.rotated(R.transpose()) : plane;
   const Symmetric2 A1 = Symmetric2::project(plane1, jet.jet1.H);
@@ -42,7 +37,7 @@ LocalModel LocalModel::of(const GapFunction& gap, const GapJet& jet) {
 }
 
 LocalModel LocalModel::of(const GapFunction& gap, const GapJet& jet, const Matrix3& H) {
-  const TangentPlane plane(jet.n, axis_across(jet.n));
+  const TangentPlane plane = TangentPlane::at(jet.n);
   const Symmetric2 A = Symmetric2::project(plane, H);
   const Symmetric2 half{0.5 * A.xx, 0.5 * A.xy, 0.5 * A.yy};
   return {plane, plane.rotated(gap.rotation().transpose()), half, half, model_of(plane, jet, A)};

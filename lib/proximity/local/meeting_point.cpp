@@ -9,15 +9,12 @@
 namespace supernormal {
 namespace {
 
-// Curvature added to the pieces, in units of the bodies' sizes: vertices have none, and a maximum needs one. At the maximum itself
-// the weights do not depend on it.
-constexpr double kCurvature = 1e-3;
+// Curvature of pairs of vertices that overlap, in units of the bodies' sizes: a maximum needs some. At the maximum itself the
+// weights do not depend on it.
+constexpr double kLeastCurvature = 1e-3;
 
 // Heights that differ by less than so many times the rounding of s are the same.
-constexpr double kRounding = 4;
-
-// Of a curved face only a triangle is named, towards the other body's point, which a pass may have moved.
-constexpr int kPasses = 4;
+constexpr double kSameHeight = 4;
 
 /// The active vertices of a body; its boundary point if it names none.
 ActiveVertices vertices_of(const Shape& shape, const Vector3& n, const Jet& jet, const Vector3& toward) {
@@ -58,7 +55,9 @@ MeetingPoint::Maximum MeetingPoint::maximum_near(const GapJet& jet) const {
   Symmetric2 curvature;
   if (gap_.has_hessian()) curvature = Symmetric2::project(plane, gap_.curvature(jet));
   const double size = gap_.shape1().half_extents().norm() + gap_.shape2().half_extents().norm();
-  const PiecewiseModel::Peak peak = PiecewiseModel{{pieces.data(), count}, curvature.plus_identity(kCurvature * size)}.maximize();
+  // Over the sphere of normals, n.d has the curvature -n.d: a pair of vertices that are apart falls off as s does.
+  const Symmetric2 A = curvature.plus_identity(std::max(jet.s, 0.0) + kLeastCurvature * size);
+  const PiecewiseModel::Peak peak = PiecewiseModel{{pieces.data(), count}, A}.maximize();
 
   Maximum maximum{peak.gain, (jet.n + plane.lift(peak.u)).normalized()};
   for (std::size_t k = 0; k < peak.count; ++k) {
@@ -73,7 +72,7 @@ MeetingPoint::Maximum MeetingPoint::maximum_near(const GapJet& jet) const {
 /// Moves the normal to the maximum, if that is higher.
 bool MeetingPoint::climb(GapJet& jet) {
   const Maximum maximum = maximum_near(jet);
-  if (!(maximum.gain > kRounding * gap_.rounding()) || !all_finite(maximum.n)) return false;
+  if (!(maximum.gain > kSameHeight * gap_.rounding()) || !all_finite(maximum.n)) return false;
   GapJet trial;
   gap_.evaluate(maximum.n, gap_.has_hessian() ? Order::Hessian : Order::Point, trial);
   if (!(trial.s > jet.s)) return false;
@@ -84,7 +83,7 @@ bool MeetingPoint::climb(GapJet& jet) {
 // A climb that gains less than the tolerance is for the witness points alone, and counts for nothing where it does not bring them
 // together: near the normal of a curved face the vertices are no longer all of its points.
 bool MeetingPoint::settle(double tolerance, int max_evaluations, GapJet& jet) {
-  const double rounding = kRounding * gap_.rounding();
+  const double rounding = kSameHeight * gap_.rounding();
   move_witnesses(rounding, jet);
   GapJet higher = jet;
   while (distance_across(higher) > tolerance && gap_.evaluations() < max_evaluations && climb(higher)) {
@@ -102,19 +101,17 @@ Vector3 MeetingPoint::contact(double tolerance, const GapJet& jet) const {
   return middle + (jet.jet1.h + 0.5 * jet.s - jet.n.dot(middle)) * jet.n;
 }
 
-/// Takes the points at the maximum, as long as these are nearer to each other across the normal, and not farther below their
-/// tangent planes than `largest_drop` (m).
+/// Takes the points at the maximum, if these are nearer to each other across the normal, and not farther below their tangent planes
+/// than `largest_drop` (m).
 void MeetingPoint::move_witnesses(double largest_drop, GapJet& jet) const {
-  for (int pass = 0; pass < kPasses && distance_across(jet) > gap_.rounding(); ++pass) {
-    const Maximum maximum = maximum_near(jet);
-    if (!(maximum.drop <= largest_drop)) return;
-    GapJet moved = jet;
-    moved.jet1.r = maximum.point1;
-    moved.jet2.r = maximum.point2;
-    moved.d = gap_.rotation() * moved.jet2.r + (gap_.offset() - moved.jet1.r);
-    if (!(distance_across(moved) < distance_across(jet))) return;
-    jet = moved;
-  }
+  if (distance_across(jet) <= gap_.rounding()) return;
+  const Maximum maximum = maximum_near(jet);
+  if (!(maximum.drop <= largest_drop)) return;
+  GapJet moved = jet;
+  moved.jet1.r = maximum.point1;
+  moved.jet2.r = maximum.point2;
+  moved.d = gap_.rotation() * moved.jet2.r + (gap_.offset() - moved.jet1.r);
+  if (distance_across(moved) < distance_across(jet)) jet = moved;
 }
 
 }  // namespace supernormal

@@ -99,8 +99,7 @@ TEST_CASE("two capsules touch where their segments are nearest to one another") 
 }
 
 TEST_CASE("bodies with straight edges have their witness points opposite one another, and in both bodies") {
-  // The error of a normal, of which s takes the square: 1e-9 of the size leaves 4e-5 of a radius of curvature.
-  constexpr double kAcross = 1e-4;
+  constexpr double kAcross = 1e-6;
   constexpr double kHeight = 2e-9;
   RandomPoses random(93);
   const std::vector<Named> bodies = bodies_with_straight_edges();
