@@ -12,8 +12,6 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Applies a drag of `coefficient` (N s/m) against the velocity that the step would end with, so that it brings the body to rest
 /// at most.
 void add_drag(dBodyID body, double coefficient, double step) {
@@ -113,8 +111,8 @@ unsigned long long BodyForces::apply_stokes_drag() {
     double coefficient = 0;
     for (const Part& part : entry.parts) {
       const double area = projected_area(*part.shape, heading(entry.body, part.geom));
-      const double diameter = std::sqrt(4 * area / kPi) / 3 + 2 * std::sqrt(part.surface / kPi) / 3;
-      coefficient += 3 * kPi * stokes_drag_->viscosity * diameter;
+      const double diameter = std::sqrt(4 * area / std::numbers::pi) / 3 + 2 * std::sqrt(part.surface / std::numbers::pi) / 3;
+      coefficient += 3 * std::numbers::pi * stokes_drag_->viscosity * diameter;
     }
     add_drag(entry.body, coefficient, step_);
   });

@@ -40,13 +40,12 @@ std::array<Trial, kDirections> trial_directions() {
   return trials;
 }
 
-std::string to_text(const Vector3& v) {
-  return std::string("(") + supernormal::to_text(v.x()) + ", " + supernormal::to_text(v.y()) + ", " + supernormal::to_text(v.z()) +
-         ")";
+std::string vector_text(const Vector3& v) {
+  return std::string("(") + to_text(v.x()) + ", " + to_text(v.y()) + ", " + to_text(v.z()) + ")";
 }
 
 [[noreturn]] void refuse(const std::string& what, const Vector3& n) {
-  throw std::invalid_argument(what + " in the direction n = " + to_text(n));
+  throw std::invalid_argument(what + " in the direction n = " + vector_text(n));
 }
 
 /// Refuses values that are not finite or violate n.r = h; returns the size, the largest distance of a boundary point from the
@@ -54,15 +53,15 @@ std::string to_text(const Vector3& v) {
 double check_points(const std::array<Trial, kDirections>& trials) {
   double size = 0;
   for (const Trial& trial : trials) {
-    if (!std::isfinite(trial.h)) refuse("support = " + supernormal::to_text(trial.h) + " is not finite", trial.n);
-    if (!all_finite(trial.r)) refuse("point = " + to_text(trial.r) + " is not finite", trial.n);
+    if (!std::isfinite(trial.h)) refuse("support = " + to_text(trial.h) + " is not finite", trial.n);
+    if (!all_finite(trial.r)) refuse("point = " + vector_text(trial.r) + " is not finite", trial.n);
     size = std::max({size, trial.r.lpNorm<Eigen::Infinity>(), std::abs(trial.h)});
   }
   require_in("size of the body", size, kMinLength, kMaxLength, "m");
   for (const Trial& trial : trials) {
     if (std::abs(trial.n.dot(trial.r) - trial.h) > kTolerance * size) {
-      refuse("point.n = " + supernormal::to_text(trial.n.dot(trial.r)) + " m differs from support = " +
-                 supernormal::to_text(trial.h) + " m by more than 1e-6 of the size " + supernormal::to_text(size) + " m",
+      refuse("point.n = " + to_text(trial.n.dot(trial.r)) + " m differs from support = " + to_text(trial.h) +
+                 " m by more than 1e-6 of the size " + to_text(size) + " m",
              trial.n);
     }
   }
@@ -75,14 +74,14 @@ void check_convex(const std::array<Trial, kDirections>& trials, double size) {
     const Trial& trial = trials[i];
     const double width = trial.h + trials[trials.size() - 1 - i].h;
     if (!(width >= 2 * kMinLength)) {
-      refuse("the width support(n) + support(-n) = " + supernormal::to_text(width) + " m is below 2e-30 m", trial.n);
+      refuse("the width support(n) + support(-n) = " + to_text(width) + " m is below 2e-30 m", trial.n);
     }
     for (const Trial& other : trials) {
       const double excess = trial.n.dot(other.r) - trial.h;
       if (excess > kTolerance * size) {
-        refuse("the body is not convex: point" + to_text(other.n) + " lies " + supernormal::to_text(excess) +
-                   " m outside the supporting plane",
-               trial.n);
+        refuse(
+            "the body is not convex: point" + vector_text(other.n) + " lies " + to_text(excess) + " m outside the supporting plane",
+            trial.n);
       }
     }
   }
@@ -95,11 +94,11 @@ void check_hessian(const Matrix3& hessian, const Vector3& n) {
   const Matrix3 H = hessian / largest;
   const double asymmetry = (H - H.transpose()).cwiseAbs().maxCoeff();
   if (asymmetry > kTolerance) {
-    refuse("hessian is not symmetric: entries differ by " + supernormal::to_text(asymmetry) + " of the largest", n);
+    refuse("hessian is not symmetric: entries differ by " + to_text(asymmetry) + " of the largest", n);
   }
   const double radial = (H * n).lpNorm<Eigen::Infinity>();
   if (radial > kTolerance) {
-    refuse("hessian times n is not zero but " + supernormal::to_text(radial) + " of the largest entry", n);
+    refuse("hessian times n is not zero but " + to_text(radial) + " of the largest entry", n);
   }
   // With one eigenvalue zero, these are the sum and the product of the two principal radii.
   const double product = 0.5 * (H.trace() * H.trace() - H.squaredNorm());

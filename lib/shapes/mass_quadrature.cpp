@@ -23,9 +23,8 @@
 namespace supernormal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kTolerance = 1e-11;  // relative change between two rules that ends the refinement
-constexpr int kMinRule = 8;           // number of nodes in z
+constexpr double kRefinementTolerance = 1e-11;  // relative change between two rules that ends the refinement
+constexpr int kMinRule = 8;                     // number of nodes in z
 constexpr int kMaxRule = 256;
 
 using Tangents = Eigen::Matrix<double, 3, 2>;
@@ -86,7 +85,7 @@ struct Node {
 std::vector<std::pair<double, double>> gauss_legendre(int count) {
   std::vector<std::pair<double, double>> rule;
   for (int i = 0; i < count; ++i) {
-    double z = std::cos(kPi * (i + 0.75) / (count + 0.5));
+    double z = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
     double slope = 1;
     for (int iteration = 0; iteration < 8; ++iteration) {
       double previous = 1, value = z;
@@ -106,8 +105,8 @@ std::vector<Node> sphere_rule(int count) {
   for (const auto& [z, weight] : gauss_legendre(count)) {
     const double radius = std::sqrt(1 - z * z);
     for (int j = 0; j < 2 * count; ++j) {
-      const double angle = kPi * (j + 0.5) / count;
-      nodes.push_back({Vector3(radius * std::cos(angle), radius * std::sin(angle), z), weight * kPi / count});
+      const double angle = std::numbers::pi * (j + 0.5) / count;
+      nodes.push_back({Vector3(radius * std::cos(angle), radius * std::sin(angle), z), weight * std::numbers::pi / count});
     }
   }
   return nodes;
@@ -121,7 +120,7 @@ void balance(AffineView& view) {
     Matrix3 square = Matrix3::Zero();
     for (const Node& node : nodes) {
       const Vector3 r = view.point(node.m);
-      const double share = node.weight / (4 * kPi);
+      const double share = node.weight / (4 * std::numbers::pi);
       mean += share * r;
       square += share * r * r.transpose();
     }
@@ -217,14 +216,14 @@ MassProperties quadrature_mass_properties(const Shape& shape) {
   Sums sums = integrate(view, shape.has_hessian(), kMinRule);
   double last = std::numeric_limits<double>::infinity();
   double before_last = last;
-  for (int rule = 2 * kMinRule; rule <= kMaxRule && last > kTolerance; rule *= 2) {
+  for (int rule = 2 * kMinRule; rule <= kMaxRule && last > kRefinementTolerance; rule *= 2) {
     const Sums finer = integrate(view, shape.has_hessian(), rule);
     if (!finer.is_finite()) throw std::domain_error("mass properties: the shape delivers values that are not finite");
     before_last = std::exchange(last, change(sums, finer));
     sums = finer;
   }
   // If convergence is slow it is erratic too, and one small change proves little.
-  const double unresolved = last > kTolerance ? 2 * std::max(last, before_last) : last;
+  const double unresolved = last > kRefinementTolerance ? 2 * std::max(last, before_last) : last;
   MassProperties mass = to_body(view, sums);
   mass.relative_error = unresolved + sums.escaped / (sums.volume + sums.escaped);
   return mass;

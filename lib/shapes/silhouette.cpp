@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kPoints = 48;
 constexpr int kRows = 20;  // surface_area() takes kRows x kRows / 2 directions on the upper half
-constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
@@ -21,7 +20,7 @@ double projected_area(const Shape& shape, const Vector3& direction) {
   const Vector3 e1 = axis.unitOrthogonal();
   const Vector3 e2 = axis.cross(e1);
   const auto point = [&](int k) {
-    const double angle = 2 * kPi * k / kPoints;
+    const double angle = 2 * std::numbers::pi * k / kPoints;
     return shape.point((std::cos(angle) * e1 + std::sin(angle) * e2).cwiseQuotient(extents).normalized());
   };
   const Vector3 first = point(0);
@@ -32,7 +31,7 @@ double projected_area(const Shape& shape, const Vector3& direction) {
     twice += (previous - first).cross(next - first);
     previous = next;
   }
-  const double step = 2 * kPi / kPoints;
+  const double step = 2 * std::numbers::pi / kPoints;
   return 0.5 * std::abs(twice.dot(direction.normalized())) * step / std::sin(step);
 }
 
@@ -42,7 +41,7 @@ double surface_area(const Shape& shape) {
   for (int row = 0; row < kRows / 2; ++row) {
     const double z = 2 * (row + 0.5) / kRows;
     for (int k = 0; k < kRows; ++k) {
-      const double angle = 2 * kPi * (k + 0.25) / kRows;
+      const double angle = 2 * std::numbers::pi * (k + 0.25) / kRows;
       const double radius = std::sqrt(1 - z * z);
       sum += projected_area(shape, Vector3(radius * std::cos(angle), radius * std::sin(angle), z));
     }

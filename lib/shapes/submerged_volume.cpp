@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kSubdivisions = 3;  // subdivisions of an octahedron: 8 x 4^3 triangles
 
-using Triangle = std::array<int, 3>;
+using VertexTriple = std::array<int, 3>;
 
 /// A triangulation of the unit sphere, corners counter-clockwise from outside.
 struct SphereMesh {
   std::vector<Vector3> points = {Vector3::UnitX(),  -Vector3::UnitX(), Vector3::UnitY(),
                                  -Vector3::UnitY(), Vector3::UnitZ(),  -Vector3::UnitZ()};
-  std::vector<Triangle> triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  std::vector<VertexTriple> triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
 
   void subdivide() {
     std::map<std::pair<int, int>, int> middles;
@@ -26,7 +26,7 @@ struct SphereMesh {
       if (is_new) points.push_back((points[static_cast<std::size_t>(i)] + points[static_cast<std::size_t>(j)]).normalized());
       return place->second;
     };
-    std::vector<Triangle> finer;
+    std::vector<VertexTriple> finer;
     for (const auto& [a, b, c] : triangles) {
       const int ab = middle(a, b);
       const int bc = middle(b, c);

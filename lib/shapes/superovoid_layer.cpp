@@ -26,7 +26,7 @@ struct Powers {
 };
 
 /// One node of the rule: the powers 2/exponent for points, 2/dual for normals; the derivatives carry the weight of the node.
-struct Node {
+struct LayerNode {
   Powers point, normal;
 };
 
@@ -42,11 +42,11 @@ Powers powers(double exponent, double log_tan, double weight) {
 
 /// Nodes at a distance of `step` in t, out to where the slowest power has decayed below rounding. `log_aspect` is how much later
 /// that is for normals of a body that is longer than wide by this logarithm.
-std::vector<Node> make_rule(double exponent, double step, double log_aspect) {
+std::vector<LayerNode> make_rule(double exponent, double step, double log_aspect) {
   const double dual = exponent / (exponent - 1);
   const double end = std::asinh(std::max(exponent, dual) * (20 + 0.5 * log_aspect));
   const int count = static_cast<int>(std::ceil(end / step));
-  std::vector<Node> rule;
+  std::vector<LayerNode> rule;
   rule.reserve(2 * static_cast<std::size_t>(count) + 1);
   for (int i = -count; i <= count; ++i) {
     const double t = i * step;
@@ -72,7 +72,7 @@ struct Surface {
   Vector3 n, n_w, n_e;  // n_w and n_e are up to a part along n
 };
 
-Surface surface(const Half& half, const Node& w, const Node& e) {
+Surface surface(const Half& half, const LayerNode& w, const LayerNode& e) {
   const Vector3& axes = half.axes;
   const Eigen::Array2d taper(half.taper_x, half.taper_y);
   const Eigen::Array2d scale = 1 + taper * e.point.sin, growth = taper / scale;
@@ -99,7 +99,7 @@ Surface surface(const Half& half, const Node& w, const Node& e) {
 }
 
 /// The moments of the layer over one surface element, at the nodes `w` and `e`.
-Moments element(const Half& half, double radius, const Node& w, const Node& e) {
+Moments element(const Half& half, double radius, const LayerNode& w, const LayerNode& e) {
   const Surface f = surface(half, w, e);
   const double area = f.n.dot(f.r_w.cross(f.r_e));
   const double bend = f.n.dot(f.r_w.cross(f.n_e)) + f.n.dot(f.n_w.cross(f.r_e));
@@ -116,11 +116,11 @@ Moments element(const Half& half, double radius, const Node& w, const Node& e) {
 }
 
 /// The moments over half of the boundary: four times one octant.
-Moments integrate(const Half& half, double radius, const std::vector<Node>& section, const std::vector<Node>& meridian) {
+Moments integrate(const Half& half, double radius, const std::vector<LayerNode>& section, const std::vector<LayerNode>& meridian) {
   Moments total = Moments::Zero();
-  for (const Node& e : meridian) {
+  for (const LayerNode& e : meridian) {
     Moments row = Moments::Zero();
-    for (const Node& w : section) row += element(half, radius, w, e);
+    for (const LayerNode& w : section) row += element(half, radius, w, e);
     total += row;
   }
   return 4 * total;
@@ -130,8 +130,8 @@ Moments integrate(const Half& half, double radius, const std::vector<Node>& sect
 Moments integrate(const Superovoid& core, double radius, double step) {
   const Vector3& axes = core.half_axes();
   const double log_aspect = std::log(axes.maxCoeff() / axes.minCoeff());
-  const std::vector<Node> section = make_rule(core.delta(), step, log_aspect);
-  const std::vector<Node> meridian = make_rule(core.epsilon(), step, log_aspect);
+  const std::vector<LayerNode> section = make_rule(core.delta(), step, log_aspect);
+  const std::vector<LayerNode> meridian = make_rule(core.epsilon(), step, log_aspect);
   const Moments upper = integrate({axes, core.taper_x(), core.taper_y()}, radius, section, meridian);
   const bool is_symmetric = core.taper_x() == 0 && core.taper_y() == 0;
   Moments lower = is_symmetric ? upper : integrate({axes, -core.taper_x(), -core.taper_y()}, radius, section, meridian);

@@ -9,14 +9,12 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kStep = 1e-3;
-
 /// The rank of the wrenches of a contact about its point, from many states of motion: as many dimensions as it has live rows.
 int live_rows(const std::vector<fx::Effect>& list) {
   OdeSession session;
   std::vector<fx::Effect> with_gravity = list;
   with_gravity.emplace_back(earth());
-  EffectsWorld scene(with_gravity, kStep);
+  EffectsWorld scene(with_gravity, kLongStep);
   scene.world.add_plane();
   const dBodyID ball = scene.add_ball(0.05, 1000, {0, 0, 0});
   Random random(9);
@@ -48,7 +46,7 @@ unsigned long long rows_of(const fx::Effects& effects) {
 /// Lets a few bodies fall on one another and returns their velocities at the end.
 std::vector<double> tumble(const std::vector<fx::Effect>& list, const std::function<fx::Material(dGeomID)>& material_of) {
   OdeSession session;
-  EffectsWorld scene(list, kStep);
+  EffectsWorld scene(list, kLongStep);
   scene.material_of = material_of;
   scene.world.add_plane();
   std::vector<dBodyID> bodies;
@@ -86,7 +84,7 @@ TEST_CASE("a contact has the rows of what is named and no more") {
 }
 
 TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and the rows counted are those asked for") {
-  fx::Effects smooth({fx::Friction{0.5, fx::MaterialSelector::of(1)}}, kStep);
+  fx::Effects smooth({fx::Friction{0.5, fx::MaterialSelector::of(1)}}, kLongStep);
   OdeSession session;
   Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -104,11 +102,11 @@ TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and 
 
 TEST_CASE("a list without forces visits no body and keeps nothing of it") {
   OdeSession session;
-  EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kStep);
+  EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kLongStep);
   CHECK_FALSE(scene.effects.visits_bodies());
   scene.effects.add_body(nullptr);  // it is not even read
   for (const fx::Cost& cost : scene.effects.costs()) CHECK(cost.bodies == 0);
-  EffectsWorld dragged({fx::QuadraticDrag{1.2, 0.5}}, kStep);
+  EffectsWorld dragged({fx::QuadraticDrag{1.2, 0.5}}, kLongStep);
   CHECK(dragged.effects.visits_bodies());
   dragged.add_ball(0.1, 1000, {0, 0, 0});
   const dBodyID asleep = dragged.add_ball(0.1, 1000, {5, 0, 0});

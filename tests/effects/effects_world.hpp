@@ -14,6 +14,10 @@ namespace supernormal::test {
 
 namespace fx = supernormal::effects;
 
+inline constexpr double kStep = 5e-4;        ///< s
+inline constexpr double kLongStep = 1e-3;    ///< s
+inline constexpr double kBallRadius = 0.05;  ///< m
+
 /// The force and torque of a joint on the first of its bodies.
 struct Load {
   Vec force;   ///< N

@@ -8,8 +8,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kStep = 1e-3;
-
 double falling_speed(EffectsWorld& scene, dBodyID body, double time) {
   scene.run_until(time);
   return -dBodyGetLinearVel(body)[2];
@@ -42,7 +40,7 @@ TEST_CASE("terminal velocity under Stokes drag, and that a thick fluid does not 
   const double radius = 1e-3;
   for (const double viscosity : {1.0, 1e4}) {  // the second stops a ball within a millionth of the step
     OdeSession session;
-    EffectsWorld scene({earth(), fx::StokesDrag{viscosity}}, kStep);
+    EffectsWorld scene({earth(), fx::StokesDrag{viscosity}}, kLongStep);
     const dBodyID ball = scene.add_ball(radius, 2500, {0, 0, 0});
     dBodySetLinearVel(ball, 1, 0, 0);
     const double expected = 2.0 / 9 * 2500 * kGravity * radius * radius / viscosity;
@@ -79,7 +77,7 @@ TEST_CASE("Stokes drag of spheroids is near to Oberbeck's: 4 % at aspect ratio 2
     CAPTURE(s.aspect);
     CAPTURE(s.along);
     OdeSession session;
-    EffectsWorld scene({earth(), fx::StokesDrag{10}}, kStep);
+    EffectsWorld scene({earth(), fx::StokesDrag{10}}, kLongStep);
     const dGeomID geom = snCreateEllipsoid(scene.world.space(), dReal(radius), dReal(radius), dReal(radius * s.aspect));
     const dBodyID body = scene.add(geom, 2500, {0, 0, 0});
     if (!s.along) turn(body, {1, 0, 0}, 90 * kDegree);
@@ -114,13 +112,13 @@ TEST_CASE("an ellipsoid floats at the depth of its density") {
 
 TEST_CASE("what sinks weighs less by the fluid, and what is out of it all of its weight") {
   OdeSession session;
-  EffectsWorld scene({earth(), fx::Buoyancy{1000, 0}}, kStep);
+  EffectsWorld scene({earth(), fx::Buoyancy{1000, 0}}, kLongStep);
   const dBodyID under =
       scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.1), dReal(0.1), dReal(0.1), 6, 6), 4000, {0, 0, -1});
   const dBodyID above = scene.add_ball(0.1, 4000, {1, 0, 5});
   scene.step();
-  CHECK(dBodyGetLinearVel(under)[2] == relative(-0.75 * kGravity * kStep).epsilon(1e-6));
-  CHECK(dBodyGetLinearVel(above)[2] == relative(-kGravity * kStep).epsilon(1e-6));
+  CHECK(dBodyGetLinearVel(under)[2] == relative(-0.75 * kGravity * kLongStep).epsilon(1e-6));
+  CHECK(dBodyGetLinearVel(above)[2] == relative(-kGravity * kLongStep).epsilon(1e-6));
 }
 
 TEST_CASE("damping decays exponentially, whatever the step") {
@@ -151,7 +149,7 @@ TEST_CASE("a pull below the pull-off force holds, one above lets go") {
       CAPTURE(sticky.flat);
       CAPTURE(part);
       OdeSession session;
-      EffectsWorld scene({earth(), fx::Adhesion{pull_off, {}}, sticky.contact}, kStep);
+      EffectsWorld scene({earth(), fx::Adhesion{pull_off, {}}, sticky.contact}, kLongStep);
       scene.world.add_plane();
       const dReal e = sticky.flat ? 20 : 2;
       const dBodyID body =
@@ -172,7 +170,7 @@ TEST_CASE("adhesion counts as normal force for friction") {
   // The body is on a wall: its weight hangs on mu times the adhesion.
   for (const double part : {0.95, 1.05}) {
     OdeSession session;
-    EffectsWorld scene({fx::Friction{0.5, {}}, fx::Adhesion{4, {}}}, kStep);
+    EffectsWorld scene({fx::Friction{0.5, {}}, fx::Adhesion{4, {}}}, kLongStep);
     scene.world.add_plane();
     const dBodyID body =
         scene.add(snCreateSuperellipsoid(scene.world.space(), dReal(0.02), dReal(0.02), dReal(0.02), 20, 20), 1000, {0, 0, 0.02});

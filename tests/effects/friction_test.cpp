@@ -8,7 +8,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kStep = 5e-4;
 constexpr double kSpeed = 1;  // m/s
 constexpr double kHeight = 0.02;
 

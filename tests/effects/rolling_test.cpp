@@ -6,13 +6,6 @@
 
 using namespace supernormal::test;
 
-namespace {
-
-constexpr double kStep = 5e-4;
-constexpr double kRadius = 0.05;
-
-}  // namespace
-
 TEST_CASE("a ball rolls (7/10) v^2 R / (g rho) far in every direction") {
   // The torque against rolling is rho N, so the deceleration is (5/7) g rho / R.
   const double rho = 2e-3;
@@ -22,15 +15,15 @@ TEST_CASE("a ball rolls (7/10) v^2 R / (g rho) far in every direction") {
     OdeSession session;
     EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::RollingResistance{rho, 0, {}}}, kStep);
     scene.world.add_plane();
-    const dBodyID ball = scene.add_ball(kRadius, 1000, {0, 0, kRadius});
+    const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
     scene.run_until(0.05);
     const Vec start = to_vec(dBodyGetPosition(ball));
     const Vec v = {speed * std::cos(angle), speed * std::sin(angle), 0};
     dBodySetLinearVel(ball, dReal(v[0]), dReal(v[1]), 0);
-    dBodySetAngularVel(ball, dReal(-v[1] / kRadius), dReal(v[0] / kRadius), 0);
+    dBodySetAngularVel(ball, dReal(-v[1] / kBallRadius), dReal(v[0] / kBallRadius), 0);
     scene.run_until(3, [&] { return norm(to_vec(dBodyGetLinearVel(ball))) < 1e-4; });
     const Vec way = to_vec(dBodyGetPosition(ball)) - start;
-    CHECK(std::hypot(way[0], way[1]) == relative(0.7 * speed * speed * kRadius / (kGravity * rho)).epsilon(0.01));
+    CHECK(std::hypot(way[0], way[1]) == relative(0.7 * speed * speed * kBallRadius / (kGravity * rho)).epsilon(0.01));
     CHECK(std::abs(std::atan2(way[1], way[0]) - angle) < 0.02);
   }
 }
@@ -42,15 +35,15 @@ TEST_CASE("a ball rests on an incline up to tan = rho / R, whatever its directio
       CAPTURE(part);
       CAPTURE(turn);
       OdeSession session;
-      const double angle = std::atan(part * rho / kRadius);
+      const double angle = std::atan(part * rho / kBallRadius);
       const double across = kGravity * std::sin(angle);
       const fx::Gravity leaning{{across * std::cos(turn), across * std::sin(turn), -kGravity * std::cos(angle)}};
       EffectsWorld scene({leaning, fx::Friction{0.5, {}}, fx::RollingResistance{rho, 0, {}}}, kStep);
       scene.world.add_plane();
-      const dBodyID ball = scene.add_ball(kRadius, 1000, {0, 0, kRadius});
+      const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
       scene.run_until(1);
       const double speed = norm(to_vec(dBodyGetLinearVel(ball)));
-      const double expected = part < 1 ? 0 : 5.0 / 7 * (across - kGravity * std::cos(angle) * rho / kRadius);
+      const double expected = part < 1 ? 0 : 5.0 / 7 * (across - kGravity * std::cos(angle) * rho / kBallRadius);
       CHECK(std::abs(speed - expected) < 2e-3);
     }
   }
@@ -65,10 +58,10 @@ TEST_CASE("a spinning ball stops after (2/5) R^2 w / (g rho)") {
     if (rough) list.emplace_back(fx::Friction{0.5, {}});
     EffectsWorld scene(list, kStep);
     scene.world.add_plane();
-    const dBodyID ball = scene.add_ball(kRadius, 1000, {0, 0, kRadius});
+    const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
     scene.run_until(0.05);
     dBodySetAngularVel(ball, 0, 0, dReal(spin));
     const double time = scene.run_until(5, [&] { return std::abs(dBodyGetAngularVel(ball)[2]) < 1e-3; });
-    CHECK(time == relative(0.4 * kRadius * kRadius * spin / (kGravity * rho)).epsilon(0.01));
+    CHECK(time == relative(0.4 * kBallRadius * kBallRadius * spin / (kGravity * rho)).epsilon(0.01));
   }
 }

@@ -8,9 +8,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kStep = 5e-4;
-constexpr double kRadius = 0.05;
-
 /// Gives the plane z = 0, which stands, the velocity of a kinematic body.
 dBodyID add_belt(EffectsWorld& scene, const Vec& velocity, const Vec& spin = {0, 0, 0}) {
   const dBodyID belt = dBodyCreate(scene.id());
@@ -32,7 +29,7 @@ double rebound(const std::vector<fx::Effect>& effects, double approach, double r
   OdeSession session;
   EffectsWorld scene(effects, kStep / 10);
   const dBodyID wall = add_belt(scene, {0, 0, rise});
-  const dBodyID ball = scene.add_ball(kRadius, 1000, {0, 0, kRadius + 1e-3});
+  const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius + 1e-3});
   dBodySetLinearVel(ball, 0, 0, dReal(-approach));
   for (int i = 0; i < 2000; ++i) {
     scene.step();
@@ -66,19 +63,19 @@ TEST_CASE("a ball on a belt ends rolling, at 2/7 of the belt's velocity") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.3, {}}}, kStep);
   const dBodyID belt = add_belt(scene, {0, 0.7, 0});
-  const dBodyID ball = scene.add_ball(kRadius, 1000, {0, 0, kRadius});
+  const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
   for (int i = 0; i < 2000; ++i) step(scene, belt);
   CHECK(double{dBodyGetLinearVel(ball)[1]} == relative(2.0 / 7 * 0.7).epsilon(1e-3));
-  CHECK(double{dBodyGetAngularVel(ball)[0]} == relative((0.7 - 0.2) / kRadius).epsilon(1e-3));
+  CHECK(double{dBodyGetAngularVel(ball)[0]} == relative((0.7 - 0.2) / kBallRadius).epsilon(1e-3));
 }
 
 TEST_CASE("a ball on a turntable that turns about the ball's vertical is set spinning by spinning resistance") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.3, {}}, fx::RollingResistance{0, 1e-3, {}}}, kStep);
   const dBodyID table = add_belt(scene, {0, 0, 0}, {0, 0, 3});
-  const dBodyID ball = scene.add_ball(kRadius, 1000, {0, 0, kRadius});
+  const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, kBallRadius});
   // The torque is 1e-3 m times the weight, and the moment of inertia 2/5 m r^2.
-  const double time = 3 * 0.4 * kRadius * kRadius / (1e-3 * kGravity);
+  const double time = 3 * 0.4 * kBallRadius * kBallRadius / (1e-3 * kGravity);
   const int half = static_cast<int>(0.5 * time / kStep);
   for (int i = 0; i < half; ++i) step(scene, table);
   CHECK(double{dBodyGetAngularVel(ball)[2]} == relative(1.5).epsilon(0.02));
@@ -92,15 +89,15 @@ TEST_CASE("restitution is that of the velocity relative to the wall") {
   const double bounce = kRise + 0.6 * (kApproach + kRise);
   CHECK(rebound({fx::Restitution{0.6, 0, {}}}, kApproach, kRise) == relative(bounce).epsilon(1e-5));
   CHECK(rebound({fx::Hertz{1e7, 0.3, 0.6, {}}}, kApproach, kRise) == relative(bounce).epsilon(0.01));
-  const double mass = 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3) * 1000;
+  const double mass = 4.0 / 3 * std::numbers::pi * std::pow(kBallRadius, 3) * 1000;
   CHECK(rebound({fx::Compliance{1e4 * mass, 0, {}}}, kApproach, kRise) == relative(kRise + kApproach + kRise).epsilon(0.01));
 }
 
 TEST_CASE("sides with the bodies of the geoms give the same contacts as materials alone") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.3, {}}, fx::RollingResistance{1e-3, 1e-3, {}}, fx::Hertz{1e7, 0.3, 0.6, {}}}, kStep);
-  const dBodyID ball = scene.add_ball(kRadius, 1000, {0, 0, 0});
-  const dBodyID other = scene.add_ball(kRadius, 1000, {0.06, 0.07, 0});
+  const dBodyID ball = scene.add_ball(kBallRadius, 1000, {0, 0, 0});
+  const dBodyID other = scene.add_ball(kBallRadius, 1000, {0.06, 0.07, 0});
   dBodySetLinearVel(ball, 1, dReal(0.3), 0);
   dBodySetAngularVel(other, 1, 2, 3);
   std::array<dContact, 1> a{};

@@ -8,11 +8,14 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "supernormal/supernormal.h"
 
 namespace supernormal::test {
+
+inline constexpr int kRepetitions = 10000;  ///< of a battery, each with bodies and poses of its own
 
 /// A program that uses ODE and us, from its beginning to its end: nothing is left for the next test case.
 class OdeSession {
@@ -105,6 +108,24 @@ inline std::vector<dContactGeom> collide(dGeomID g1, dGeomID g2, int room = 8) {
   contacts.resize(static_cast<std::size_t>(count));
   return contacts;
 }
+
+inline bool same_bits(const dContactGeom& a, const dContactGeom& b) {
+  return to_vec(a.pos) == to_vec(b.pos) && to_vec(a.normal) == to_vec(b.normal) && a.depth == b.depth;
+}
+
+inline bool same_bits(const std::vector<dContactGeom>& a, const std::vector<dContactGeom>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& one, const auto& other) { return same_bits(one, other); });
+}
+
+inline snStatistics statistics() {
+  snStatistics out;
+  snGetStatistics(&out);
+  return out;
+}
+
+/// Whether the last refusal says this.
+inline bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
 
 /// Draws an ellipsoid or a superellipsoid with half-axes in 0.5...1.5.
 inline dGeomID random_body(Random& random, dSpaceID space = nullptr) {

@@ -23,7 +23,7 @@ using namespace supernormal::test;
 namespace {
 
 constexpr double kWidth = 1e-13;
-constexpr double kRounding = 4e-15;  // for sizes up to 3
+constexpr double kSumRounding = 4e-15;  // for sizes up to 3
 constexpr double kRadius = 0.3;
 const Vector3 kLengths(1.2, 0.5, 0.8);
 const Matrix3 kAttitude = Eigen::Quaterniond(0.3, -0.7, 0.2, 0.6).normalized().toRotationMatrix();
@@ -52,8 +52,8 @@ void check_against_sphere(const Shape& collider, const Distance& distance) {
     const double expected = distance(place) - kRadius;
     const auto check = [&](const GapBounds& bounds) {
       CHECK(bounds.upper - bounds.lower <= kWidth);
-      CHECK(bounds.lower <= expected + kRounding);
-      CHECK(bounds.upper >= expected - kRounding);
+      CHECK(bounds.lower <= expected + kSumRounding);
+      CHECK(bounds.upper >= expected - kSumRounding);
     };
     check(bound_gap(sphere, at, collider, pose, kWidth));
     check(bound_gap(collider, pose, round, at, kWidth));
@@ -87,8 +87,8 @@ TEST_CASE("reference: an octahedral, a round and a boxy body standing on the edg
       for (const double gap : {-0.05, 0.0, 0.1}) {
         const Vector3 centre = Vector3::Unit(axis) * (kLengths[axis] + body.half_axes()[axis] + gap);
         const GapBounds bounds = bound_gap(body, {centre, Matrix3::Identity()}, Box(kLengths), {}, kWidth);
-        CHECK(std::abs(bounds.lower - gap) <= kWidth + kRounding);
-        CHECK(std::abs(bounds.upper - gap) <= kWidth + kRounding);
+        CHECK(std::abs(bounds.lower - gap) <= kWidth + kSumRounding);
+        CHECK(std::abs(bounds.upper - gap) <= kWidth + kSumRounding);
       }
     }
     // Edge and corner are apart along the normal of the body's point there, which is the nearest by construction.
@@ -97,8 +97,8 @@ TEST_CASE("reference: an octahedral, a round and a boxy body standing on the edg
       const Vector3 normal = n.normalized();
       const Vector3 centre = corner + 0.07 * normal - body.point(-normal);
       const GapBounds bounds = bound_gap(body, {centre, Matrix3::Identity()}, Box(kLengths), {}, kWidth);
-      CHECK(std::abs(bounds.lower - 0.07) <= kWidth + kRounding);
-      CHECK(std::abs(bounds.upper - 0.07) <= kWidth + kRounding);
+      CHECK(std::abs(bounds.lower - 0.07) <= kWidth + kSumRounding);
+      CHECK(std::abs(bounds.upper - 0.07) <= kWidth + kSumRounding);
     }
   }
 }

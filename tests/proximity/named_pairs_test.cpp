@@ -13,7 +13,7 @@ using namespace supernormal::test;
 
 namespace {
 
-Settings tight() {
+Settings fine() {
   Settings settings;
   settings.tolerance = 1e-12;
   return settings;
@@ -37,7 +37,7 @@ const Eigen::Quaterniond kHalfTurnAboutX(0, 1, 0, 0);
 TEST_CASE("R1: superellipsoids of the closed-form contact space demos, apart") {
   const Superellipsoid shape1(Vector3(15, 10, 5), 2 / 0.7, 2 / 0.5), shape2(Vector3(5, 3, 2), 2 / 0.2, 2 / 1.25);
   const Proximity out =
-      find_proximity(shape1, at({2.82, -16.4, 7.52}, kHalfTurnAboutX), shape2, at({-0.47, 8.44, 0.8}, kHalfTurnAboutX), tight());
+      find_proximity(shape1, at({2.82, -16.4, 7.52}, kHalfTurnAboutX), shape2, at({-0.47, 8.44, 0.8}, kHalfTurnAboutX), fine());
   CHECK(out.status == Status::Converged);
   CHECK(std::abs(out.gap - 12.6945142566438972) <= 1e-10 * out.gap);
   // A gap exact to e fixes the normal to sqrt(2 e / (H1 + H2 + s)), here 1e-6 for e = 1e-11.
@@ -49,7 +49,7 @@ TEST_CASE("R1: superellipsoids of the closed-form contact space demos, apart") {
 TEST_CASE("R2: ellipsoids of the closed-form contact space demos, overlapping") {
   const Ellipsoid shape1(Vector3(20, 15, 10)), shape2(Vector3(15, 12, 8));
   const Proximity out =
-      find_proximity(shape1, at({-10, 7.25, 3.56}, kHalfTurnAboutX), shape2, at({15.3, -2.2, 2.84}, kHalfTurnAboutX), tight());
+      find_proximity(shape1, at({-10, 7.25, 3.56}, kHalfTurnAboutX), shape2, at({15.3, -2.2, 2.84}, kHalfTurnAboutX), fine());
   CHECK(out.status == Status::Converged);
   CHECK(std::abs(out.gap - -6.3690451349138511) <= 1e-10 * 6.369);
 }
@@ -59,7 +59,7 @@ TEST_CASE("L1: equal superballs of the LAMMPS unit tests touch at the origin") {
   for (int halves = 4; halves <= 16; ++halves) {
     const double exponent = 0.5 * halves;
     const Superellipsoid shape = superball(kRadius, exponent);
-    const Proximity out = find_proximity(shape, at({-kRadius, 0, 0}), shape, at({kRadius, 0, 0}), tight());
+    const Proximity out = find_proximity(shape, at({-kRadius, 0, 0}), shape, at({kRadius, 0, 0}), fine());
     CHECK(out.status == Status::Converged);
     CHECK(std::abs(out.gap) <= 1e-10 * kRadius);
     check_near(out.normal, Vector3::UnitX(), 1e-10);
@@ -72,7 +72,7 @@ TEST_CASE("L2: superballs of the LAMMPS unit tests overlap by a tenth of the rad
   for (int halves = 4; halves <= 20; ++halves) {
     const double exponent = 0.5 * halves;
     const Proximity out = find_proximity(superball(kRadius, exponent), at({-0.95 * kRadius, 0, 0}),
-                                         superball(2 * kRadius, exponent), at({1.95 * kRadius, 0, 0}), tight());
+                                         superball(2 * kRadius, exponent), at({1.95 * kRadius, 0, 0}), fine());
     CHECK(out.status == Status::Converged);
     CHECK(std::abs(out.gap - -0.3456) <= 1e-10 * 0.3456);
     check_near(out.normal, Vector3::UnitX(), 1e-10);
@@ -84,7 +84,7 @@ TEST_CASE("concentric, identical, aligned bodies: twice the smallest half-axis")
     for (const Eigen::Quaterniond& attitude :
          {Eigen::Quaterniond::Identity(), Eigen::Quaterniond(0.8, 0.1, -0.3, 0.5).normalized()}) {
       const Pose pose = at({1, 2, 3}, attitude);
-      const Proximity out = find_proximity(*make_shape(shape), pose, *make_shape(shape), pose, tight());
+      const Proximity out = find_proximity(*make_shape(shape), pose, *make_shape(shape), pose, fine());
       const double depth = 2 * shape.half_axes().minCoeff();
       const bool good = out.status == Status::Converged && std::abs(out.gap + depth) <= 1e-10 * depth;
       if (!good) FAIL_CHECK(text(shape), " gap ", out.gap, " instead of ", -depth, " status ", static_cast<int>(out.status));
@@ -95,7 +95,7 @@ TEST_CASE("concentric, identical, aligned bodies: twice the smallest half-axis")
 TEST_CASE("concentric, identical, aligned superballs below exponent 2 separate through a face") {
   constexpr double kRadius = 0.7;
   for (const double exponent : {1.02, 1.1, 1.3, 1.5, 1.8, 1.95}) {
-    const Proximity out = find_proximity(superball(kRadius, exponent), {}, superball(kRadius, exponent), {}, tight());
+    const Proximity out = find_proximity(superball(kRadius, exponent), {}, superball(kRadius, exponent), {}, fine());
     const double depth = 2 * kRadius * std::pow(3, 0.5 - 1 / exponent);
     const bool good = out.status == Status::Converged && std::abs(out.gap + depth) <= 1e-10 * depth;
     if (!good)

@@ -19,7 +19,7 @@ using namespace supernormal::test;
 namespace {
 
 constexpr int kPairsPerClass = 2000;
-constexpr double kMissed = 1e-6;  // of the smallest half-axis
+constexpr double kMissedGap = 1e-6;  // of the smallest half-axis
 constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
 double pair_unit(const Shape& shape1, const Shape& shape2) {
@@ -98,7 +98,7 @@ TEST_CASE("random pairs: finite, consistent, quiet, proved where they must be, a
       const double rise = again.gap - out.gap;
       if (rise < -(gap.rounding() + again.error)) FAIL_CHECK(name, " fell by ", -rise);
       if (!(rise <= out.global_error + gap.rounding())) FAIL_CHECK(name, " rose by ", rise, " of ", out.global_error, " at most");
-      higher += rise > kMissed * pair_unit(*shape1, *shape2);
+      higher += rise > kMissedGap * pair_unit(*shape1, *shape2);
     }
     MESSAGE(std::string(kind.name), ": ", overlapping, " overlapping, ", higher, " found a higher maximum in a second solve");
     CHECK(overlapping > kPairsPerClass / 5);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "supernormal/proximity/pose.hpp"
+#include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
@@ -94,6 +95,10 @@ inline std::vector<ReferencePair> load_reference_pairs() {
 inline const std::vector<ReferencePair>& reference_pairs() {
   static const std::vector<ReferencePair> pairs = load_reference_pairs();
   return pairs;
+}
+
+inline Proximity solve(const ReferencePair& pair, const Settings& settings = {}, const Vector3* first_normal = nullptr) {
+  return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, first_normal);
 }
 
 }  // namespace supernormal::test

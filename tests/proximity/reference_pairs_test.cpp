@@ -15,10 +15,6 @@ using namespace supernormal::test;
 
 namespace {
 
-Proximity solve(const ReferencePair& pair, const Settings& settings = {}, const Vector3* first_normal = nullptr) {
-  return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, first_normal);
-}
-
 /// Smallest value that `share` of the values do not exceed.
 int percentile(std::vector<int> values, double share) {
   REQUIRE_FALSE(values.empty());

@@ -20,10 +20,10 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-Pose at(const Vector3& position) { return {position, Eigen::Matrix3d::Identity()}; }
+Pose upright_at(const Vector3& position) { return {position, Eigen::Matrix3d::Identity()}; }
 
 Settings with(Solver solver) {
   Settings settings;
@@ -31,14 +31,12 @@ Settings with(Solver solver) {
   return settings;
 }
 
-Proximity solve(const ReferencePair& pair, const Settings& settings = {}, const Vector3* first_normal = nullptr) {
-  return find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, settings, first_normal);
-}
-
 /// A body whose functions return NaN.
 class NotANumber final : public Shape {
  public:
-  void evaluate(const Vector3&, Order, Jet& jet) const override { jet = {kNan, Vector3::Constant(kNan), Matrix3::Constant(kNan)}; }
+  void evaluate(const Vector3&, Order, Jet& jet) const override {
+    jet = {kNotANumber, Vector3::Constant(kNotANumber), Matrix3::Constant(kNotANumber)};
+  }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 };
 
@@ -136,8 +134,8 @@ TEST_CASE("bodies without a Hessian are solved to the tolerance") {
 TEST_CASE("Newton of a body without a Hessian is the hybrid") {
   const auto shape = std::make_shared<Ellipsoid>(Vector3(3, 2, 1));
   const CallbackShape body = without_hessian(shape);
-  const Proximity newton = find_proximity(body, {}, *shape, at({3, 4, 2}), with(Solver::Newton));
-  const Proximity hybrid = find_proximity(body, {}, *shape, at({3, 4, 2}));
+  const Proximity newton = find_proximity(body, {}, *shape, upright_at({3, 4, 2}), with(Solver::Newton));
+  const Proximity hybrid = find_proximity(body, {}, *shape, upright_at({3, 4, 2}));
   CHECK(newton.gap == hybrid.gap);
   CHECK(newton.evaluations == hybrid.evaluations);
 }
@@ -206,7 +204,7 @@ TEST_CASE("a limit of evaluations is kept, and the answer so far is a valid one"
 }
 
 TEST_CASE("settings out of range are refused with name, value and range") {
-  for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNan, kInfinity}) {
+  for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNotANumber, kUnbounded}) {
     Settings settings;
     settings.tolerance = tolerance;
     const std::string message = refusal(settings);
@@ -235,15 +233,15 @@ TEST_CASE("settings out of range are refused with name, value and range") {
 TEST_CASE("what is not finite is called invalid input") {
   const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
   for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
-    for (const double bad : {kNan, kInfinity, -kInfinity}) {
-      Pose displaced = at({bad, 0, 0}), turned = at({5, 0, 0});
+    for (const double bad : {kNotANumber, kUnbounded, -kUnbounded}) {
+      Pose displaced = upright_at({bad, 0, 0}), turned = upright_at({5, 0, 0});
       turned.rotation(1, 2) = bad;
-      CHECK(find_proximity(shape, displaced, shape, at({5, 0, 0}), with(solver)).status == Status::InvalidInput);
+      CHECK(find_proximity(shape, displaced, shape, upright_at({5, 0, 0}), with(solver)).status == Status::InvalidInput);
       CHECK(find_proximity(shape, {}, shape, displaced, with(solver)).status == Status::InvalidInput);
       CHECK(find_proximity(shape, turned, shape, {}, with(solver)).status == Status::InvalidInput);
       CHECK(find_proximity(shape, {}, shape, turned, with(solver)).status == Status::InvalidInput);
     }
-    const Proximity out = find_proximity(shape, {}, NotANumber(), at({5, 0, 0}), with(solver));
+    const Proximity out = find_proximity(shape, {}, NotANumber(), upright_at({5, 0, 0}), with(solver));
     CHECK(out.status == Status::InvalidInput);
     CHECK(std::isfinite(out.gap));
     CHECK(out.normal.norm() == 1);
@@ -254,7 +252,7 @@ TEST_CASE("a body that is known only on one side: an answer or invalid input, an
   int known = 0;
   for (int k = 0; k < 200; ++k) {
     const KnownBelow body(-0.95 + 0.01 * k);
-    const Pose pose2 = at(Vector3{0.3 * std::cos(k), 0.3 * std::sin(k), -0.2});
+    const Pose pose2 = upright_at(Vector3{0.3 * std::cos(k), 0.3 * std::sin(k), -0.2});
     const Proximity out = find_proximity(body, {}, Superellipsoid(Vector3(1, 0.7, 0.5), 1.3, 1.4), pose2);
     known += out.status == Status::Converged;
     CHECK((out.status == Status::InvalidInput || (std::isfinite(out.gap) && out.normal.norm() == relative(1))));
@@ -264,10 +262,10 @@ TEST_CASE("a body that is known only on one side: an answer or invalid input, an
 
 TEST_CASE("an unusable first normal is no worse than none") {
   const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
-  const Proximity cold = find_proximity(shape, {}, shape, at({3, 4, 2}));
+  const Proximity cold = find_proximity(shape, {}, shape, upright_at({3, 4, 2}));
   for (const Vector3& bad :
-       {Vector3(0, 0, 0), Vector3(kNan, 0, 1), Vector3(0, kInfinity, 0), Vector3(0, 0, 2), Vector3(1e-200, 0, 0)}) {
-    const Proximity out = find_proximity(shape, {}, shape, at({3, 4, 2}), {}, &bad);
+       {Vector3(0, 0, 0), Vector3(kNotANumber, 0, 1), Vector3(0, kUnbounded, 0), Vector3(0, 0, 2), Vector3(1e-200, 0, 0)}) {
+    const Proximity out = find_proximity(shape, {}, shape, upright_at({3, 4, 2}), {}, &bad);
     CHECK(out.gap == cold.gap);
     CHECK(out.evaluations == cold.evaluations);
   }
@@ -276,7 +274,8 @@ TEST_CASE("an unusable first normal is no worse than none") {
 TEST_CASE("two spheres: one evaluation, exact") {
   for (const Vector3& direction : random_normals(20, 31)) {
     for (const double distance : {1e-3, 0.5, 1.75, 2.0, 40.0}) {
-      const Proximity out = find_proximity(Sphere(1.25), at({1, 2, 3}), Sphere(0.5), at(Vector3(1, 2, 3) + distance * direction));
+      const Proximity out =
+          find_proximity(Sphere(1.25), upright_at({1, 2, 3}), Sphere(0.5), upright_at(Vector3(1, 2, 3) + distance * direction));
       const double rounding = 4e-15 * std::max(1.0, distance);
       CHECK(out.status == Status::Converged);
       CHECK(out.evaluations == 1);
@@ -296,7 +295,7 @@ TEST_CASE("a point in and outside an ellipsoid: its true distance") {
       Settings settings;
       settings.tolerance = 1e-13;
       const Vector3 foot = body.point(n);
-      const Proximity out = find_proximity(body, {}, Sphere(0), at(foot + distance * n), settings);
+      const Proximity out = find_proximity(body, {}, Sphere(0), upright_at(foot + distance * n), settings);
       const bool good = out.status == Status::Converged && std::abs(out.gap - distance) <= out.error + 1e-15 * (3 + distance) &&
                         (out.point1 - foot).norm() <= 1e-5;
       if (!good) FAIL_CHECK("n ", text(n), " distance ", distance, " gap ", out.gap, " status ", static_cast<int>(out.status));
@@ -310,7 +309,7 @@ TEST_CASE("a point in and outside an ellipsoid: its true distance") {
 }
 
 TEST_CASE("two points: the distance") {
-  const Proximity out = find_proximity(Sphere(0), {}, Sphere(0), at({3, 4, 0}));
+  const Proximity out = find_proximity(Sphere(0), {}, Sphere(0), upright_at({3, 4, 0}));
   CHECK(out.status == Status::Converged);
   CHECK(std::abs(out.gap - 5) <= 4e-15);
 }

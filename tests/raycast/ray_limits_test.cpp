@@ -23,9 +23,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
-
 /// Draws bodies of every kind, points, segments and flat hulls among them; `points` holds those of a hull.
 std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, std::vector<Vector3>& points) {
   const auto length = [&] { return size * random.uniform(0.05, 1); };

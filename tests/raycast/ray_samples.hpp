@@ -1,6 +1,7 @@
 // Rays against superellipsoids, and their hits by the implicit equation alone.
 #pragma once
 
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -11,6 +12,11 @@
 #include "supernormal/raycast/ray.hpp"
 
 namespace supernormal::test {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Exceptions of floating-point numbers that a program may have switched on, as those of a query that goes wrong.
+inline constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 
 struct Ray {
   Vector3 origin, direction;

@@ -23,8 +23,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 constexpr int kRaysPerClass = 2000;
 
 /// Checks the conditions on every hit of a superellipsoid, against the implicit equation.

@@ -23,8 +23,6 @@ using supernormal::test::relative;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // The dumbbell of samples/compound at a tenth of its size, and a molar whose parts are apart.
 constexpr const char* kCompoundsText = R"([dumbbell]
 density = 7850
@@ -124,15 +122,15 @@ TEST_CASE("compounds: mass and inertia are those that samples/compound finds, ab
 
 TEST_CASE("compounds: what parts share counts once, with the first one's density") {
   constexpr double kRadius = 3e-3, kDistance = 4e-3;
-  const double sphere = 4 * kPi / 3 * std::pow(kRadius, 3);
-  const double lens = kPi / 12 * std::pow(2 * kRadius - kDistance, 2) * (kDistance + 4 * kRadius);
+  const double sphere = 4 * std::numbers::pi / 3 * std::pow(kRadius, 3);
+  const double lens = std::numbers::pi / 12 * std::pow(2 * kRadius - kDistance, 2) * (kDistance + 4 * kRadius);
   const Grain pair = make_compound("pair", {ball(kRadius, 1000, 0), ball(kRadius, 1000, kDistance)}, "test");
   CHECK(pair.compound_mass->mass == relative(1000 * (2 * sphere - lens)).epsilon(1e-5));
   CHECK(pair.density == relative(1000).epsilon(1e-12));
   CHECK(pair.parts[0].position[0] == relative(-kDistance / 2).epsilon(1e-5));
   // About the axis of the two: two spheres without a lens, whose integral of r^2 is that of its two caps.
   const double cap = kRadius - kDistance / 2;
-  const double caps = kPi * std::pow(cap, 3) * (20 * kRadius * kRadius - 15 * kRadius * cap + 3 * cap * cap) / 15;
+  const double caps = std::numbers::pi * std::pow(cap, 3) * (20 * kRadius * kRadius - 15 * kRadius * cap + 3 * cap * cap) / 15;
   const double expected = 1000 * (2 * 0.4 * sphere * kRadius * kRadius - caps);
   CHECK(pair.compound_mass->inertia[0][0] == relative(expected).epsilon(1e-5));
   // A ball within another one is not there, but the other way round it is a core of another density.

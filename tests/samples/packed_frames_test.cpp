@@ -78,7 +78,7 @@ BodyState body_at(double t, double phase) {
           {300 * t, -1e-30, 0}};
 }
 
-Frame frame_at(int index) {
+Frame noisy_frame(int index) {
   Frame frame;
   for (const double phase : {0.0, 0.5, 1.0, 2.0, 4.0}) frame.bodies.push_back(body_at(0.1 * index, phase));
   return frame;
@@ -98,7 +98,7 @@ TEST_CASE("base 64 as in RFC 4648, section 10") {
 TEST_CASE("bodies: positions are floats to the last bit, attitudes fractions, motions within 0.4 %") {
   constexpr int kFrames = 6;
   PackedBodies packed;
-  for (int index = 0; index < kFrames; ++index) packed.add(frame_at(index));
+  for (int index = 0; index < kFrames; ++index) packed.add(noisy_frame(index));
   REQUIRE(packed.texts().size() == kFrames);
   std::vector<std::vector<std::int64_t>> numbers(13, std::vector<std::int64_t>(5));
   for (int index = 0; index < kFrames; ++index) {
@@ -109,7 +109,7 @@ TEST_CASE("bodies: positions are floats to the last bit, attitudes fractions, mo
       for (std::size_t k = 0; k < 5; ++k) numbers[i][k] += changes[k];
     }
     CHECK(reader.is_at_end());
-    const Frame frame = frame_at(index);
+    const Frame frame = noisy_frame(index);
     for (std::size_t k = 0; k < 5; ++k) {
       const BodyState& body = frame.bodies[k];
       const auto number = [&](std::size_t i) { return static_cast<std::uint32_t>(numbers[i][k]); };
@@ -176,7 +176,7 @@ TEST_CASE("a motion that is no float's is the largest number, not an infinite on
 TEST_CASE("contacts: bodies, points from a body, normals, depths and forces") {
   for (const bool has_forces : {false, true}) {
     CAPTURE(has_forces);
-    Frame frame = frame_at(3);
+    Frame frame = noisy_frame(3);
     const auto force = has_forces ? std::optional(Point{1, -2e-3, 0}) : std::nullopt;
     const Point& centre = frame.bodies[2].position;
     frame.contacts = {{{centre[0] + 0.01, centre[1] - 0.02, centre[2]}, {0, 0.6, -0.8}, 1e-6, 2, 4, force},
@@ -211,7 +211,7 @@ TEST_CASE("contacts: bodies, points from a body, normals, depths and forces") {
 }
 
 TEST_CASE("contacts of fewer frames are kept when they do not fit, but always those of the last one") {
-  Frame frame = frame_at(1);
+  Frame frame = noisy_frame(1);
   frame.contacts = {{frame.bodies[0].position, {0, 0, 1}, 1e-6, 0, kWall}};
   PackedContacts probe(10'000);
   probe.add(frame);

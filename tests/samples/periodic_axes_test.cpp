@@ -26,8 +26,6 @@ namespace fx = supernormal::effects;
 
 namespace {
 
-Grain ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2500, "test"}; }
-
 /// kSceneText in a box that repeats along the axes of these lines.
 std::string periodic_text(const std::string& lines) { return std::string(kSceneText) + "[periodic]\n" + lines; }
 

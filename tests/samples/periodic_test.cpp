@@ -22,7 +22,6 @@ namespace {
 
 constexpr double kSide = 0.04;  // m
 
-Grain ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2500, "test"}; }
 Grain bean() { return {"bean", {6e-3, 4e-3, 3e-3}, 2, 2, 0, 1000, "test"}; }
 
 Scene weightless(double side, const Grain& grain, int count) {

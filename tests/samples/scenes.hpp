@@ -19,6 +19,9 @@ inline Scene scene_of(const std::string& text, const std::vector<std::string>& o
   return load_scene(folder.write("scene.toml", text), overrides);
 }
 
+/// A ball of 1 cm, kg and m.
+inline Grain ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2500, "test"}; }
+
 inline Scene scene_of(Container container, std::vector<GrainCount> grains) {
   namespace fx = supernormal::effects;
   double smallest = 1;

@@ -21,8 +21,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Checks h, r and the corners against points that cover the boundary, the farthest of which is within `grain` of the true
 /// maximum.
 void check_against(const Shape& shape, const std::vector<Vector3>& boundary, const std::vector<Vector3>& normals, double grain) {
@@ -68,7 +66,8 @@ std::vector<Vector3> box_corners(const Vector3& half) {
 std::vector<Vector3> circle(double radius, double z) {
   std::vector<Vector3> points;
   points.reserve(360);
-  for (int i = 0; i < 360; ++i) points.emplace_back(radius * std::cos(i * kPi / 180), radius * std::sin(i * kPi / 180), z);
+  for (int i = 0; i < 360; ++i)
+    points.emplace_back(radius * std::cos(i * std::numbers::pi / 180), radius * std::sin(i * std::numbers::pi / 180), z);
   return points;
 }
 
@@ -86,7 +85,8 @@ MassProperties revolved(const Section& section, double top) {
   MassProperties mass;
   Vector3 moment = Vector3::Zero();
   for (int i = 0; i < kSlices; ++i) {
-    const double z = top * (2 * (i + 0.5) / kSlices - 1), r2 = section(z) * section(z), slice = kPi * r2 * 2 * top / kSlices;
+    const double z = top * (2 * (i + 0.5) / kSlices - 1), r2 = section(z) * section(z),
+                 slice = std::numbers::pi * r2 * 2 * top / kSlices;
     mass.volume += slice;
     moment += slice * Vector3(r2 / 4, r2 / 4, z * z);
   }
@@ -215,8 +215,8 @@ TEST_CASE("polytope: mass of tetrahedron, octahedron, needles and a fine sphere"
   const std::vector<Vector3> fine = random_normals(2000, 72);
   const MassProperties ball = Polytope(fine).mass_properties();
   CHECK(ball.relative_error <= 1e-4);  // no more than the lattice can miss
-  CHECK(ball.volume < 4 * kPi / 3);
-  CHECK(ball.volume == relative(4 * kPi / 3).epsilon(0.02));
+  CHECK(ball.volume < 4 * std::numbers::pi / 3);
+  CHECK(ball.volume == relative(4 * std::numbers::pi / 3).epsilon(0.02));
 }
 
 TEST_CASE("polytope: what lies flat has no volume") {

@@ -23,10 +23,9 @@ const Ellipsoid kReference(Vector3(3, 2, 1));
 const CallbackShape::Support kGoodSupport = [](const Vector3& n) { return kReference.support(n); };
 const CallbackShape::Point kGoodPoint = [](const Vector3& n) { return kReference.point(n); };
 const CallbackShape::Hessian kGoodHessian = [](const Vector3& n) { return kReference.jet(n).H; };
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::string refusal(const CallbackShape::Support& support, const CallbackShape::Point& point,
-                    const CallbackShape::Hessian& hessian = {}) {
+std::string refusal_of(const CallbackShape::Support& support, const CallbackShape::Point& point,
+                       const CallbackShape::Hessian& hessian = {}) {
   try {
     CallbackShape(support, point, hessian);
   } catch (const std::invalid_argument& error) {
@@ -75,44 +74,44 @@ TEST_CASE("an order calls no function that it does not need") {
 }
 
 TEST_CASE("missing functions are refused") {
-  CHECK(refusal({}, kGoodPoint) == "the support function is missing");
-  CHECK(refusal(kGoodSupport, {}) == "the point function is missing");
+  CHECK(refusal_of({}, kGoodPoint) == "the support function is missing");
+  CHECK(refusal_of(kGoodSupport, {}) == "the point function is missing");
 }
 
 TEST_CASE("values that are not finite are refused, with the direction") {
   const auto only_up = [](const Vector3& n) { return n == Vector3::UnitZ(); };
-  const std::string support = refusal([&](const Vector3& n) { return only_up(n) ? kNan : kGoodSupport(n); }, kGoodPoint);
+  const std::string support = refusal_of([&](const Vector3& n) { return only_up(n) ? kNan : kGoodSupport(n); }, kGoodPoint);
   CHECK(support == "support = nan is not finite in the direction n = (0, 0, 1)");
   const std::string point =
-      refusal(kGoodSupport, [&](const Vector3& n) { return only_up(n) ? Vector3(0, HUGE_VAL, 1) : Vector3(kGoodPoint(n)); });
+      refusal_of(kGoodSupport, [&](const Vector3& n) { return only_up(n) ? Vector3(0, HUGE_VAL, 1) : Vector3(kGoodPoint(n)); });
   CHECK(point == "point = (0, inf, 1) is not finite in the direction n = (0, 0, 1)");
-  const std::string hessian = refusal(
+  const std::string hessian = refusal_of(
       kGoodSupport, kGoodPoint, [&](const Vector3& n) { return only_up(n) ? Matrix3::Constant(kNan) : Matrix3(kGoodHessian(n)); });
   CHECK(hessian == "hessian is not finite in the direction n = (0, 0, 1)");
 }
 
 TEST_CASE("a point off its supporting plane is refused; single precision is accepted") {
-  const std::string message = refusal([](const Vector3& n) { return 1.25 * kGoodSupport(n); }, kGoodPoint);
+  const std::string message = refusal_of([](const Vector3& n) { return 1.25 * kGoodSupport(n); }, kGoodPoint);
   check_contains(message, "differs from support = ");
   check_contains(message, "by more than 1e-6 of the size 3.75 m in the direction n = (");
-  CHECK(refusal([](const Vector3& n) { return static_cast<float>(kGoodSupport(n)); },
-                [](const Vector3& n) { return Vector3(kGoodPoint(n).cast<float>().cast<double>()); }) == "accepted");
+  CHECK(refusal_of([](const Vector3& n) { return static_cast<float>(kGoodSupport(n)); },
+                   [](const Vector3& n) { return Vector3(kGoodPoint(n).cast<float>().cast<double>()); }) == "accepted");
 }
 
 TEST_CASE("a body without width is refused, one beside its origin is not") {
   const auto segment = [](const Vector3& n) { return std::abs(n.x()); };
   const auto end = [](const Vector3& n) { return Vector3(std::copysign(1.0, n.x()), 0, 0); };
-  check_contains(refusal(segment, end), "the width support(n) + support(-n) = 0 m is below 2e-30 m in the direction n = (");
-  check_contains(refusal([](const Vector3&) { return 0.0; }, [](const Vector3&) { return Vector3(0, 0, 0); }),
+  check_contains(refusal_of(segment, end), "the width support(n) + support(-n) = 0 m is below 2e-30 m in the direction n = (");
+  check_contains(refusal_of([](const Vector3&) { return 0.0; }, [](const Vector3&) { return Vector3(0, 0, 0); }),
                  "size of the body = 0 m is outside [1e-30, 1e+30] m");
   // This body is so thin that squares of its thickness underflow (found by tests/fuzz).
   const Vector3 axes(1, 1e-300, 2);
-  check_contains(refusal([&](const Vector3& n) { return axes.cwiseProduct(n).norm(); },
-                         [&](const Vector3& n) { return Vector3(axes.cwiseProduct(axes.cwiseProduct(n).normalized())); }),
+  check_contains(refusal_of([&](const Vector3& n) { return axes.cwiseProduct(n).norm(); },
+                            [&](const Vector3& n) { return Vector3(axes.cwiseProduct(axes.cwiseProduct(n).normalized())); }),
                  " m is below 2e-30 m in the direction n = (0, -1, 0)");
   const Vector3 offset(100, 0, 0);
-  CHECK(refusal([&](const Vector3& n) { return kGoodSupport(n) + n.dot(offset); },
-                [&](const Vector3& n) { return Vector3(kGoodPoint(n) + offset); }) == "accepted");
+  CHECK(refusal_of([&](const Vector3& n) { return kGoodSupport(n) + n.dot(offset); },
+                   [&](const Vector3& n) { return Vector3(kGoodPoint(n) + offset); }) == "accepted");
 }
 
 TEST_CASE("a body that is not convex is refused") {
@@ -124,12 +123,12 @@ TEST_CASE("a body that is not convex is refused") {
     const Vector3 around(-std::sin(angle), std::cos(angle), 0);
     return Vector3(h(n) * n - (across > 0 ? 1.2 * std::sin(4 * angle) / across : 0) * around);
   };
-  check_contains(refusal(h, r), "the body is not convex: point(");
+  check_contains(refusal_of(h, r), "the body is not convex: point(");
 }
 
 TEST_CASE("a Hessian that cannot be one is refused") {
   const auto with = [](const std::function<Matrix3(const Vector3&)>& hessian) {
-    return refusal(kGoodSupport, kGoodPoint, hessian);
+    return refusal_of(kGoodSupport, kGoodPoint, hessian);
   };
   check_contains(with([](const Vector3& n) {
                    Matrix3 H = kGoodHessian(n);

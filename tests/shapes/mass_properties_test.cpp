@@ -22,8 +22,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vector3 mean_squares(const MassProperties& mass) { return mass.second_moment.diagonal() / mass.volume; }
 
 /// Checks agreement relative to the body's size, moments about the origin included.
@@ -197,7 +195,7 @@ TEST_CASE("mass: Steiner's formula, coefficient by coefficient") {
     CHECK(coefficients[0] == relative(core->mass_properties().volume).epsilon(1e-14));
     CHECK(coefficients[1] == relative(reference.area).epsilon(1e-12));
     CHECK(coefficients[2] == relative(reference.width).epsilon(1e-12));
-    CHECK(coefficients[3] == relative(4 * kPi / 3).epsilon(1e-12));
+    CHECK(coefficients[3] == relative(4 * std::numbers::pi / 3).epsilon(1e-12));
   }
 }
 
@@ -212,7 +210,8 @@ TEST_CASE("mass: Steiner's formula for every exponent and slender bodies") {
     // The cubic coefficient is the unit sphere's volume: the normals are covered once. Differences of volumes lose the digits
     // that `lost` counts.
     const double lost = Rounded(core, 3).mass_properties().volume;
-    if (!(std::abs(coefficients[3] - 4 * kPi / 3) <= 1e-13 * lost)) FAIL_CHECK(text(shape), " cubic ", coefficients[3]);
+    if (!(std::abs(coefficients[3] - 4 * std::numbers::pi / 3) <= 1e-13 * lost))
+      FAIL_CHECK(text(shape), " cubic ", coefficients[3]);
     CHECK(Rounded(core, 0.1).mass_properties().relative_error <= 1e-10);
     // A thin layer is area times thickness: second moments continue those of the core.
     const double thin = 1e-9 * shape.half_axes().minCoeff();
@@ -222,8 +221,8 @@ TEST_CASE("mass: Steiner's formula for every exponent and slender bodies") {
 
 TEST_CASE("mass: rounded boxes approach the exact rounded box") {
   const double a = 3, b = 2, c = 1, radius = 0.5;
-  const double volume = 8 * a * b * c + 8 * (a * b + b * c + c * a) * radius + 2 * kPi * (a + b + c) * radius * radius +
-                        4 * kPi / 3 * std::pow(radius, 3);
+  const double volume = 8 * a * b * c + 8 * (a * b + b * c + c * a) * radius +
+                        2 * std::numbers::pi * (a + b + c) * radius * radius + 4 * std::numbers::pi / 3 * std::pow(radius, 3);
   double previous = 1;
   for (const double exponent : {50.0, 200.0, 1000.0}) {
     const double defect =
@@ -252,7 +251,7 @@ TEST_CASE("mass: a lens, whose edge is an open set of normals, within its report
     return Matrix3(rim / across * around * around.transpose());
   };
   const double cap = radius - offset;
-  const double volume = 2 * kPi * cap * cap * (3 * radius - cap) / 3;
+  const double volume = 2 * std::numbers::pi * cap * cap * (3 * radius - cap) / 3;
   for (const bool with_hessian : {true, false}) {
     const auto lens =
         std::make_shared<CallbackShape>(h, r, with_hessian ? CallbackShape::Hessian(hessian) : CallbackShape::Hessian());
@@ -286,7 +285,8 @@ TEST_CASE("mass: flat faces and straight edges, which the normals do not see, ar
                              const double length = across(n);
                              return Vector3(radius * n + (length > 0 ? disk / length : 0) * Vector3(n.x(), n.y(), 0));
                            });
-  const double volume = kPi * disk * disk * 2 * radius + kPi * kPi * disk * radius * radius + 4 * kPi / 3 * std::pow(radius, 3);
+  const double volume = std::numbers::pi * disk * disk * 2 * radius + std::numbers::pi * std::numbers::pi * disk * radius * radius +
+                        4 * std::numbers::pi / 3 * std::pow(radius, 3);
   const MassProperties mass = pill.mass_properties();
   CHECK(std::abs(mass.volume / volume - 1) <= mass.relative_error);
   CHECK(mass.relative_error < 0.6);
@@ -297,7 +297,7 @@ TEST_CASE("mass: a shape that delivers no numbers is an error, not a mass") {
   const CallbackShape shape(
       [&](const Vector3&) { return broken ? std::numeric_limits<double>::quiet_NaN() : 1.0; },
       [&](const Vector3& n) { return broken ? Vector3(n * std::numeric_limits<double>::infinity()) : Vector3(n); });
-  CHECK(shape.mass_properties().volume == relative(4 * kPi / 3));
+  CHECK(shape.mass_properties().volume == relative(4 * std::numbers::pi / 3));
   broken = true;
   CHECK_THROWS_AS(shape.mass_properties(), std::domain_error);
 }
@@ -305,7 +305,7 @@ TEST_CASE("mass: a shape that delivers no numbers is an error, not a mass") {
 TEST_CASE("mass: the inertia is about the centroid, wherever the origin of the body's frame is") {
   const Vector3 half_axes(1, 0.8, 0.6);
   const auto ellipsoid = std::make_shared<Ellipsoid>(half_axes);
-  const double volume = 4.0 / 3 * kPi * half_axes.prod();
+  const double volume = 4.0 / 3 * std::numbers::pi * half_axes.prod();
   const Vector3 squares = half_axes.cwiseAbs2() / 5;
   const Vector3 expected = volume * Vector3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
   for (const Vector3& position : {Vector3(0, 0, 0), Vector3(2, -1, 0.5)}) {

@@ -14,6 +14,8 @@
 
 namespace supernormal::test {
 
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 inline std::string text(const Vector3& v) {
   std::ostringstream out;
   out.precision(17);

@@ -12,18 +12,12 @@
 
 using namespace supernormal;
 
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
-
 TEST_CASE("an ellipsoid's silhouette is that of its closed form") {
   const Vector3 a(3, 0.2, 1);
   const Ellipsoid body(a);
   for (const Vector3& u : {Vector3(1, 0, 0), Vector3(0, 0, 5), Vector3(1, 2, 3), Vector3(-0.3, 0.9, 0.01)}) {
     const Vector3 n = u.normalized();
-    const double area = kPi * std::hypot(a.y() * a.z() * n.x(), a.z() * a.x() * n.y(), a.x() * a.y() * n.z());
+    const double area = std::numbers::pi * std::hypot(a.y() * a.z() * n.x(), a.z() * a.x() * n.y(), a.x() * a.y() * n.z());
     CHECK(std::abs(projected_area(body, u) / area - 1) < 1e-12);
   }
 }
@@ -41,16 +35,16 @@ TEST_CASE("the silhouette of a box-like body is that of the box to half a per ce
 TEST_CASE("the surface of spheroids") {
   const auto oblate = [](double a, double c) {
     const double e = std::sqrt(1 - c * c / (a * a));
-    return 2 * kPi * a * a * (1 + (1 - e * e) / e * std::atanh(e));
+    return 2 * std::numbers::pi * a * a * (1 + (1 - e * e) / e * std::atanh(e));
   };
-  CHECK(std::abs(surface_area(Ellipsoid(Vector3(2, 2, 2))) / (16 * kPi) - 1) < 1e-12);
+  CHECK(std::abs(surface_area(Ellipsoid(Vector3(2, 2, 2))) / (16 * std::numbers::pi) - 1) < 1e-12);
   CHECK(std::abs(surface_area(Ellipsoid(Vector3(1, 1, 0.4))) / oblate(1, 0.4) - 1) < 1e-3);
 }
 
 TEST_CASE("the submerged part of an ellipsoid is the image of a sphere's cap") {
   const Vector3 a(0.3, 0.2, 0.1);
   const SubmergedVolume submerged_volume{Ellipsoid(a)};
-  const double whole = 4 * kPi / 3 * a.prod();
+  const double whole = 4 * std::numbers::pi / 3 * a.prod();
   CHECK(std::abs(submerged_volume.volume() / whole - 1) < 1e-12);
   const Vector3 up = Vector3(1, -2, 2) / 3;
   const Vector3 scaled = a.cwiseProduct(up);

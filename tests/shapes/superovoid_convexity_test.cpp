@@ -5,30 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <stdexcept>
 #include <string>
 
+#include "refusal.hpp"
 #include "relative.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
 using namespace supernormal;
-
-namespace {
-
-std::string refusal(const std::function<void()>& construct) {
-  try {
-    construct();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-}  // namespace
+using namespace supernormal::test;
 
 TEST_CASE("superovoid: what is not convex is refused, with the condition that fails") {
   const Vector3 axes(3, 2, 1);

@@ -12,9 +12,9 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr std::uint64_t kSamples = 4000;
+constexpr std::uint64_t kStackSamples = 4000;
 
-void check(const samples::HardCase& one, const Settings& settings) {
+void check_stack(const samples::HardCase& one, const Settings& settings) {
   const Vector3* const start = one.first_normal ? &*one.first_normal : nullptr;
   const auto ask = [&] { return find_proximity(*one.shape1, one.pose1, *one.shape2, one.pose2, settings, start); };
   if (!is_same_on_every_stack(ask)) FAIL_CHECK(one.name);
@@ -29,8 +29,8 @@ TEST_CASE("hard cases: the same digits over any stack, and nothing computed with
   certified.certify_depth = true;
   certified.max_evaluations = 300;
   for (const samples::HardCase& one : samples::hard_cases()) {
-    check(one, {});
-    check(one, certified);
+    check_stack(one, {});
+    check_stack(one, certified);
   }
 }
 
@@ -38,9 +38,9 @@ TEST_CASE("random pairs: the same digits over any stack, and nothing computed wi
   for (const Mix mix : {Mix::Everything, Mix::Sharp}) {
     const SampleSource source(22, mix);
     Sample sample;
-    for (std::uint64_t index = 0; index < kSamples; ++index) {
+    for (std::uint64_t index = 0; index < kStackSamples; ++index) {
       source.draw(index, sample);
-      check(sample.pair, sample.settings);
+      check_stack(sample.pair, sample.settings);
     }
   }
 }

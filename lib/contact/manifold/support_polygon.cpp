@@ -79,9 +79,11 @@ double tangent_of_tilt(double reach, double height) {
   return std::sqrt(x * std::sqrt(x * std::sqrt(x)));
 }
 
+}  // namespace
+
 /// The straight edge of a body that is round across it, a capsule or a cylinder on its side: the two ends. The ends of the body lie
 /// beside it on what is round, however far the normal is tilted.
-class StraightEdge {
+class SupportPolygon::StraightEdge {
  public:
   StraightEdge(const Shape& shape, const Vector3& n, const Vector3& support_point) {
     if (!shape.has_kinks()) return;
@@ -110,8 +112,6 @@ class StraightEdge {
   Vector3 direction_ = Vector3::Zero();
   bool exists_ = false;
 };
-
-}  // namespace
 
 /// Evaluates points of a body relative to its support point, all in the body's frame.
 class SupportPolygon::Observer {

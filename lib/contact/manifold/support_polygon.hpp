@@ -81,6 +81,7 @@ class SupportPolygon {
   using Tilt = std::array<double, 2>;  // tilt of the normal, n + tilt[0] axes[0] + tilt[1] axes[1]
 
   class Observer;
+  class StraightEdge;
   class View;
 
   Tilt tilt_of_face(const std::array<PatchSupport, 4>& sights, const Tilt& diagonal) const;

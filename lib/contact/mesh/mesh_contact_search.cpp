@@ -18,10 +18,6 @@ constexpr double kArcTolerance = 1e-2;  // of the tolerance of the gap
 // The searched box is larger than the body's, so that rounding loses no triangle that touches it.
 constexpr double kBoxMargin = 1e-9;  // of the length unit
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-int next(int k) { return k == 2 ? 0 : k + 1; }
-
 }  // namespace
 
 std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
@@ -146,7 +142,7 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
   const int first_evaluation = probe.evaluations();
   const ArcMaximum top = maximize_between(probe, arc, low, high, arc_tolerance(), settings_.max_evaluations);
   if (top.is_apart || !(top.gap <= 0)) return;
-  const Vector3 edge = face.vertices[at(next(side))] - arc.edge_point;
+  const Vector3 edge = face.vertices[at(next_corner(side))] - arc.edge_point;
   const double share = edge.dot(top.point - arc.edge_point) / edge.squaredNorm();
   SurfaceContact contact = contact_at(f, top.normal, top.gap, top.point);
   contact.crease = surface_.corner_count() + 3 * f + side;
@@ -154,7 +150,7 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
   contact.feature_point = arc.edge_point + std::clamp(share, 0.0, 1.0) * edge;
   const bool is_beyond_end = (contact.feature_point - contact.surface_point).norm() > surface_.rounding();
   if (is_beyond_end && surface_.find_wall(top.normal, contact.feature_point, contact.surface_point) < 0) {
-    find_on_vertex(probe, f, share < 0 ? side : next(side), top.normal);
+    find_on_vertex(probe, f, share < 0 ? side : next_corner(side), top.normal);
     return;
   }
   contact.error = top.error;

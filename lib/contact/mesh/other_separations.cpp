@@ -9,12 +9,6 @@
 #include "proximity/bounds/other_maxima.hpp"
 
 namespace supernormal {
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 // Searches every part that the body touches for a shorter separating translation than the known one: on the edges wherever one is
 // possible, at the vertices of a convex part by solving for its hull. Of 20 000 random pairs of bodies with exponents 1.02...200
 // and convex meshes, apart or overlapping by up to 10 %, 23 have a minimum translation that is found here only.

@@ -33,10 +33,6 @@ bool rises(const Face& face, const Vector3& normal, const Vector3& from, double 
   });
 }
 
-int next(int k) { return k == 2 ? 0 : k + 1; }
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 }  // namespace
 
 void Surface::build(std::span<const MeshTriangle> triangles, const Vector3& origin, double length_unit) {
@@ -62,7 +58,7 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin) {
   }
   std::array<Vector3, 3> edges;
   for (int k = 0; k < 3; ++k) {
-    edges[at(k)] = face.vertices[at(next(k))] - face.vertices[at(k)];
+    edges[at(k)] = face.vertices[at(next_corner(k))] - face.vertices[at(k)];
     longest = std::max(longest, edges[at(k)].norm());
   }
   const Vector3 area = edges[0].cross(edges[1]);  // twice the area, along the normal
@@ -107,7 +103,7 @@ void Surface::match_edges() {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const std::array<int, 3>& corner = faces_[f].corner;
     for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(corner[at(k)], corner[at(next(k))]);
+      const auto [low, high] = std::minmax(corner[at(k)], corner[at(next_corner(k))]);
       uses_.push_back(
           {std::uint64_t{static_cast<std::uint32_t>(low)} << 32U | static_cast<std::uint32_t>(high), static_cast<int>(f), k});
     }
@@ -215,7 +211,7 @@ Vector3 Surface::nearest_on_rim(const CoplanarPatch& patch, const Vector3& point
     for (int k = 0; k < 3; ++k) {
       if (face.convexity[at(k)] == EdgeConvexity::Flat) continue;
       const Vector3& start = face.vertices[at(k)];
-      const Vector3 edge = face.vertices[at(next(k))] - start;
+      const Vector3 edge = face.vertices[at(next_corner(k))] - start;
       const double share = std::clamp(edge.dot(point - start) / edge.squaredNorm(), 0.0, 1.0);
       const Vector3 candidate = start + share * edge;
       const double squared = (candidate - point).squaredNorm();

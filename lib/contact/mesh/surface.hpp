@@ -10,6 +10,11 @@
 
 namespace supernormal {
 
+inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// The vertex of a face that follows vertex k.
+inline int next_corner(int k) { return k == 2 ? 0 : k + 1; }
+
 /// How two faces meet at an edge, seen from outside.
 enum class EdgeConvexity { Border, Flat, Convex, Concave };
 

@@ -13,8 +13,6 @@ namespace {
 // Normals that differ by less than this (radians) are indistinguishable at the tolerance of the gap.
 constexpr double kNearEdgeNormal = 1e-5;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 double angle_at(const Face& face, int k) {
   const Vector3 edge1 = face.vertices[at((k + 1) % 3)] - face.vertices[at(k)];
   const Vector3 edge2 = face.vertices[at((k + 2) % 3)] - face.vertices[at(k)];

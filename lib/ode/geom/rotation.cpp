@@ -19,11 +19,11 @@ constexpr double kLastError = 1e-8;
 // The squares of entries larger than this would overflow.
 constexpr double kLargestEntry = 1e100;
 
-std::string to_text(const Matrix3& R) {
+std::string matrix_text(const Matrix3& R) {
   std::string text;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      text += supernormal::to_text(R(row, column)) + (column < 2 ? ", " : row < 2 ? "; " : "");
+      text += to_text(R(row, column)) + (column < 2 ? ", " : row < 2 ? "; " : "");
     }
   }
   return "[" + text + "]";
@@ -36,8 +36,8 @@ Matrix3 nearest_rotation(const Matrix3& R, dGeomID geom) {
   if (!all_finite(R)) return R;
   const bool is_near = all_within(R, kLargestEntry) && rotation_error(R) <= kNearRotation;
   if (!is_near) {
-    throw std::invalid_argument("the rotation of " + geom_class_name(geom) + " is " + to_text(R) +
-                                " (rows), whose columns are not, to " + supernormal::to_text(kNearRotation) +
+    throw std::invalid_argument("the rotation of " + geom_class_name(geom) + " is " + matrix_text(R) +
+                                " (rows), whose columns are not, to " + to_text(kNearRotation) +
                                 ", unit vectors at right angles and right-handed");
   }
   Matrix3 Q = R;

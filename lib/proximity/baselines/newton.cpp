@@ -10,7 +10,7 @@ namespace supernormal {
 namespace {
 
 // The predicted gain is half the slope times the step; twice that allows for the change of the Hessian over the step.
-constexpr double kGainSafety = 2;
+constexpr double kHessianChange = 2;
 
 Proximity answer_with_contact(const GapFunction& gap, const Settings& settings, const GapJet& jet, double error, Status status) {
   Proximity out = answer(gap, settings, jet, error, status);
@@ -33,7 +33,7 @@ Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3
     const Vector2 step = local.model.A.solve(local.model.g);
     if (!all_finite(step))
       return answer_with_contact(gap, settings, jet, 0, local.model.g.norm() == 0 ? Status::Converged : Status::Diverged);
-    const double error = kGainSafety * 0.5 * std::abs(local.model.g.dot(step));
+    const double error = kHessianChange * 0.5 * std::abs(local.model.g.dot(step));
     if (error <= tolerance)
       return answer_with_contact(gap, settings, jet, error,
                                  std::isfinite(local.model.largest_gain()) ? Status::Converged : Status::Diverged);

@@ -11,7 +11,7 @@ namespace supernormal {
 namespace {
 
 // A point is beyond a facet when it is so by more than this share of the longest vertex.
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double kBeyond = 8 * std::numeric_limits<double>::epsilon();
 
 // The plane of a triangle whose two shorter sides are that nearly parallel (radians) is rounding.
 constexpr double kThin = 1e-8;
@@ -65,20 +65,20 @@ bool InnerPolytope::add(const Vector3& point) {
     most = height;
     seen = k;
   }
-  return most > kRounding * length_ && replace_visible(vertex, seen);
+  return most > kBeyond * length_ && replace_visible(vertex, seen);
 }
 
 // The plane of a thin facet may not be known, but that across its nearest point is.
 bool InnerPolytope::add(const Vector3& point, const Nearest& facet) {
   const Vector3 vertex = point - centre_;
-  const bool is_beyond = facet.normal.dot(vertex) - (facet.distance + centre_.norm()) > kRounding * length_;
+  const bool is_beyond = facet.normal.dot(vertex) - (facet.distance + centre_.norm()) > kBeyond * length_;
   return is_beyond && replace_visible(vertex, facet.facet);
 }
 
 bool InnerPolytope::replace_visible(const Vector3& vertex, Index seen) {
   // A vertex on an edge of the horizon would make a triangle without area: there the facet beyond, of the same plane or none, goes
   // too.
-  if (!find_horizon(vertex, seen, 0) && !find_horizon(vertex, seen, -kRounding * length_)) return false;
+  if (!find_horizon(vertex, seen, 0) && !find_horizon(vertex, seen, -kBeyond * length_)) return false;
   for (const Index facet : visible_) facets_[facet].is_removed = true;
   const auto apex = static_cast<Index>(vertices_.size());
   vertices_.push_back(vertex);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kFlatRadius = 1e8;
 
 // Directions closer than this (radians) to the plane of another have no gnomonic coordinates beyond rounding.
-constexpr double kGrazing = 1e-15;
+constexpr double kBesidePlane = 1e-15;
 
 /// The bodies propose u1 and u2; each counts by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2). This is computed as what
 /// the rounder body changes of the flatter one's, which counts alone where the sum is that of an edge, singular.
@@ -30,7 +30,7 @@ Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, con
 /// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal, or grazes the plane.
 bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
   const double height = direction.dot(plane.n);
-  if (!(height > kGrazing * direction.norm())) return false;
+  if (!(height > kBesidePlane * direction.norm())) return false;
   u = plane.project(direction) / height;
   return true;
 }

@@ -20,7 +20,7 @@ constexpr int kMaxShifts = 24;  // the secant takes two to four
 constexpr double kLeastShare = 1e-2;
 
 // A piece that lies lower than the maximum by less than this share of the values is no lower.
-constexpr double kRounding = 1e-15;
+constexpr double kValueRounding = 1e-15;
 
 // Where pieces meet farther away than about this (gnomonic), they are parallel but for rounding.
 constexpr double kFarthest = 1e100;
@@ -124,7 +124,7 @@ PiecewiseModel::Peak PiecewiseModel::maximize() const {
     const double curvature = 0.5 * peak.u.dot(A * peak.u);
     const double height = peak.gain + curvature;
     std::size_t lowest = peak.active[0];
-    double lowest_value = height - kRounding * (std::abs(height) + curvature);
+    double lowest_value = height - kValueRounding * (std::abs(height) + curvature);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const double value = pieces[k].at(peak.u);
       if (!(value < lowest_value)) continue;

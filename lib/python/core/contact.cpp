@@ -61,7 +61,7 @@ constexpr const char* kContactsDoc =
 room: in [1, inf); ValueError otherwise. Round bodies have one contact, flat ones the deepest and two to four corners; with room for
 2 to 4 the corners take the place of the deepest. None if the bodies are apart. The normal of all is deepest.normal.)";
 
-constexpr const char* kFindDoc = R"(The contact manifold of two bodies whose proximity is known.
+constexpr const char* kFindManifoldDoc = R"(The contact manifold of two bodies whose proximity is known.
 
 proximity: what find_proximity() returned for the same bodies and poses.)";
 
@@ -93,7 +93,7 @@ void bind_contact(py::module_& m) {
       .def_readonly("same_place", &ContactManifold::same_place, "m; corners that are nearer to each other are one contact")
       .def_readonly("evaluations", &ContactManifold::evaluations, "boundary points that finding the corners took")
       .def("contacts", &contacts, py::arg("room") = 8, kContactsDoc);
-  m.def("find_contact_manifold", &find_contact_manifold, kFindDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"),
+  m.def("find_contact_manifold", &find_contact_manifold, kFindManifoldDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"),
         py::arg("pose2"), py::arg("proximity"));
   m.def("find_plane_contact_manifold", &find_plane_contact_manifold, kFindPlaneDoc, py::arg("shape"), py::arg("pose"),
         py::arg("proximity"));

@@ -28,7 +28,7 @@ RayHit ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, cons
 
 constexpr const char* kHitDoc = "The point where a ray meets the boundary of a body, in the world's frame.";
 
-constexpr const char* kFindDoc =
+constexpr const char* kRayDoc =
     R"(The first point of the boundary on a ray: where it enters the body or, from inside, where it leaves it.
 
 origin: (3,), m, within 1e150; direction: (3,), any length but 0, made a unit vector; length: m, in [0, inf]. Of the settings,
@@ -55,7 +55,7 @@ void bind_raycast(py::module_& m) {
         return "RayHit(hit=True, distance=" + to_text(self.distance) + ", point=" + vector_text(self.point.data(), 3) +
                ", normal=" + vector_text(self.normal.data(), 3) + ")";
       });
-  m.def("find_ray_hit", &ray_hit, kFindDoc, py::arg("shape"), py::arg("pose"), py::arg("origin"), py::arg("direction"),
+  m.def("find_ray_hit", &ray_hit, kRayDoc, py::arg("shape"), py::arg("pose"), py::arg("origin"), py::arg("direction"),
         py::arg("length") = std::numeric_limits<double>::infinity(), py::arg("settings") = Settings());
 }
 

@@ -8,11 +8,8 @@
 namespace explain_pair {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 constexpr std::size_t kSphereColumns = 181, kSphereRows = 91;  // 2 degrees
 constexpr std::size_t kCloseUpNodes = 97;
-constexpr double kPixelError = 0.12;
 
 Eigen::AlignedBox2d room_in(const Box& box) {
   const Vector2 margin(12, 12);
@@ -29,7 +26,7 @@ MapInPicture hammer_in(const Box& box, const Frame& frame) {
     return Vector2(centre + scale * Vector2(point.x(), -point.y()));
   };
   const auto place = [](double column, double row) {
-    return Place{kPi * (2 * column / (kSphereColumns - 1) - 1), kPi * (row / (kSphereRows - 1) - 0.5)};
+    return Place{std::numbers::pi * (2 * column / (kSphereColumns - 1) - 1), std::numbers::pi * (row / (kSphereRows - 1) - 0.5)};
   };
   return {kSphereColumns,
           kSphereRows,
@@ -66,7 +63,7 @@ Grid grid_of(const MapInPicture& map, const std::function<double(const Vector3&)
 std::vector<Polyline> in_picture(std::vector<Polyline> lines, const MapInPicture& map) {
   for (Polyline& line : lines) {
     for (Vector2& point : line) point = map.node_to_px(point);
-    line = simplified(line, kPixelError);
+    line = simplified(line, kMapLineError);
   }
   return lines;
 }

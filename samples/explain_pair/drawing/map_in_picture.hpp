@@ -12,6 +12,9 @@
 
 namespace explain_pair {
 
+constexpr double kMapLineError = 0.12;  ///< px; of a line that is drawn on a map
+constexpr double kNumbersApart = 20;    ///< px; numbers on a map that would be nearer to others are left out
+
 /// A map into the picture: where normals are, and the normal at each node of a grid.
 struct MapInPicture {
   std::size_t columns, rows;

@@ -18,11 +18,7 @@
 namespace explain_pair {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
-
 constexpr int kBands = 18, kCloseUpBands = 10;
-constexpr double kPixelError = 0.12;
 constexpr double kOnMap = 1 - 1e-9;  // of the half of the map: the end of a parallel is on its own side
 
 /// Levels at multiples of a round step.
@@ -63,11 +59,11 @@ void draw_graticule(Svg& svg, const Frame& frame, const MapInPicture& map) {
       const double share = 2.0 * k / kPieces - 1;
       line.push_back(map.to_px(normal_at(frame, place(kOnMap * share))));
     }
-    svg.polyline(simplified(line, kPixelError), R"(stroke="#234" stroke-opacity="0.25" stroke-width="0.7")");
+    svg.polyline(simplified(line, kMapLineError), R"(stroke="#234" stroke-opacity="0.25" stroke-width="0.7")");
   };
   for (int k = -2; k <= 2; ++k) {
-    draw([k](double share) { return Place{share * kPi, k * 30 * kDegree}; });
-    draw([k](double share) { return Place{k * 60 * kDegree, share * kPi / 2}; });
+    draw([k](double share) { return Place{share * std::numbers::pi, k * 30 * kDegree}; });
+    draw([k](double share) { return Place{k * 60 * kDegree, share * std::numbers::pi / 2}; });
   }
 }
 

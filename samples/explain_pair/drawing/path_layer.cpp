@@ -14,12 +14,8 @@ namespace {
 
 using supernormal::Solver;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
-constexpr double kStep = 2 * kDegree;  // of an arc on the map
-constexpr double kPixelError = 0.12;
+constexpr double kStep = 2 * kDegree;        // of an arc on the map
 constexpr double kMarkersApart = 7;          // px; markers that would be nearer to others are left out
-constexpr double kNumbersApart = 20;         // px; the same for their numbers
 constexpr std::size_t kFewEvaluations = 20;  // a longer path is drawn finely, without a rim
 constexpr std::size_t kNumbered = 9;
 
@@ -54,7 +50,7 @@ std::vector<Polyline> lines_of(const SolverPath& path, std::size_t count, const 
     lines.back().insert(lines.back().end(), pieces.front().begin() + 1, pieces.front().end());
     lines.insert(lines.end(), pieces.begin() + 1, pieces.end());
   }
-  for (Polyline& line : lines) line = simplified(line, kPixelError);
+  for (Polyline& line : lines) line = simplified(line, kMapLineError);
   return lines;
 }
 

@@ -6,7 +6,6 @@
 namespace explain_pair {
 namespace {
 
-constexpr double kNumbersApart = 20;    // px; numbers that would be nearer to others are left out
 constexpr double kSmallestRegion = 24;  // px; what the cuts leave is not drawn if it is smaller
 constexpr std::size_t kMostRegions = 4;
 

@@ -12,8 +12,6 @@
 namespace explain_pair {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // A curve is halved until its points are this near to one another or their parameters are as good as equal: at a flat face the
 // boundary point jumps.
 constexpr double kPixelStep = 3;
@@ -22,7 +20,7 @@ constexpr int kFirstPoints = 32;
 constexpr double kRounding = 1e-15;
 
 // Of a drawn line from the exact one.
-constexpr double kPixelError = 0.08;
+constexpr double kOutlineError = 0.08;
 
 // Of the best by area: among views that show as much, that with the offset of the centres in the picture plane is chosen.
 constexpr double kPreference = 0.02;
@@ -55,7 +53,7 @@ Polyline trace(const PlacedBody& body, const View& view, const Curve& normal, do
     const Vector2 first = line.back();
     halve(from, first, to, point_at(to));
   }
-  return simplified(line, kPixelError);
+  return simplified(line, kOutlineError);
 }
 
 /// Components that are 0 but for rounding are 0: the boundary point of a body with flat faces is a steep power of them.
@@ -78,7 +76,7 @@ struct Circle {
   /// Normals up to this angle to both sides of the start are visible; pi if all are, negative if none is.
   double visible(const Vector3& toward) const {
     const double depth = cosine * axis.dot(toward), reach = sine * nearest.dot(toward);
-    if (depth >= reach) return kPi;
+    if (depth >= reach) return std::numbers::pi;
     if (depth <= -reach) return -1;
     return std::acos(std::clamp(-depth / reach, -1.0, 1.0));
   }
@@ -102,7 +100,7 @@ Frame frame_of_picture(const Pair& pair, const Vector3& normal) {
   double best = -std::numeric_limits<double>::infinity();
   Frame frame{normal, e1, e2};
   for (int k = 0; k < kViews; ++k) {
-    const double angle = kPi * k / kViews;
+    const double angle = std::numbers::pi * k / kViews;
     const Vector3 toward = std::cos(angle) * e1 + std::sin(angle) * e2;
     const double hidden = aside.norm() > 0 ? std::abs(aside.dot(toward)) / aside.norm() : 0;
     const double seen = whole > 0 ? (area(pair.body1, toward) + area(pair.body2, toward)) / whole : 0;
@@ -141,7 +139,7 @@ Polyline outline(const PlacedBody& body, const View& view) {
   const Matrix3 to_body = body.pose.rotation.transpose();
   const Vector3 right = to_body * view.frame().right, up = to_body * view.frame().up;
   const Curve normal = [&](double t) { return without_rounding(std::cos(t) * right + std::sin(t) * up); };
-  return trace(body, view, normal, -kPi, kPi);
+  return trace(body, view, normal, -std::numbers::pi, std::numbers::pi);
 }
 
 Polyline lit_part(const PlacedBody& body, const View& view, const Vector3& light, double cosine) {
@@ -151,7 +149,7 @@ Polyline lit_part(const PlacedBody& body, const View& view, const Vector3& light
   const double end = circle.visible(toward);
   if (end < 0) return {};
   Polyline part = trace(body, view, circle, -end, end);
-  if (end == kPi) return part;
+  if (end == std::numbers::pi) return part;
   // Back along the outline, on the side of the light.
   const Vector3 middle = (source - source.dot(toward) * toward).normalized(), aside = toward.cross(middle);
   const auto angle_of = [&](const Vector3& normal) { return std::atan2(normal.dot(aside), normal.dot(middle)); };
@@ -169,9 +167,9 @@ std::vector<Polyline> graticule(const PlacedBody& body, const View& view, double
     const double end = circle.visible(toward);
     if (end > 0) lines.push_back(trace(body, view, circle, -end, end));
   };
-  for (int k = 1; k * spacing < 180; ++k) add(Vector3::UnitZ(), std::cos(k * spacing * kPi / 180));
+  for (int k = 1; k * spacing < 180; ++k) add(Vector3::UnitZ(), std::cos(k * spacing * std::numbers::pi / 180));
   for (int k = 0; k * spacing < 180; ++k) {
-    const double angle = k * spacing * kPi / 180;
+    const double angle = k * spacing * std::numbers::pi / 180;
     add(without_rounding({std::cos(angle), std::sin(angle), 0}), 0);
   }
   return lines;

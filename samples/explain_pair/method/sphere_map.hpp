@@ -2,12 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <supernormal/shapes/shape.hpp>
 
 namespace explain_pair {
 
 using supernormal::Vector3;
 using Vector2 = Eigen::Vector2d;
+
+constexpr double kDegree = std::numbers::pi / 180;  ///< rad
 
 /// A right-handed frame of unit vectors: that of the picture of the pair, and of the maps, whose centre is `right`, whose north is
 /// `up` and whose east is away from the viewer.

@@ -16,9 +16,9 @@ std::string to_obj(const Mesh& mesh) {
   return out.str();
 }
 
-class Writer {
+class WallsWriter {
  public:
-  Writer(const Scene& scene, const std::string& law) : scene_(scene), law_(law) {
+  WallsWriter(const Scene& scene, const std::string& law) : scene_(scene), law_(law) {
     const Rectangle plan = plan_of(scene.container);
     walls_.bounds = {{{plan.corner[0], plan.corner[0] + plan.width[0]},
                       {plan.corner[1], plan.corner[1] + plan.width[1]},
@@ -78,6 +78,6 @@ class Writer {
 
 }  // namespace
 
-LammpsWalls lammps_walls(const Scene& scene, const std::string& law) { return Writer(scene, law).write(); }
+LammpsWalls lammps_walls(const Scene& scene, const std::string& law) { return WallsWriter(scene, law).write(); }
 
 }  // namespace falling_particles

@@ -17,7 +17,7 @@ namespace {
 using supernormal::Vector3;
 
 // Of the smallest half-axis: finer than a pixel of a picture of a bed.
-constexpr double kChordError = 0.005;
+constexpr double kStillChordError = 0.005;
 
 template <typename Numbers>
 std::string vector(const Numbers& numbers) {
@@ -47,7 +47,7 @@ std::string capsule(const GrainBody& body) {
 }
 
 std::string mesh(const Grain& grain) {
-  const supernormal::Tessellation body = mesh_of(grain, kChordError);
+  const supernormal::Tessellation body = mesh_of(grain, kStillChordError);
   const auto list = [](const char* name, const auto& items, const auto& text_of) {
     std::string text = std::string("  ") + name + " { " + std::to_string(items.size());
     for (const auto& item : items) text += ",\n    " + text_of(item);
@@ -86,12 +86,12 @@ std::string container(const ContainerPart& part, const PartPlace& place, double 
   return text;
 }
 
-Vector3 to_vector(const Point& point) { return {point[0], point[1], point[2]}; }
+Vector3 vector_of(const Point& point) { return {point[0], point[1], point[2]}; }
 
 /// A camera to the side and above, from which all grains and a cell just fit into the picture, however wide it is.
 std::string camera_on(const Frame& frame, double radius, const std::vector<ContainerPart>& parts) {
   const Extent extent = extent_of(frame, radius);
-  const Vector3 least = to_vector(extent.least), most = to_vector(extent.most), centre = 0.5 * (least + most);
+  const Vector3 least = vector_of(extent.least), most = vector_of(extent.most), centre = 0.5 * (least + most);
   const double size = (most - least).norm();
   const Vector3 back = Vector3(0.45, -0.75, 0.48).normalized();
   const Vector3 right = Vector3::UnitZ().cross(back).normalized(), up = back.cross(right);
@@ -105,11 +105,11 @@ std::string camera_on(const Frame& frame, double radius, const std::vector<Conta
     height = std::max(height, (std::abs(from_eye.dot(up)) + around) / distance);
   };
   for (const BodyState& body : frame.bodies) {
-    if (body.is_present) hold(to_vector(body.position), radius);
+    if (body.is_present) hold(vector_of(body.position), radius);
   }
   for (std::size_t part = 0; part < parts.size(); ++part) {
     if (parts[part].role != ContainerPart::Role::Cell) continue;
-    for (const auto& vertex : parts[part].mesh.vertices) hold(to_vector(frame.part_places[part](vertex)), 0);
+    for (const auto& vertex : parts[part].mesh.vertices) hold(vector_of(frame.part_places[part](vertex)), 0);
   }
   const Vector3 light = centre + 4 * size * Vector3(0.1, -0.5, 0.85).normalized();
   const std::string side = shortest(size / 2);

@@ -18,7 +18,7 @@ namespace falling_particles {
 namespace {
 
 // Of the smallest half-axis of a grain: a few hundred triangles for most, and no corners to be seen.
-constexpr double kChordError = 0.02;
+constexpr double kAnimationChordError = 0.02;
 
 /// The buffer of a file and what is in it.
 class Builder {
@@ -131,7 +131,7 @@ class Builder {
   }
 
   void add_kind(const Grain& grain, std::size_t kind) {
-    const supernormal::Tessellation body = mesh_of(grain, kChordError);
+    const supernormal::Tessellation body = mesh_of(grain, kAnimationChordError);
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = static_cast<int>(kind);

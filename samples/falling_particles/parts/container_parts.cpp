@@ -8,8 +8,6 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A box from one corner to the other.
 Part box(std::string name, const Vector3& lower, const Vector3& upper, std::vector<PartMotion> motions = {}) {
   return {std::move(name), BoxShape{upper - lower}, {(lower + upper) / 2, Eigen::Quaterniond::Identity()}, std::move(motions)};
@@ -33,7 +31,7 @@ Mesh shell_of(const Drum& drum) {
   const auto count = static_cast<unsigned int>(drum.segments);
   for (const double y : {-beyond, drum.length + beyond}) {
     for (unsigned int i = 0; i < count; ++i) {
-      const double angle = 2 * kPi * (i + 0.5) / count;
+      const double angle = 2 * std::numbers::pi * (i + 0.5) / count;
       mesh.vertices.push_back({static_cast<float>(drum.outer_radius() * std::sin(angle)), static_cast<float>(y),
                                static_cast<float>(-drum.outer_radius() * std::cos(angle))});
     }
@@ -55,8 +53,8 @@ std::vector<Part> parts_of(const Drum& drum) {
   PartMotion motion{turn, drum.turns_at};
   if (drum.is_smooth) motion.kind = Conveyor{Vector3::Zero(), turn};
   return {{"drum", shell_of(drum), {{0, 0, drum.radius()}, Eigen::Quaterniond::Identity()}, {motion}},
-          {"near_end", PlaneShape{}, facing({0, 0, drum.radius()}, -kPi / 2), {motion}},
-          {"far_end", PlaneShape{}, facing({0, drum.length, drum.radius()}, kPi / 2), {motion}}};
+          {"near_end", PlaneShape{}, facing({0, 0, drum.radius()}, -std::numbers::pi / 2), {motion}},
+          {"far_end", PlaneShape{}, facing({0, drum.length, drum.radius()}, std::numbers::pi / 2), {motion}}};
 }
 
 std::vector<Part> parts_of(const Tray& tray) {
@@ -91,7 +89,7 @@ std::vector<Part> parts_of(const ConveyorBelt& belt) {
   const auto roller = [&](const char* name, double x) -> Part {
     const Vector3 position(x, belt.width / 2, middle);
     const PartMotion turning{Conveyor{Vector3::Zero(), {Vector3::UnitY(), position, belt.roller_rpm()}}, belt.starts_at};
-    return {name, CylinderShape{t / 2, belt.width}, facing(position, kPi / 2), {turning}};
+    return {name, CylinderShape{t / 2, belt.width}, facing(position, std::numbers::pi / 2), {turning}};
   };
   return {box("belt", {0, 0, belt.height - t}, {belt.length, belt.width, belt.height}, {running}),
           roller("first_roller", 0),

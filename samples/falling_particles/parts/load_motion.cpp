@@ -8,18 +8,16 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;  // m and m/s
-
 Rotation read_rotation(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys({"kind", "axis", "point", "rpm", "from", "until"});
-  return {read_direction(table, "axis"), read_vector(table, "point", Interval::closed(-kLargest, kLargest, "m")),
+  return {read_direction(table, "axis"), read_vector(table, "point", Interval::closed(-kLargestLength, kLargestLength, "m")),
           read_rpm(table, time)};
 }
 
 Vibration read_vibration(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys({"kind", "direction", "amplitude", "frequency", "phase", "from", "until"});
   Vibration vibration{};
-  vibration.amplitude = table.number("amplitude", Interval::positive(kLargest, "m")) * read_direction(table, "direction");
+  vibration.amplitude = table.number("amplitude", Interval::positive(kLargestLength, "m")) * read_direction(table, "direction");
   vibration.frequency = read_frequency(table, time);
   vibration.phase = read_phase(table);
   return vibration;
@@ -30,32 +28,29 @@ Conveyor read_conveyor(const TomlTable& table, const Time& time) {
   Conveyor conveyor{Vector3::Zero(), {Vector3::UnitZ(), Vector3::Zero(), 0}};
   const bool turns = table.has("axis") || table.has("point") || table.has("rpm");
   if (table.has("velocity") || !turns) {
-    conveyor.velocity = read_vector(table, "velocity", Interval::closed(-kLargest, kLargest, "m/s (or axis, point and rpm)"));
+    conveyor.velocity =
+        read_vector(table, "velocity", Interval::closed(-kLargestSpeed, kLargestSpeed, "m/s (or axis, point and rpm)"));
   }
   if (turns) {
-    conveyor.turn = {read_direction(table, "axis"), read_vector(table, "point", Interval::closed(-kLargest, kLargest, "m")),
-                     read_rpm(table, time)};
+    conveyor.turn = {read_direction(table, "axis"),
+                     read_vector(table, "point", Interval::closed(-kLargestLength, kLargestLength, "m")), read_rpm(table, time)};
   }
   return conveyor;
 }
 
-PartMotion read_motion(const TomlTable& table, const Time& time) {
+decltype(PartMotion::kind) read_kind(const TomlTable& table, const Time& time) {
   const std::string kind = table.choice("kind", {"velocity", "rotation", "vibration", "conveyor"});
-  PartMotion motion{};
-  if (kind == "rotation") {
-    motion.kind = read_rotation(table, time);
-  } else if (kind == "vibration") {
-    motion.kind = read_vibration(table, time);
-  } else if (kind == "conveyor") {
-    motion.kind = read_conveyor(table, time);
-  } else {
-    table.refuse_unknown_keys({"kind", "velocity", "from", "until"});
-    motion.kind = Translation{read_vector(table, "velocity", Interval::closed(-kLargest, kLargest, "m/s"))};
-  }
+  if (kind == "rotation") return read_rotation(table, time);
+  if (kind == "vibration") return read_vibration(table, time);
+  if (kind == "conveyor") return read_conveyor(table, time);
+  table.refuse_unknown_keys({"kind", "velocity", "from", "until"});
+  return Translation{read_vector(table, "velocity", Interval::closed(-kLargestSpeed, kLargestSpeed, "m/s"))};
+}
+
+PartMotion read_motion(const TomlTable& table, const Time& time) {
+  const auto kind = read_kind(table, time);
   const auto [from, until] = read_times(table);
-  motion.from = from;
-  motion.until = until;
-  return motion;
+  return {kind, from, until};
 }
 
 }  // namespace

@@ -17,8 +17,6 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;  // m, upper bound of all lengths
-
 const std::vector<std::string> kShapes = {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"};
 
 /// The keys that describe a shape.
@@ -48,7 +46,9 @@ std::vector<std::string> all_keys() {
   return with_common_keys(std::move(keys));
 }
 
-Vector3 read_sizes(const TomlTable& table, const char* key) { return read_vector(table, key, Interval::positive(kLargest, "m")); }
+Vector3 read_sizes(const TomlTable& table, const char* key) {
+  return read_vector(table, key, Interval::positive(kLargestLength, "m"));
+}
 
 SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   SmoothShape body{read_sizes(table, "half_axes")};
@@ -84,9 +84,10 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
   } catch (const std::runtime_error& error) {
     table.fail("file", table.full_name("file") + ": " + error.what());
   }
-  if (bounding_radius(mesh) > kLargest) {
+  if (bounding_radius(mesh) > kLargestLength) {
     table.fail("unit", table.full_name("unit") + " is \"" + unit + "\", with which the mesh reaches " +
-                           shortest(bounding_radius(mesh)) + " m from its origin; allowed: up to " + shortest(kLargest) + " m");
+                           shortest(bounding_radius(mesh)) + " m from its origin; allowed: up to " + shortest(kLargestLength) +
+                           " m");
   }
   return mesh;
 }
@@ -97,8 +98,8 @@ PartShape read_shape(const TomlTable& table, const std::string& scene_path) {
   if (shape == "plane") return PlaneShape{};
   if (shape == "box") return BoxShape{read_sizes(table, "size")};
   if (shape == "cylinder") {
-    return CylinderShape{table.number("radius", Interval::positive(kLargest, "m")),
-                         table.number("length", Interval::positive(kLargest, "m"))};
+    return CylinderShape{table.number("radius", Interval::positive(kLargestLength, "m")),
+                         table.number("length", Interval::positive(kLargestLength, "m"))};
   }
   if (shape == "mesh") return read_mesh(table, scene_path);
   return read_smooth(table, shape);
@@ -106,7 +107,7 @@ PartShape read_shape(const TomlTable& table, const std::string& scene_path) {
 
 PartPose read_pose(const TomlTable& table) {
   PartPose pose;
-  if (table.has("position")) pose.position = read_vector(table, "position", Interval::closed(-kLargest, kLargest, "m"));
+  if (table.has("position")) pose.position = read_vector(table, "position", Interval::closed(-kLargestLength, kLargestLength, "m"));
   if (!table.has("axis") && !table.has("angle")) return pose;
   const double angle = table.number("angle", Interval::closed(-360, 360, "degrees about part.axis"));
   pose.rotation = Eigen::AngleAxisd(angle * std::numbers::pi / 180, read_direction(table, "axis"));
@@ -174,7 +175,7 @@ std::optional<Drive> read_drive(const TomlTable& part_table, const Part& part) {
   drive.from = from;
   drive.until = until;
   if (table->has("travel")) {
-    const std::vector<double> travel = table->numbers("travel", 2, Interval::closed(-kLargest, kLargest, "m"));
+    const std::vector<double> travel = table->numbers("travel", 2, Interval::closed(-kLargestLength, kLargestLength, "m"));
     if (travel[0] > 0 || travel[1] < 0 || travel[0] == travel[1]) {
       table->fail("travel", table->full_name("travel") + " is [" + shortest(travel[0]) + ", " + shortest(travel[1]) +
                                 "]; allowed: from 0 or less to 0 or more, m along part.drive.axis");

@@ -13,7 +13,6 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;     // m and m/s
 constexpr double kLargestRate = 1e9;  // grains/s and kg/s
 constexpr double kMostGrains = 1e6;   // of all feeders, and at the start
 
@@ -33,8 +32,8 @@ std::string read_name(const TomlTable& table, std::set<std::string>& names) {
 Point to_point(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 Region read_region(const TomlTable& table) {
-  const Vector3 corner = read_vector(table, "corner", Interval::closed(-kLargest, kLargest, "m"));
-  const Vector3 size = read_vector(table, "size", Interval::positive(kLargest, "m"));
+  const Vector3 corner = read_vector(table, "corner", Interval::closed(-kLargestLength, kLargestLength, "m"));
+  const Vector3 size = read_vector(table, "size", Interval::positive(kLargestLength, "m"));
   return {to_point(corner), to_point(size)};
 }
 
@@ -129,7 +128,7 @@ Feeder read_feeder(const TomlTable& table, const Scene& scene, std::set<std::str
     feeder.total = read_quantity(table, "total_grains", "total_kg", "grains", "kg");
   std::tie(feeder.from, feeder.until) = read_times(table);
   if (table.has("velocity")) {
-    feeder.velocity = to_point(read_vector(table, "velocity", Interval::closed(-kLargest, kLargest, "m/s")));
+    feeder.velocity = to_point(read_vector(table, "velocity", Interval::closed(-kLargestSpeed, kLargestSpeed, "m/s")));
   }
   if (table.has("patience")) feeder.patience = table.number("patience", Interval::closed(0, 3600, "s"));
   check_size(table, feeder, scene);
@@ -148,7 +147,7 @@ Sink read_sink(const TomlTable& table, std::set<std::string>& names) {
   if (is_box) {
     sink.region = read_region(table);
   } else {
-    sink.region = HalfSpace{to_point(read_vector(table, "point", Interval::closed(-kLargest, kLargest, "m"))),
+    sink.region = HalfSpace{to_point(read_vector(table, "point", Interval::closed(-kLargestLength, kLargestLength, "m"))),
                             to_point(read_direction(table, "normal"))};
   }
   return sink;

@@ -16,8 +16,6 @@ constexpr double kLargestHalfAxis = 1;  // m
 // Osmium is the densest solid there is: 22 590 kg/m^3.
 constexpr double kLargestDensity = 23000;  // kg/m^3
 
-constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-
 using Shape = GrainBody::Shape;
 
 Shape shape_in(const TomlTable& table) {

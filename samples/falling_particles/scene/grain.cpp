@@ -16,8 +16,8 @@ double farthest(double a, double b, double exponent) {
 }
 
 GrainBody body_of(const Grain& grain) {
-  using Shape = GrainBody::Shape;
-  return {grain.half_axes, grain.delta, grain.epsilon, grain.rounding, grain.is_capsule ? Shape::Capsule : Shape::Superellipsoid};
+  const auto shape = grain.is_capsule ? GrainBody::Shape::Capsule : GrainBody::Shape::Superellipsoid;
+  return {grain.half_axes, grain.delta, grain.epsilon, grain.rounding, shape};
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 
 namespace falling_particles {
 
+constexpr double kLargestLength = 1000;  ///< m; what is longer in a scene is a slip
+constexpr double kLargestSpeed = 1000;   ///< m/s
+
 /// A range of real numbers. No bound, open or closed, ever admits infinity or NaN.
 struct Interval {
   double lower;

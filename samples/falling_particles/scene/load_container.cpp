@@ -11,7 +11,6 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;  // m, upper bound of all lengths
 constexpr std::int64_t kMostSegments = 10'000;
 constexpr std::int64_t kMostSamples = 4096;
 
@@ -35,14 +34,15 @@ Hopper read_hopper(const TomlTable& table, const Time& time) {
   table.refuse_unknown_keys(
       {"kind", "outlet", "wall_angle", "diameter", "cylinder_height", "segments", "clearance", "tray_width", "opens_at", "dish"});
   Hopper hopper{};
-  hopper.outlet = table.number("outlet", Interval::positive(kLargest, "m"));
-  hopper.diameter = table.number("diameter", {hopper.outlet, kLargest, false, true, "m (above container.outlet)"});
+  hopper.outlet = table.number("outlet", Interval::positive(kLargestLength, "m"));
+  hopper.diameter = table.number("diameter", {hopper.outlet, kLargestLength, false, true, "m (above container.outlet)"});
   hopper.wall_angle = table.number("wall_angle", Interval::closed(1, 89, "degrees from the vertical"));
-  hopper.cylinder_height = table.number("cylinder_height", Interval::positive(kLargest, "m"));
+  hopper.cylinder_height = table.number("cylinder_height", Interval::positive(kLargestLength, "m"));
   hopper.segments = static_cast<int>(table.integer("segments", 3, kMostSegments));
-  hopper.clearance = table.number("clearance", Interval::positive(kLargest, "m"));
+  hopper.clearance = table.number("clearance", Interval::positive(kLargestLength, "m"));
   const double outer = hopper.diameter / std::cos(std::numbers::pi / hopper.segments);
-  hopper.tray_width = table.number("tray_width", Interval::closed(outer, 2 * kLargest, "m (the hopper hangs between its walls)"));
+  hopper.tray_width =
+      table.number("tray_width", Interval::closed(outer, 2 * kLargestLength, "m (the hopper hangs between its walls)"));
   hopper.opens_at = table.number("opens_at", {0, time.duration, false, false, "s (before time.duration)"});
   hopper.dish = read_dish(table, hopper);
   return hopper;
@@ -52,9 +52,9 @@ Terrain read_terrain(const TomlTable& table) {
   table.refuse_unknown_keys({"kind", "width", "amplitude", "wavelength", "ridge_height", "samples", "seed"});
   TerrainParameters parameters{};
   parameters.width = read_width(table);
-  parameters.amplitude = table.number("amplitude", Interval::closed(0, kLargest, "m"));
-  parameters.wavelength = table.number("wavelength", Interval::positive(kLargest, "m"));
-  parameters.ridge_height = table.number("ridge_height", Interval::closed(0, kLargest, "m"));
+  parameters.amplitude = table.number("amplitude", Interval::closed(0, kLargestLength, "m"));
+  parameters.wavelength = table.number("wavelength", Interval::positive(kLargestLength, "m"));
+  parameters.ridge_height = table.number("ridge_height", Interval::closed(0, kLargestLength, "m"));
   parameters.samples = static_cast<int>(table.integer("samples", 2, kMostSamples));
   parameters.seed = static_cast<std::uint64_t>(table.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   return Terrain(parameters);
@@ -62,13 +62,13 @@ Terrain read_terrain(const TomlTable& table) {
 
 Periodic read_periodic(const TomlTable& table) {
   table.refuse_unknown_keys({"kind", "side"});
-  return {table.number("side", Interval::positive(kLargest, "m"))};
+  return {table.number("side", Interval::positive(kLargestLength, "m"))};
 }
 
 Region read_region(const TomlTable& table, const char* key) {
   const TomlTable region = table.table(key, {"corner", "size"});
-  const std::vector<double> corner = region.numbers("corner", 3, Interval::closed(-kLargest, kLargest, "m"));
-  const std::vector<double> size = region.numbers("size", 3, Interval::positive(kLargest, "m"));
+  const std::vector<double> corner = region.numbers("corner", 3, Interval::closed(-kLargestLength, kLargestLength, "m"));
+  const std::vector<double> size = region.numbers("size", 3, Interval::positive(kLargestLength, "m"));
   return {{corner[0], corner[1], corner[2]}, {size[0], size[1], size[2]}};
 }
 
@@ -138,7 +138,7 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
 }  // namespace
 
 std::array<double, 2> read_width(const TomlTable& table) {
-  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargest, "m"));
+  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargestLength, "m"));
   return {width[0], width[1]};
 }
 

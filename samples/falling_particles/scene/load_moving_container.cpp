@@ -8,9 +8,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;  // m, upper bound of all lengths
-
-double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargest, "m")); }
+double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargestLength, "m")); }
 
 /// When a motion starts: 0 if the scene does not say.
 double read_start(const TomlTable& table, const char* key, const Time& time) {
@@ -74,7 +72,7 @@ ConveyorBelt read_conveyor_belt(const TomlTable& table, const Time& time) {
   belt.height = read_length(table, "height");
   belt.thickness = table.number("thickness", Interval::positive(belt.height, "m (up to container.height)"));
   belt.wall_height = read_length(table, "wall_height");
-  belt.drop_length = table.number("drop_length", {belt.thickness / 2, kLargest, false, true, "m (beyond the last roller)"});
+  belt.drop_length = table.number("drop_length", {belt.thickness / 2, kLargestLength, false, true, "m (beyond the last roller)"});
   const double most = kLargestTurn * std::numbers::pi * belt.thickness / time.step;
   belt.speed = table.number("speed", Interval::positive(most, "m/s (a roller turns by a tenth in time.step)"));
   belt.starts_at = read_start(table, "starts_at", time);

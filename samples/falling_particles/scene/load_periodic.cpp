@@ -12,7 +12,6 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kLargest = 1000;  // m
 constexpr std::array kAxes = {"x", "y"};
 
 std::string in_brackets(const Period& period) { return "[" + shortest(period.lower) + ", " + shortest(period.upper()) + "]"; }
@@ -43,7 +42,7 @@ void check_start(const TomlTable& table, const char* key, const Period& period, 
 
 Period read_period(const TomlTable& table, std::size_t axis, const Scene& scene) {
   const char* const key = kAxes[axis];
-  const std::vector<double> ends = table.numbers(key, 2, Interval::closed(-kLargest, kLargest, "m"));
+  const std::vector<double> ends = table.numbers(key, 2, Interval::closed(-kLargestLength, kLargestLength, "m"));
   Period period{ends[0], ends[1] - ends[0]};
   const double least = 4 * scene.largest_bounding_radius();
   if (!(period.length >= least)) {

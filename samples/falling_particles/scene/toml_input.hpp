@@ -12,6 +12,9 @@
 
 namespace falling_particles {
 
+/// The characters of a name that TOML takes without quotes.
+constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+
 /// A table of a TOML file whose keys are known in advance. Every function that reads a value checks it and throws InputError with
 /// file and line, or the option that set it, and what is allowed, so that a value that was read is valid. A table is valid as long
 /// as its TomlFile.

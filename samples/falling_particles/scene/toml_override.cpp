@@ -8,11 +8,10 @@
 
 #include "input_error.hpp"
 #include "nearest_word.hpp"
+#include "toml_input.hpp"
 
 namespace falling_particles {
 namespace {
-
-constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
 /// A part of a path: the key of a table, or what chooses an entry of an array.
 struct Step {

@@ -30,6 +30,10 @@ inline Matrix3 askew() { return Eigen::Quaterniond(0.3, -0.7, 0.2, 0.6).normaliz
 inline constexpr double kQuarterTurn = 1.5707963267948966;
 inline constexpr double kEighthTurn = 0.7853981633974483;
 
+// Half-axes of bodies, m; those of the second are sums of powers of two, so that places far away are exact.
+inline const Vector3 kLengths(1, 0.8, 0.5);
+inline const Vector3 kDyadicLengths(1, 0.75, 0.5);
+
 std::vector<HardCase> concentric_cases();
 std::vector<HardCase> face_cases();
 std::vector<HardCase> edge_and_vertex_cases();

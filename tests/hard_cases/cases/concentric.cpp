@@ -6,8 +6,6 @@
 namespace supernormal::samples {
 namespace {
 
-const Vector3 kLengths(1, 0.8, 0.5);  // m
-
 /// Twice the smallest half-axis: no support function of such a body is less, and both attain it there.
 constexpr double kGap = -1;
 

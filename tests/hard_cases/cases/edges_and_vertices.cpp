@@ -4,8 +4,6 @@
 namespace supernormal::samples {
 namespace {
 
-const Vector3 kLengths(1, 0.8, 0.5);  // m
-
 struct Meeting {
   const char* what;
   Vector3 n;

@@ -6,8 +6,6 @@
 namespace supernormal::samples {
 namespace {
 
-const Vector3 kLengths(1, 0.8, 0.5);  // m
-
 const char* reason_of(double exponent) {
   if (exponent < 1.5) return "vertices and edges attract all normals: the dual exponent is 50 to 100";
   if (exponent < 3) return "another path than that of 2 exactly: both must agree";

@@ -4,18 +4,16 @@
 namespace supernormal::samples {
 namespace {
 
-struct Family {
+struct FarFamily {
   const char* name;
   double delta, epsilon;
 };
 
-constexpr Family kFamilies[] = {{"ellipsoids", 2, 2}, {"boxy (20)", 20, 20}, {"octahedral (1.1)", 1.1, 1.1}};
+constexpr FarFamily kFarFamilies[] = {{"ellipsoids", 2, 2}, {"boxy (20)", 20, 20}, {"octahedral (1.1)", 1.1, 1.1}};
 
-const Vector3 kLengths(1, 0.75, 0.5);  // m
+Body body_of(const FarFamily& family) { return superellipsoid(kDyadicLengths, family.delta, family.epsilon); }
 
-Body body_of(const Family& family) { return superellipsoid(kLengths, family.delta, family.epsilon); }
-
-void add_far_away(std::vector<HardCase>& cases, const Family& family) {
+void add_far_away(std::vector<HardCase>& cases, const FarFamily& family) {
   const Vector3 place(1e6, -1e6, 1e6);
   const auto add = [&](const std::string& what, HardCase one) {
     one.name = "1e6 m from the origin: " + std::string(family.name) + ", " + what;
@@ -33,7 +31,7 @@ void add_far_away(std::vector<HardCase>& cases, const Family& family) {
   add("overlapping, askew", pair("", "", body, body, at({0.75, 0.5, 0.25}, askew())));
 }
 
-void add_beside_planes(std::vector<HardCase>& cases, const Family& family) {
+void add_beside_planes(std::vector<HardCase>& cases, const FarFamily& family) {
   const Body body = body_of(family);
   const auto add = [&](const std::string& what, const Vector3& place, std::optional<double> gap) {
     cases.push_back(pair("coordinate planes: " + std::string(family.name) + ", centre line " + what,
@@ -49,7 +47,7 @@ void add_beside_planes(std::vector<HardCase>& cases, const Family& family) {
 }
 
 /// For bodies apart, every start leads to the one maximum.
-void add_bad_starts(std::vector<HardCase>& cases, const Family& family) {
+void add_bad_starts(std::vector<HardCase>& cases, const FarFamily& family) {
   const Body body = body_of(family);
   const auto add = [&](const std::string& what, const Vector3& first_normal) {
     HardCase one = on_normal("first normal: " + std::string(family.name) + ", " + what, "the start is as bad as it can be", body,
@@ -68,7 +66,7 @@ void add_bad_starts(std::vector<HardCase>& cases, const Family& family) {
 
 std::vector<HardCase> place_cases() {
   std::vector<HardCase> cases;
-  for (const Family& family : kFamilies) {
+  for (const FarFamily& family : kFarFamilies) {
     add_far_away(cases, family);
     add_beside_planes(cases, family);
     add_bad_starts(cases, family);

@@ -8,19 +8,19 @@ namespace {
 
 constexpr double kUlp = 0x1p-53;  // m; 1.1e-16: the last place of the distance below, up and down
 
-struct Family {
+struct OneExponent {
   const char* name;
   double exponent;
 };
 
-constexpr Family kFamilies[] = {{"octahedral (1.02)", 1.02}, {"ellipsoids", 2}, {"rounded (4)", 4}, {"boxy (200)", 200}};
+constexpr OneExponent kOneExponents[] = {{"octahedral (1.02)", 1.02}, {"ellipsoids", 2}, {"rounded (4)", 4}, {"boxy (200)", 200}};
 
 }  // namespace
 
 std::vector<HardCase> touching_cases() {
   std::vector<HardCase> cases;
   const Vector3 half_axes(0.375, 0.3125, 0.25);
-  for (const Family& family : kFamilies) {
+  for (const OneExponent& family : kOneExponents) {
     const Body body = superellipsoid(half_axes, family.exponent, family.exponent);
     for (const double gap : {-kUlp, 0., kUlp}) {
       const std::string name = std::string(family.name) + ", gap " + text(gap);

@@ -8,7 +8,7 @@ using namespace supernormal::test;
 
 namespace {
 
-snProximity proximity(dGeomID g1, dGeomID g2) {
+snProximity proximity_of(dGeomID g1, dGeomID g2) {
   snProximity answer;
   REQUIRE(snGeomProximity(g1, g2, &answer) == 1);
   return answer;
@@ -20,12 +20,6 @@ void check_consistent(const snProximity& p, double rounding) {
   const Vec d = to_vec(p.point2) - to_vec(p.point1);
   CHECK(std::abs(dot(d, to_vec(p.normal)) - p.gap) < within_rounding(rounding, 10));
   CHECK(p.error >= 0);
-}
-
-snStatistics statistics() {
-  snStatistics out;
-  snGetStatistics(&out);
-  return out;
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ TEST_CASE("the published pair R1 of tests/data/README.md") {
   const Vec point1 = {2.1781654632855, -6.6089213379082, 4.8540806508774};
   const Vec point2 = {2.1541109401146, 5.4712012549538, 0.9527024670205};
   for (const bool swapped : {false, true}) {
-    const snProximity p = swapped ? proximity(g2, g1) : proximity(g1, g2);
+    const snProximity p = swapped ? proximity_of(g2, g1) : proximity_of(g1, g2);
     CHECK(p.converged == 1);
     CHECK(p.gap == relative(12.6945142566438972).epsilon(within_rounding(1e-9)));
     CHECK(std::abs(p.gap - 12.6945142566438972) <= p.error + within_rounding(1e-13));
@@ -64,8 +58,8 @@ TEST_CASE("with spheres: the gap to a point less the radius, in both orders, apa
     const Vec centre = random.uniform(1.6, 6) * random.direction();
     place(sphere, centre);
     const double expected = -double{snGeomPointDepth(body, dReal(centre[0]), dReal(centre[1]), dReal(centre[2]))} - radius;
-    const snProximity forth = proximity(body, sphere);
-    const snProximity back = proximity(sphere, body);
+    const snProximity forth = proximity_of(body, sphere);
+    const snProximity back = proximity_of(sphere, body);
     for (const snProximity& p : {forth, back}) {
       CHECK(std::abs(p.gap - expected) < within_rounding(4e-9));
       check_consistent(p, 1e-12);
@@ -89,8 +83,8 @@ TEST_CASE("with planes: explicit, in both orders") {
     const dVector3 down = {dReal(-n[0]), dReal(-n[1]), dReal(-n[2]), 0};
     dVector3 deepest;
     REQUIRE(snGeomSupport(body, down, deepest) == 1);
-    const snProximity forth = proximity(body, plane);
-    const snProximity back = proximity(plane, body);
+    const snProximity forth = proximity_of(body, plane);
+    const snProximity back = proximity_of(plane, body);
     CHECK(forth.gap == relative(dot(n, to_vec(deepest)) - offset).epsilon(within_rounding(1e-12)));
     CHECK(back.gap == forth.gap);
     CHECK(forth.evaluations == 0);
@@ -114,7 +108,7 @@ TEST_CASE("the gap of the query and the depth of the contact agree") {
     const Geom g1(random_body(random));
     const Geom g2(random_body(random));
     place(g2, random.uniform(1.2, 2.6) * random.direction());
-    const snProximity p = proximity(g1, g2);
+    const snProximity p = proximity_of(g1, g2);
     const auto contacts = collide(g1, g2);
     CHECK(contacts.empty() == (p.gap > 0));
     if (contacts.empty()) continue;
@@ -137,7 +131,7 @@ TEST_CASE("certified: proved the minimum translation distance, and never longer 
     random.turn(body);
     random.turn(other);
     place(other, 0.6 * random.direction());
-    const snProximity plain = proximity(body, other);
+    const snProximity plain = proximity_of(body, other);
     snProximity certified;
     REQUIRE(snGeomProximityCertified(body, other, &certified) == 1);
     REQUIRE(certified.gap < 0);
@@ -149,7 +143,7 @@ TEST_CASE("certified: proved the minimum translation distance, and never longer 
     REQUIRE(snGeomProximityCertified(other, body, &swapped) == 1);
     CHECK(swapped.gap == relative(certified.gap).epsilon(1e-8));
     move(other, (-certified.gap + 1e-6) * to_vec(certified.normal));
-    CHECK(proximity(body, other).gap > 0);
+    CHECK(proximity_of(body, other).gap > 0);
   }
   CHECK(unproved > 30);
 }
@@ -163,14 +157,14 @@ TEST_CASE("a pair uses the tighter tolerance and the larger limit; the limit end
   Random random(21);
   random.turn(g1);
   random.turn(g2);
-  const snProximity fine = proximity(g1, g2);
+  const snProximity fine = proximity_of(g1, g2);
   REQUIRE(fine.converged == 1);
   REQUIRE(fine.evaluations > 2);
 
   snResetStatistics();
   REQUIRE(snGeomSetSolver(g1, SN_SOLVER_HYBRID, dReal(1e-9), 1) == 1);
   REQUIRE(snGeomSetSolver(g2, SN_SOLVER_HYBRID, dReal(1e-9), 1) == 1);
-  const snProximity cut = proximity(g1, g2);
+  const snProximity cut = proximity_of(g1, g2);
   CHECK(cut.evaluations == 1);
   CHECK(cut.converged == 0);
   CHECK(cut.gap <= fine.gap);  // every normal gives a lower bound
@@ -178,9 +172,9 @@ TEST_CASE("a pair uses the tighter tolerance and the larger limit; the limit end
   CHECK(statistics().not_converged == 1);
 
   REQUIRE(snGeomSetSolver(g2, SN_SOLVER_HYBRID, 1, 1000) == 1);  // g1: limit 1, tolerance 1e-9
-  CHECK(proximity(g1, g2).evaluations == fine.evaluations);
+  CHECK(proximity_of(g1, g2).evaluations == fine.evaluations);
   REQUIRE(snGeomSetSolver(g1, SN_SOLVER_HYBRID, 1, 1) == 1);
-  CHECK(proximity(g1, g2).evaluations < fine.evaluations);
+  CHECK(proximity_of(g1, g2).evaluations < fine.evaluations);
 }
 
 TEST_CASE("the solver of a pair: what both ask for, the hybrid if they differ") {
@@ -194,7 +188,7 @@ TEST_CASE("the solver of a pair: what both ask for, the hybrid if they differ") 
     const Geom g1(make(solver1));
     const Geom g2(make(solver2));
     place(g2, {1.5, 1.1, 0.9});
-    const snProximity p = proximity(g1, g2);
+    const snProximity p = proximity_of(g1, g2);
     CHECK(p.converged == 1);
     return p.evaluations;
   };

@@ -10,8 +10,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kRepetitions = 10000;
-
 /// Moves the body out by 0.96 of the depth, and by another 0.08, and returns whether the pair touched.
 bool check_separation(dGeomID body, dGeomID collider, bool body_first) {
   const dGeomID g1 = body_first ? body : collider;

@@ -12,8 +12,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kRepetitions = 10000;
-
 // Allowed errors for points on the surface: near an edge as sharp as that of a superellipsoid with exponents 1.02...1.05 and 6 a
 // point has several separating translations, of which the solver sometimes takes a wrong one: for 0.4 % of such bodies, off by up
 // to 0.4 % of their size.

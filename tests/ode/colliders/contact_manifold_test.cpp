@@ -126,7 +126,7 @@ double largest_jump(LoadAt at, int steps) {
 }
 
 /// Tilts by `angle` about a horizontal axis and puts the body over the plane z = 0 or on top of `under` with the given depth.
-void place(dGeomID body, dGeomID under, double angle, double direction, double depth) {
+void lay(dGeomID body, dGeomID under, double angle, double direction, double depth) {
   dMatrix3 rotation;
   dRFromAxisAndAngle(rotation, dReal(std::cos(direction)), dReal(std::sin(direction)), 0, dReal(angle));
   dGeomSetRotation(body, rotation);
@@ -197,13 +197,13 @@ TEST_CASE("what carries a flat body does not jump while it tilts, nor while it c
         previous = load;
       };
       for (int step = 0; step <= kSteps; ++step) {
-        place(brick, under, 1e-4 * (step - 200), 1.1, 2e-4);
+        lay(brick, under, 1e-4 * (step - 200), 1.1, 2e-4);
         weigh(step == 0);
       }
       CHECK(largest <= kMost);
       largest = 0;
       for (int step = 0; step <= kSteps; ++step) {
-        place(brick, under, 0.01, 1.1, 1e-5 * std::pow(1500, static_cast<double>(step) / kSteps));
+        lay(brick, under, 0.01, 1.1, 1e-5 * std::pow(1500, static_cast<double>(step) / kSteps));
         weigh(step == 0);
       }
       CHECK(largest <= kMost);
@@ -223,12 +223,12 @@ TEST_CASE("no force jumps while a flat body tilts or comes in deeper, whatever t
       Scale scale(brick, plane, {.room = room, .erp = 0.2, .step = 0.01, .iterations = 1000});
       // The tilt goes from -5 to 40 degrees.
       const auto tilted = [&](double x) {
-        place(brick, plane, 0.8 * x - 0.1, 1.1, 2e-3);
+        lay(brick, plane, 0.8 * x - 0.1, 1.1, 2e-3);
         return scale.weigh();
       };
       CHECK(largest_jump(tilted, 3000) <= 0.02);
       const auto deepened = [&](double x) {
-        place(brick, plane, 0.01, 1.1, 1e-5 * std::pow(1500, x));
+        lay(brick, plane, 0.01, 1.1, 1e-5 * std::pow(1500, x));
         return scale.weigh();
       };
       CHECK(largest_jump(deepened, 500) <= 0.02);

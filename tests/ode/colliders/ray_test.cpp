@@ -11,8 +11,6 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr int kRepetitions = 10000;
-
 void aim(dGeomID ray, const Vec& origin, const Vec& direction, double length) {
   dGeomRaySet(ray, dReal(origin[0]), dReal(origin[1]), dReal(origin[2]), dReal(direction[0]), dReal(direction[1]),
               dReal(direction[2]));

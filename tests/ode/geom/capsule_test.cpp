@@ -15,8 +15,6 @@ namespace {
 
 constexpr dReal kRadius = 2, kLength = 5;
 
-bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
-
 /// A capsule of radius 0.1 and length 0.4 (m) that falls on its side, a little inclined, onto a plane or a box.
 class Fall {
  public:

@@ -20,8 +20,6 @@ struct Parameters {
   bool operator==(const Parameters&) const = default;
 };
 
-bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
-
 }  // namespace
 
 TEST_CASE("superovoid: parameters are kept, changed and refused") {

@@ -11,12 +11,6 @@ using namespace supernormal::test;
 
 namespace {
 
-snStatistics statistics() {
-  snStatistics out;
-  snGetStatistics(&out);
-  return out;
-}
-
 // Bodies among ODE's geoms, crowded.
 struct Scene {
   std::vector<Geom> bodies;
@@ -54,15 +48,6 @@ struct Scene {
     dGeomSetRotation(geom, turned);
   }
 };
-
-bool same_bits(const std::vector<dContactGeom>& a, const std::vector<dContactGeom>& b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (to_vec(a[i].pos) != to_vec(b[i].pos) || to_vec(a[i].normal) != to_vec(b[i].normal) || a[i].depth != b[i].depth)
-      return false;
-  }
-  return true;
-}
 
 }  // namespace
 

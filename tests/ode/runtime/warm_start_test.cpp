@@ -12,12 +12,6 @@ using namespace supernormal::test;
 
 namespace {
 
-snStatistics statistics() {
-  snStatistics out;
-  snGetStatistics(&out);
-  return out;
-}
-
 // Makes a lattice of turned bodies that touch their neighbours.
 std::vector<Geom> make_pile(int per_side) {
   Random random(23);
@@ -45,18 +39,6 @@ std::vector<dContactGeom> two_steps(std::vector<Geom>& pile) {
     for (std::size_t i = 0; i < pile.size(); ++i) move(pile[i], {1e-3 * static_cast<double>(i % 3), 0, 0});
   }
   return all;
-}
-
-bool same_bits(const dContactGeom& a, const dContactGeom& b) {
-  return to_vec(a.pos) == to_vec(b.pos) && to_vec(a.normal) == to_vec(b.normal) && a.depth == b.depth;
-}
-
-bool same_bits(const std::vector<dContactGeom>& a, const std::vector<dContactGeom>& b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!same_bits(a[i], b[i])) return false;
-  }
-  return true;
 }
 
 }  // namespace

@@ -13,8 +13,6 @@ using namespace explain_pair;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A frame that is not that of the world.
 Frame tilted_frame() {
   const Eigen::Matrix3d R = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.5).normalized().toRotationMatrix();
@@ -57,7 +55,8 @@ TEST_CASE("sphere map: Lambert's map goes back and forth, to the antipode") {
 
 TEST_CASE("sphere map: both maps keep areas") {
   std::mt19937_64 engine(3);
-  std::uniform_real_distribution<double> longitude(-0.95 * kPi, 0.95 * kPi), latitude(-0.45 * kPi, 0.45 * kPi);
+  std::uniform_real_distribution<double> longitude(-0.95 * std::numbers::pi, 0.95 * std::numbers::pi),
+      latitude(-0.45 * std::numbers::pi, 0.45 * std::numbers::pi);
   const Frame frame = tilted_frame();
   constexpr double kStep = 1e-5;
   for (int k = 0; k < 1000; ++k) {
@@ -72,7 +71,7 @@ TEST_CASE("sphere map: both maps keep areas") {
     CHECK(area_of([&](const Place& p) { return LambertMap::to_plane(frame, normal_at(frame, p)); }) ==
           doctest::Approx(1).epsilon(1e-5));
   }
-  CHECK(kPi * HammerMap::kHalfWidth * HammerMap::kHalfHeight == doctest::Approx(4 * kPi));
+  CHECK(std::numbers::pi * HammerMap::kHalfWidth * HammerMap::kHalfHeight == doctest::Approx(4 * std::numbers::pi));
 }
 
 TEST_CASE("sphere map: the centre, north and east") {

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kRadius = 0.01;  // m
 constexpr double kSpeed = 0.5;    // m/s
-constexpr double kPi = std::numbers::pi;
 
 // So stiff that the normal turns by little in an impact.
 constexpr double kStiffness = 1e7;  // N/m
@@ -30,10 +29,10 @@ double reduced_mass(const TwoBodies& pair) { return 0.5 * pair.first.mass; }
 
 TEST_CASE("lammps: an elastic impact on a linear spring takes pi sqrt(m/k)") {
   TwoBodies pair = balls(kRadius, kSpeed, hooke(1));
-  const double period = kPi * std::sqrt(reduced_mass(pair) / kStiffness);
+  const double period = std::numbers::pi * std::sqrt(reduced_mass(pair) / kStiffness);
   const Impact impact = collide(pair, period / 2000);
   CHECK(impact.time == relative(period).epsilon(1e-3));
-  CHECK(impact.overlap == relative(kSpeed * period / kPi).epsilon(1e-5));
+  CHECK(impact.overlap == relative(kSpeed * period / std::numbers::pi).epsilon(1e-5));
   CHECK(pair.second.body.velocity.x() == relative(0.5 * kSpeed).epsilon(1e-6));
 }
 
@@ -100,11 +99,11 @@ TEST_CASE("lammps: in an oblique impact that sticks, the tangential spring makes
     pair.first.set_velocity({0.5 * kSpeed, 0.5 * slip, 0}, {0, 0, spin});
     pair.second.set_velocity({-0.5 * kSpeed, -0.5 * slip, 0}, {0, 0, spin});
     const double rate = slip + 2 * spin * kRadius;
-    const double time = kPi * std::sqrt(reduced_mass(pair) / kStiffness);
+    const double time = std::numbers::pi * std::sqrt(reduced_mass(pair) / kStiffness);
     collide(pair, time / 4000);
     const double out = pair.first.body.velocity.y() - pair.second.body.velocity.y() +
                        kRadius * (pair.first.body.angular_velocity.z() + pair.second.body.angular_velocity.z());
-    CHECK(std::abs(out / rate - std::cos(std::sqrt(3.5 * ratio) * kPi)) < 5e-3);
+    CHECK(std::abs(out / rate - std::cos(std::sqrt(3.5 * ratio) * std::numbers::pi)) < 5e-3);
   }
 }
 

@@ -18,8 +18,6 @@ using supernormal::test::relative;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 constexpr const char* kDrum = R"(kind = "drum"
 diameter = 0.1
 length = 0.05

@@ -9,8 +9,6 @@ using namespace falling_particles;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double distance(const PartPose& a, const PartPose& b) {
   return (a.position - b.position).norm() + a.rotation.angularDistance(b.rotation);
 }
@@ -44,11 +42,11 @@ TEST_CASE("motions are on from their start to their end, and then the part stays
 }
 
 TEST_CASE("a vibration starts where the part is, and has its amplitude, frequency and phase") {
-  const std::vector<PartMotion> motions = {{Vibration{{0, 0, 0.002}, 50, kPi / 2}}};
+  const std::vector<PartMotion> motions = {{Vibration{{0, 0, 0.002}, 50, std::numbers::pi / 2}}};
   const PartPose start = pose({1, 2, 3});
   CHECK(distance(pose_at(start, motions, 0), start) == 0);
   for (const double time : {0.003, 0.01, 1.234}) {
-    const double z = 3 + 0.002 * (std::sin(2 * kPi * 50 * time + kPi / 2) - 1);
+    const double z = 3 + 0.002 * (std::sin(2 * std::numbers::pi * 50 * time + std::numbers::pi / 2) - 1);
     CHECK(pose_at(start, motions, time).position.z() == doctest::Approx(z).epsilon(1e-12));
   }
 }
@@ -83,7 +81,7 @@ TEST_CASE("the mean velocity of a step leads from pose to pose") {
 TEST_CASE("a mean velocity keeps its digits in small steps") {
   const std::vector<PartMotion> motions = {{Rotation{Vector3(1, -2, 2).normalized(), {0, 0, 0}, 6}}};
   const PartVelocity v = mean_velocity(pose_at({}, motions, 1.0), pose_at({}, motions, 1.00001), 1e-5);
-  CHECK((v.angular - 0.2 * kPi * Vector3(1, -2, 2).normalized()).norm() < 1e-9);
+  CHECK((v.angular - 0.2 * std::numbers::pi * Vector3(1, -2, 2).normalized()).norm() < 1e-9);
 }
 
 TEST_CASE("the surface of a conveyor moves and the part stands; both turn with the part") {
@@ -101,7 +99,7 @@ TEST_CASE("the surface of a drum turns about its axis") {
   const std::vector<PartMotion> drum = {{Conveyor{{0, 0, 0}, {Vector3::UnitY(), {0, 0, 0.1}, 60}}}};
   const PartPose start = pose({0.2, 0, 0.1});
   const PartVelocity v = conveyor_velocity(start, start, drum, 0, 1e-3);
-  CHECK((v.angular - 2 * kPi * Vector3::UnitY()).norm() < 1e-14);
+  CHECK((v.angular - 2 * std::numbers::pi * Vector3::UnitY()).norm() < 1e-14);
   const Vector3 lowest(0, 0, 0);
-  CHECK((v.linear + v.angular.cross(lowest - start.position) - Vector3(-0.2 * kPi, 0, 0)).norm() < 1e-14);
+  CHECK((v.linear + v.angular.cross(lowest - start.position) - Vector3(-0.2 * std::numbers::pi, 0, 0)).norm() < 1e-14);
 }

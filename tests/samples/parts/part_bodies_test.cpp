@@ -19,7 +19,7 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kStep = 2e-4;
 
-Grain ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2000, "test"}; }
+Grain light_ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2000, "test"}; }
 Grain brick() { return {"brick", {0.01, 0.01, 4e-3}, 20, 20, 0, 2000, "test"}; }
 
 PartMotion motion(decltype(PartMotion::kind) kind) { return {std::move(kind)}; }
@@ -49,7 +49,7 @@ struct Flight {
   double start = NAN, end = NAN;
 };
 Flight fly(double amplitude, double frequency, double duration) {
-  const Scene scene = scene_on({plane({motion(shaking(amplitude, frequency))})}, ball(), {fx::SurfaceLayer{1e-7}});
+  const Scene scene = scene_on({plane({motion(shaking(amplitude, frequency))})}, light_ball(), {fx::SurfaceLayer{1e-7}});
   World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   Flight flight;
@@ -137,7 +137,7 @@ TEST_CASE("a part is where the function of time says, whatever the step") {
   Part part{"paddle", BoxShape{{0.1, 0.02, 0.05}}, {{0.2, 0.3, 0.5}, Eigen::Quaterniond::Identity()}, motions};
   const PartPose wanted = pose_at(part.start, motions, 0.5);
   for (const double step : {1e-4, 1e-3, 1.0 / 300}) {
-    Scene scene = scene_on({part}, ball(), {});
+    Scene scene = scene_on({part}, light_ball(), {});
     scene.time.step = step;
     const World world(scene, {at(0.9)});
     Stepper stepper(world, scene);
@@ -154,7 +154,7 @@ TEST_CASE("a part is where the function of time says, whatever the step") {
 TEST_CASE("a sleeping grain is woken by a plate that begins to move, and sleeps on one that stands") {
   PartMotion later = motion(Translation{{0, 0, 0.05}});
   later.from = 0.3;
-  const Scene scene = scene_on({plane({later})}, ball(), {fx::AutoDisable{0.01, 1, 0, 10}, fx::SurfaceLayer{1e-5}});
+  const Scene scene = scene_on({plane({later})}, light_ball(), {fx::AutoDisable{0.01, 1, 0, 10}, fx::SurfaceLayer{1e-5}});
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   for (int i = 0; i * kStep < 0.299; ++i) stepper.step();
@@ -208,7 +208,7 @@ TEST_CASE("a ball rests on every shape, where its surface is, and is lifted with
     const double top = shape_and_top.second;
     CAPTURE(shape.index());
     const Part part{"part", shape, {{0, 0, 0.3}, Eigen::Quaterniond::Identity()}, {motion(Translation{{0, 0, 0.1}})}};
-    const Scene scene = scene_on({part}, ball(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
+    const Scene scene = scene_on({part}, light_ball(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
     const World world(scene, {at(0.3 + top + 5e-3)});
     Stepper stepper(world, scene);
     for (int i = 0; i < 500; ++i) stepper.step();
@@ -242,7 +242,7 @@ Part piston(double z) {
 }  // namespace
 
 TEST_CASE("the floor below a piston carries the weights and the force") {
-  const Scene scene = scene_on({plane({}), piston(0.025)}, ball(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
+  const Scene scene = scene_on({plane({}), piston(0.025)}, light_ball(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   for (int i = 0; i < 2000; ++i) stepper.step();
@@ -260,7 +260,7 @@ TEST_CASE("a piston is held until its time, falls with its damping, and stops wh
   part.drive->from = 0.1;
   part.drive->damping = 5;
   part.drive->travel = {0, 0.2};
-  const Scene scene = scene_on({plane({}), part}, ball(), {});
+  const Scene scene = scene_on({plane({}), part}, light_ball(), {});
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   const auto run = [&](double seconds) {
