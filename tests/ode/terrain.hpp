@@ -40,9 +40,6 @@ class Terrain {
     for (int j = 0; j < layout.rows; ++j) {
       for (int i = 0; i < layout.columns; ++i) doubles_[index(i, j)] = height(i, j);
     }
-    bytes_.assign(doubles_.begin(), doubles_.end());
-    shorts_.assign(doubles_.begin(), doubles_.end());
-    floats_.assign(doubles_.begin(), doubles_.end());
     const auto width = dReal(layout.width);
     const auto depth = dReal(layout.depth);
     const auto scale = dReal(layout.scale);
@@ -55,12 +52,15 @@ class Terrain {
         dGeomHeightfieldDataBuildCallback(data_, this, call_back, width, depth, nx, nz, scale, offset, 1, wrap);
         break;
       case Source::Byte:
+        bytes_.assign(doubles_.begin(), doubles_.end());
         dGeomHeightfieldDataBuildByte(data_, bytes_.data(), 0, width, depth, nx, nz, scale, offset, 1, wrap);
         break;
       case Source::Short:
+        shorts_.assign(doubles_.begin(), doubles_.end());
         dGeomHeightfieldDataBuildShort(data_, shorts_.data(), 0, width, depth, nx, nz, scale, offset, 1, wrap);
         break;
       case Source::Single:
+        floats_.assign(doubles_.begin(), doubles_.end());
         dGeomHeightfieldDataBuildSingle(data_, floats_.data(), 0, width, depth, nx, nz, scale, offset, 1, wrap);
         break;
       case Source::Double:
