@@ -47,7 +47,7 @@ TEST_CASE("the slope is the derivative of the gap") {
 TEST_CASE("the maximum over an arc, against sampling") {
   Draw draw(12);
   int maxima = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 3000; ++i) {
     CAPTURE(i);
     const std::unique_ptr<Shape> body = draw.body();
     SupportProbe probe(*body, draw.rotation());
@@ -73,6 +73,7 @@ TEST_CASE("the maximum over an arc, against sampling") {
     // The maximum is local, and over the edge: seen along the normal the point is on the edge's line.
     CHECK(std::abs(found.normal.dot(found.point - arc.edge_point) - found.gap) < 1e-14);
     CHECK(std::abs(arc.from.cross(arc.towards).cross(found.normal).dot(found.point - arc.edge_point)) < 1e-9);
+    // One arc in 4000 has another maximum too, which is lower than an end.
     CHECK(found.gap >= std::max(low.gap, high.gap) - 1e-11);
     // The body is nowhere deeper.
     CHECK(std::abs(probe.deepest(found.normal).height - found.normal.dot(found.point)) < 2e-11);
