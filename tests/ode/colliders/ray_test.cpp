@@ -178,7 +178,7 @@ TEST_CASE("ODE's ray battery for our bodies") {
     const auto frontal = hit(ray, body);
     REQUIRE(frontal.size() == 1);
     // The hit is as near to the boundary as is promised, and so much farther off along the ray as the ray grazes the surface.
-    const double tolerance = within_rounding(1e-9) * least_half_extent(body) / std::abs(dot(inward, n));
+    const double tolerance = within_rounding(1e-9 * least_half_extent(body)) / std::abs(dot(inward, n));
     CHECK(norm(to_vec(frontal[0].pos) - p) < tolerance);
     CHECK(std::abs(frontal[0].depth - distance) < tolerance);
 
