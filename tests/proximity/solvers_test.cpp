@@ -20,8 +20,7 @@ using namespace supernormal::test;
 
 namespace {
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Pose upright_at(const Vector3& position) { return {position, Eigen::Matrix3d::Identity()}; }
 
@@ -34,9 +33,7 @@ Settings with(Solver solver) {
 /// A body whose functions return NaN.
 class NotANumber final : public Shape {
  public:
-  void evaluate(const Vector3&, Order, Jet& jet) const override {
-    jet = {kNotANumber, Vector3::Constant(kNotANumber), Matrix3::Constant(kNotANumber)};
-  }
+  void evaluate(const Vector3&, Order, Jet& jet) const override { jet = {kNan, Vector3::Constant(kNan), Matrix3::Constant(kNan)}; }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 };
 
@@ -204,7 +201,7 @@ TEST_CASE("a limit of evaluations is kept, and the answer so far is a valid one"
 }
 
 TEST_CASE("settings out of range are refused with name, value and range") {
-  for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNotANumber, kUnbounded}) {
+  for (const double tolerance : {0.0, -1e-9, 0.9e-15, 1.1, kNan, kInfinity}) {
     Settings settings;
     settings.tolerance = tolerance;
     const std::string message = refusal(settings);
@@ -233,7 +230,7 @@ TEST_CASE("settings out of range are refused with name, value and range") {
 TEST_CASE("what is not finite is called invalid input") {
   const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
   for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
-    for (const double bad : {kNotANumber, kUnbounded, -kUnbounded}) {
+    for (const double bad : {kNan, kInfinity, -kInfinity}) {
       Pose displaced = upright_at({bad, 0, 0}), turned = upright_at({5, 0, 0});
       turned.rotation(1, 2) = bad;
       CHECK(find_proximity(shape, displaced, shape, upright_at({5, 0, 0}), with(solver)).status == Status::InvalidInput);
@@ -264,7 +261,7 @@ TEST_CASE("an unusable first normal is no worse than none") {
   const Superellipsoid shape(Vector3(3, 2, 1), 4, 1.3);
   const Proximity cold = find_proximity(shape, {}, shape, upright_at({3, 4, 2}));
   for (const Vector3& bad :
-       {Vector3(0, 0, 0), Vector3(kNotANumber, 0, 1), Vector3(0, kUnbounded, 0), Vector3(0, 0, 2), Vector3(1e-200, 0, 0)}) {
+       {Vector3(0, 0, 0), Vector3(kNan, 0, 1), Vector3(0, kInfinity, 0), Vector3(0, 0, 2), Vector3(1e-200, 0, 0)}) {
     const Proximity out = find_proximity(shape, {}, shape, upright_at({3, 4, 2}), {}, &bad);
     CHECK(out.gap == cold.gap);
     CHECK(out.evaluations == cold.evaluations);
