@@ -9,23 +9,23 @@
 
 namespace supernormal {
 
-/// A contact point beside the deepest one.
+/// One of the points that a flat contact rests on.
 struct ManifoldCorner {
   Vector3 point = Vector3::Zero();  ///< m; in the frame of the query
   double depth = 0;                 ///< m; depth of the overlap at `point`, from 0 to that of the deepest point
 };
 
-/// The deepest point of an overlap and, when that is flat, the corners of the region on which the bodies rest.
+/// The deepest point of an overlap and, where the bodies are flat, the corners of the region on which they rest.
 ///
 /// One exact point does not let a flat body rest: it jumps from edge to edge as the body tilts by a millionth of a radian. So
-/// where both bodies are flat at the contact, the corners of the region that their support polygons have in common become contact
-/// points too: up to four for a face on a face, two for a cylinder on its side, none where a body is round and must roll and rock
-/// on one point.
+/// where both bodies are flat at the contact, the corners of the region that their support polygons have in common are the contact
+/// points: up to four for a face on a face, two for a cylinder on its side, none where a body is round and must roll and rock on
+/// the deepest point alone.
 ///
-/// Everything is a continuous function of the pose. Corners grow out of the deepest point as the bodies become flat there
-/// (`flatness`); they are as deep as it is where the face does not lean, and less deep by as much as it leans. Corners at which
-/// the bodies are apart by at most `margin` have depth 0: they are one-sided supports, onto which the body can settle.
-/// lib/contact/README.md has the construction, its proofs and measurements.
+/// Everything is a continuous function of the pose. Corners grow out of the deepest point as the bodies become flat there; they
+/// are as deep as it is where the face does not lean, and less deep by as much as it leans. The region does not depend on the
+/// depth: it is the face, as far as the leaning faces overlap or are apart by at most 1e-3 half-heights, where corners have depth
+/// 0. lib/contact/README.md has the construction, its proofs and measurements.
 struct ContactManifold {
   static constexpr int kMaxCorners = 4;  ///< the most corners that a manifold has
 
@@ -33,13 +33,12 @@ struct ContactManifold {
   /// One contact, without corners.
   ContactManifold(const Proximity& proximity) : deepest(proximity) {}  // NOLINT(google-explicit-constructor): one point is one
 
-  Proximity deepest;                                  ///< the contact with the depth of the overlap
+  Proximity deepest;  ///< the point with the depth of the overlap: the contact if there are no corners
   std::array<ManifoldCorner, kMaxCorners> corners{};  ///< the first corner_count are valid, in order around the contact
   int corner_count = 0;                               ///< 0 or 4, some of which may be at the same place; see reduced_to()
   double same_place = 0;                              ///< m; corners that are nearer to each other are one contact
-  double flatness = 0;  ///< 0 to 1: the factor on the corners' depths beside the deepest point; without that they count fully
-  double margin = 0;    ///< m; the bodies are apart by no more than this at a corner
-  int evaluations = 0;  ///< boundary points of one body that finding the corners took
+  double margin = 0;                                  ///< m; the bodies are apart by no more than this at a corner
+  int evaluations = 0;                                ///< boundary points of one body that finding the corners took
 };
 
 /// The manifold of two bodies whose proximity is known. Corners are only looked for when the bodies overlap; they lie in the
@@ -50,14 +49,9 @@ SUPERNORMAL_API ContactManifold find_contact_manifold(const Shape& shape1, const
 /// The manifold of a body and a plane, from find_plane_proximity(); the corners are points of the body.
 SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity);
 
-/// Whether a caller with room for so many contacts gets the deepest point beside the corners, whose depths are then scaled by
-/// `flatness`. With less room the corners replace it, at their full depths: the body rests on the points around it.
-constexpr bool has_room_for_deepest(int room) { return room > ContactManifold::kMaxCorners; }
-
-/// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places. Beside the deepest
-/// point there are up to four at other places than its own; where they replace it, there are none or two to four, and the deepest
-/// comes first. With room for two or three, neighbours are united at a place between them. The result is as continuous as the
-/// manifold.
+/// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places, deepest first, or the
+/// deepest point alone where there are none. The first has the depth of the overlap. With room for two or three, neighbours are
+/// united at a place between them. The result is as continuous as the manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 
 }  // namespace supernormal

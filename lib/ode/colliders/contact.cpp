@@ -36,72 +36,56 @@ int append_contact(const Proximity& proximity, const ContactArray& out, int coun
   return count + 1;
 }
 
-int append_corners(const ContactManifold& manifold, double share_of_depth, const ContactArray& out, int count, int side2) {
+/// Writes the corners of a reduced manifold from number `first` on; the deepest point, number 0, if there are none.
+int append_from(int first, const ContactManifold& manifold, const ContactArray& out, int count, int side2) {
   Proximity contact = manifold.deepest;
-  for (int k = 0; k < manifold.corner_count; ++k) {
+  if (!is_contact(contact)) return count;
+  if (manifold.corner_count == 0) return first == 0 ? append_contact(contact, out, count, side2) : count;
+  for (int k = first; k < manifold.corner_count; ++k) {
     const ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
-    contact.gap = -share_of_depth * corner.depth;
+    contact.gap = -corner.depth;
     contact.contact = corner.point;
     if (is_contact(contact)) count = append_contact(contact, out, count, side2);
   }
   return count;
 }
 
-/// Distributes the room for contacts: one for each manifold, and a fair share of the rest for its corners.
+/// Distributes the room for contacts: one for each manifold, and a fair share of the rest for its other corners.
 class Shares {
  public:
   Shares(std::size_t manifolds, int room) : left_(static_cast<int>(manifolds)), spare_(std::max(0, room - left_)) {}
 
-  /// The room for the next manifold; if its wish is granted, all the room that a manifold may want.
+  /// The room for the next manifold.
   int next(const ContactManifold& manifold) {
-    const int wanted = reduced_to(manifold, kAllTheRoom).corner_count;
+    const int wanted = std::max(0, reduced_to(manifold, ContactManifold::kMaxCorners).corner_count - 1);
     const int share = std::min(wanted, (spare_ + left_ - 1) / left_);
     spare_ -= share;
     --left_;
-    return share == wanted ? kAllTheRoom : 1 + share;
+    return share == wanted ? ContactManifold::kMaxCorners : 1 + share;
   }
 
  private:
-  static constexpr int kAllTheRoom = 1 + ContactManifold::kMaxCorners;
-
   int left_;
   int spare_;
 };
 
-bool lists_deepest(const ContactManifold& reduced, int room) { return reduced.corner_count == 0 || has_room_for_deepest(room); }
-
 }  // namespace
 
 int write_contacts(const ContactManifold& manifold, const ContactArray& out, int side2) {
-  if (!is_contact(manifold.deepest)) return 0;
-  if (manifold.corner_count == 0) return append_contact(manifold.deepest, out, 0, side2);
-  const ContactManifold reduced = reduced_to(manifold, out.room());
-  if (!lists_deepest(reduced, out.room())) return append_corners(reduced, 1, out, 0, side2);
-  const int count = append_contact(manifold.deepest, out, 0, side2);
-  return append_corners(reduced, manifold.flatness, out, count, side2);
+  return append_from(0, reduced_to(manifold, out.room()), out, 0, side2);
 }
 
 int write_contacts(std::span<LocatedManifold> manifolds, const ContactArray& out) {
-  if (manifolds.size() == 1) return write_contacts(manifolds.front().manifold, out, manifolds.front().side2);
   int count = 0;
   Shares shares(manifolds.size(), out.room());
-  // The deepest point of each manifold comes first, so that the deepest of all is the first contact.
+  // The deepest contact of each manifold comes first, so that the deepest of all is the first contact.
   for (LocatedManifold& located : manifolds) {
-    ContactManifold& manifold = located.manifold;
-    located.room = shares.next(manifold);
-    manifold = reduced_to(manifold, located.room);
-    if (!is_contact(manifold.deepest)) continue;
-    if (lists_deepest(manifold, located.room)) {
-      count = append_contact(manifold.deepest, out, count, located.side2);
-    } else {
-      count = append_corners(manifold, 1, out, count, located.side2);
-    }
+    located.manifold = reduced_to(located.manifold, shares.next(located.manifold));
+    ContactManifold first = located.manifold;
+    first.corner_count = std::min(first.corner_count, 1);
+    count = append_from(0, first, out, count, located.side2);
   }
-  // The corners follow.
-  for (const LocatedManifold& located : manifolds) {
-    if (!lists_deepest(located.manifold, located.room) || !is_contact(located.manifold.deepest)) continue;
-    count = append_corners(located.manifold, located.manifold.flatness, out, count, located.side2);
-  }
+  for (const LocatedManifold& located : manifolds) count = append_from(1, located.manifold, out, count, located.side2);
   return count;
 }
 

@@ -25,12 +25,11 @@ struct ContactArray {
 struct LocatedManifold {
   ContactManifold manifold;
   int side2 = -1;  ///< the part of o2 that it is with (the triangle of a mesh); -1 where geoms have no parts
-  int room = 0;    ///< share of the room, in contacts
 };
 
-/// Writes a contact if the geoms touch or overlap, with the corners of the manifold as reduced_to() the room, and returns how
-/// many were written; `side2` as in LocatedManifold. This is the one place where the normal changes from the core's direction (o1
-/// to o2) to ODE's (into o1).
+/// Writes the contacts of the manifold as reduced_to() the room if the geoms touch or overlap, and returns how many were written;
+/// `side2` as in LocatedManifold. This is the one place where the normal changes from the core's direction (o1 to o2) to ODE's
+/// (into o1).
 ///
 /// A query that ended without convergence gives a contact as well: whatever its normal n, moving the bodies apart by -s(n) along
 /// n does separate them, so that the depth errs on the safe side, and without a contact they would fall through each other.

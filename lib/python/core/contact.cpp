@@ -32,34 +32,26 @@ py::array_t<double> corner_depths(const ContactManifold& self) {
 /// The contacts that the ODE layer makes of a manifold (lib/ode/colliders/contact.cpp).
 py::tuple contacts(const ContactManifold& self, int room) {
   if (room < 1) throw std::invalid_argument("room = " + std::to_string(room) + " is outside [1, inf)");
-  const bool overlaps = self.deepest.gap <= 0;
+  if (!(self.deepest.gap <= 0))
+    return py::make_tuple(py::array_t<double>({py::ssize_t{0}, py::ssize_t{3}}), py::array_t<double>(0));
   const ContactManifold reduced = reduced_to(self, room);
-  const bool has_deepest = overlaps && (reduced.corner_count == 0 || has_room_for_deepest(room));
-  const double share = has_deepest ? self.flatness : 1;
-  const py::ssize_t corners = overlaps ? reduced.corner_count : 0;
-  const py::ssize_t count = corners + (has_deepest ? 1 : 0);
-  py::array_t<double> points({count, py::ssize_t{3}}), depths(count);
-  double* to_point = points.mutable_data();
-  double* to_depth = depths.mutable_data();
-  const auto append = [&](const Vector3& point, double depth) {
-    to_point = std::copy(point.data(), point.data() + 3, to_point);
-    *to_depth++ = depth;
-  };
-  if (has_deepest) append(self.deepest.contact, 0 - self.deepest.gap);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k)
-    append(reduced.corners[k].point, share * reduced.corners[k].depth);
+  if (reduced.corner_count > 0) return py::make_tuple(corner_points(reduced), corner_depths(reduced));
+  py::array_t<double> points({py::ssize_t{1}, py::ssize_t{3}});
+  std::copy(self.deepest.contact.data(), self.deepest.contact.data() + 3, points.mutable_data());
+  py::array_t<double> depths(1);
+  *depths.mutable_data() = 0 - self.deepest.gap;
   return py::make_tuple(points, depths);
 }
 
 constexpr const char* kManifoldDoc =
-    R"(The deepest point of an overlap and, when that is flat, the corners of the region on which the bodies rest. Points are in the
+    R"(The deepest point of an overlap and, where the bodies are flat, the corners of the region on which they rest. Points are in the
 world's frame. It is a continuous function of the poses, and symmetric under swapping the bodies.)";
 
 constexpr const char* kContactsDoc =
     R"(The contacts that a simulator with room for so many gets: points (K, 3), m, and depths (K,), m, as a tuple.
 
-room: in [1, inf); ValueError otherwise. Round bodies have one contact, flat ones the deepest and two to four corners; with room for
-2 to 4 the corners take the place of the deepest. None if the bodies are apart. The normal of all is deepest.normal.)";
+room: in [1, inf); ValueError otherwise. Round bodies have one contact, flat ones up to four corners, deepest first. None if the bodies
+are apart. The normal of all is deepest.normal.)";
 
 constexpr const char* kFindManifoldDoc = R"(The contact manifold of two bodies whose proximity is known.
 
@@ -88,7 +80,6 @@ void bind_contact(py::module_& m) {
           "deepest", [](const ContactManifold& self) { return self.deepest; }, "Proximity: the deepest point")
       .def_property_readonly("corner_points", &corner_points, "(K, 3), m, K = 0 or 4; some may be at the same place")
       .def_property_readonly("corner_depths", &corner_depths, "(K,), m; depth of the overlap at the corners, 0 where there is none")
-      .def_readonly("flatness", &ContactManifold::flatness, "0 to 1: the factor on the corners' depths beside the deepest point")
       .def_readonly("margin", &ContactManifold::margin, "m; the bodies are apart by no more than this at a corner")
       .def_readonly("same_place", &ContactManifold::same_place, "m; corners that are nearer to each other are one contact")
       .def_readonly("evaluations", &ContactManifold::evaluations, "boundary points that finding the corners took")

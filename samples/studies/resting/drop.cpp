@@ -85,17 +85,25 @@ Rest drop(const Row& row, const Attitudes& attitudes, int number) {
   World world(dSimpleSpaceCreate(nullptr), row.step, row.room);
   floor.lay(row.floor, world.space(), kFloorSize * row.half_height);
   if (row.correcting_velocity > 0) dWorldSetContactMaxCorrectingVel(world.id(), static_cast<dReal>(row.correcting_velocity));
-  const dBodyID body = world.add(row.exponent, {2 * row.half_height, row.half_height * 14 / 10, row.half_height});
+  dMass mass;
+  const dGeomID geom = row.exponent > 0 ? create_body(world.space(), row.kind, row.exponent, row.half_height, mass)
+                                        : create_counterpart(world.space(), row.kind, row.half_height, mass);
+  const dBodyID body = world.add(geom, mass);
   dBodySetPosition(body, 0, 0, static_cast<dReal>(3 * row.half_height));
   const double direction = kGoldenAngle * (number + kDrops * attitudes.draw);
   const double tilt = kLeastTilt + (attitudes.largest_tilt - kLeastTilt) * number / (kDrops - 1);
-  dMatrix3 attitude;
-  dRFromAxisAndAngle(attitude, static_cast<dReal>(std::cos(direction)), static_cast<dReal>(std::sin(direction)), 0,
+  dQuaternion tilted;
+  dQuaternion on_its_side;
+  dQuaternion attitude;
+  dQFromAxisAndAngle(tilted, static_cast<dReal>(std::cos(direction)), static_cast<dReal>(std::sin(direction)), 0,
                      static_cast<dReal>(tilt * M_PI / 180));
-  dBodySetRotation(body, attitude);
+  dQFromAxisAndAngle(on_its_side, 0, 1, 0, lies_on_its_side(row.kind) ? static_cast<dReal>(M_PI_2) : 0);
+  dQMultiply0(attitude, tilted, on_its_side);
+  dBodySetQuaternion(body, attitude);
   int step = 0;
   while (step * row.step < kLongest && dBodyIsEnabled(body) != 0) world.step(++step);
-  return {dBodyIsEnabled(body) == 0, step * row.step, double{dBodyGetPosition(body)[2]} / row.half_height};
+  return {dBodyIsEnabled(body) == 0, step * row.step, double{dBodyGetPosition(body)[2]} / row.half_height,
+          lowest_point(geom) / row.half_height};
 }
 
 }  // namespace resting

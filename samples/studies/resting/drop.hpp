@@ -6,6 +6,8 @@
 #include <array>
 #include <memory>
 
+#include "body_kind.hpp"
+
 namespace resting {
 
 enum class FloorKind { Plane, Box, Mesh, Heightfield, Superellipsoid };
@@ -13,8 +15,9 @@ enum class FloorKind { Plane, Box, Mesh, Heightfield, Superellipsoid };
 /// A row of the matrix: everything that a program may choose, and the size of the body. For everything else ODE's defaults hold.
 struct Row {
   FloorKind floor = FloorKind::Plane;
-  double exponent = 0;             ///< exponent of both sections; 0: a dBox
-  double half_height = 0.05;       ///< m; the half-axes are in the ratio 10 : 7 : 5
+  BodyKind kind = BodyKind::Brick;
+  double exponent = 0;             ///< 0: the dBox or dCylinder of the same size
+  double half_height = 0.05;       ///< m
   double step = 0.01;              ///< s
   int room = 8;                    ///< contacts a pair
   double correcting_velocity = 0;  ///< m/s; 0: without limit
@@ -31,6 +34,7 @@ struct Rest {
   bool is_asleep = false;  ///< within ten seconds
   double time = 0;         ///< s; until it fell asleep
   double height = 0;       ///< height of the centre in the end, half-heights
+  double lowest = 0;       ///< height of the lowest point in the end, half-heights: negative in the floor
 };
 
 inline constexpr int kDrops = 24;  ///< they start in different attitudes

@@ -38,6 +38,10 @@ dBodyID World::add(double exponent, const std::array<double, 3>& half_axes) {
     geom = dCreateBox(space_, 2 * a, 2 * b, 2 * c);
     dMassSetBox(&mass, static_cast<dReal>(kDensity), 2 * a, 2 * b, 2 * c);
   }
+  return add(geom, mass);
+}
+
+dBodyID World::add(dGeomID geom, const dMass& mass) {
   const dBodyID body = dBodyCreate(world_);
   dBodySetMass(body, &mass);
   dGeomSetBody(geom, body);

@@ -25,6 +25,9 @@ class World {
   /// std::runtime_error.
   dBodyID add(double exponent, const std::array<double, 3>& half_axes);
 
+  /// Adds a body of that mass with the geom, which must be in the space.
+  dBodyID add(dGeomID geom, const dMass& mass);
+
   /// Makes a step. `number` seeds quickstep's order of rows, so that a run repeats.
   void step(int number);
 

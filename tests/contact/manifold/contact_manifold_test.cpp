@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
 using namespace supernormal;
@@ -117,17 +119,17 @@ TEST_CASE("a flat body has four corners on the floor, with little between them a
         manifold_on_floor(body, tilt(uniform(random, 0, 0.2) * depth / half_axes.maxCoeff(), uniform(random, 0, 7)), depth, &pose);
     CHECK(manifold.deepest.gap == test::relative(-depth).epsilon(1e-9));
     REQUIRE(manifold.corner_count == 4);
-    CHECK(manifold.flatness == 1);
     for (const ManifoldCorner& corner : manifold.corners) {
       CHECK(corner.depth >= 0);
       CHECK(corner.depth <= depth * (1 + 1e-9));
       // The ray starts below the body's deepest point and goes up.
-      const Vector3 below = corner.point - 2 * manifold.margin * Vector3::UnitZ();
+      const Vector3 below = corner.point - 2 * (manifold.margin + depth) * Vector3::UnitZ();
       const RayHit hit = find_ray_hit(body, pose, below, Vector3::UnitZ(), 1);
       REQUIRE(hit.hit);
       CHECK(hit.point.z() <= manifold.margin * (1 + 1e-6));
-      // The chord to the corner lies in the body, and its end is not far within.
-      CHECK(hit.point.z() <= corner.point.z() + 1e-9 * half_axes.z());
+      // The corner is in the tangent plane, and the body not far above it.
+      CHECK(corner.point.z() <= 0);
+      CHECK(hit.point.z() - corner.point.z() <= manifold.margin + depth * (1 + 1e-6));
     }
     // The corners span most of the face.
     CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
@@ -146,7 +148,7 @@ TEST_CASE("whatever the room, the deepest contact is as deep as the overlap") {
     for (int room = 2; room <= 8; ++room) {
       CAPTURE(room);
       const ContactManifold reduced = reduced_to(manifold, room);
-      if (reduced.corner_count == 0 || has_room_for_deepest(room)) continue;
+      if (reduced.corner_count == 0) continue;
       double deepest = 0;
       for (std::size_t k = 0; k < static_cast<std::size_t>(reduced.corner_count); ++k) {
         deepest = std::max(deepest, reduced.corners[k].depth);
@@ -168,6 +170,72 @@ TEST_CASE("a can rests on two points on its side and on four on its end") {
   // The corners are on the line on which it rolls.
   CHECK(std::abs(between.x()) <= 1e-12);
   CHECK(std::abs(lying.corners[0].point.x() - lying.deepest.contact.x()) <= 1e-12);
+}
+
+TEST_CASE("a can on its side stands on both ends of its line, at any depth and lean, as deep as it is there") {
+  constexpr double kRadius = 0.05;
+  constexpr double kHalfLength = 0.25;
+  const Superellipsoid can(Vector3(kRadius, kRadius, kHalfLength), 2, 60);
+  for (const double depth : {1e-9, 1e-6, 1e-3, 0.01, 0.05, 0.2, 0.5, 1.0}) {
+    for (const double lean : {0.0, 1e-3, 0.01, 0.05}) {
+      CAPTURE(depth);
+      CAPTURE(lean);
+      const ContactManifold manifold =
+          reduced_to(manifold_on_floor(can, tilt(0.5 * std::numbers::pi + lean, std::numbers::pi / 2), depth * kRadius), 8);
+      const double depth_of_far_end = depth * kRadius - 2 * kHalfLength * std::sin(lean);
+      if (depth_of_far_end < -1e-3 * kRadius) continue;  // it is in the air
+      REQUIRE(manifold.corner_count == 2);
+      const Vector3 between = manifold.corners[1].point - manifold.corners[0].point;
+      CHECK(between.norm() == test::relative(2 * kHalfLength).epsilon(0.08));
+      CHECK(manifold.corners[0].depth == test::relative(depth * kRadius));
+      CHECK(std::abs(manifold.corners[1].depth - std::max(0.0, depth_of_far_end)) <=
+            0.06 * 2 * kHalfLength * std::sin(lean) + 1e-15);
+    }
+  }
+}
+
+TEST_CASE("what a face stands on does not shrink to a point as the depth goes to nothing") {
+  for (const double exponent : {6.0, 8.0, 20.0, 60.0, 1000.0}) {
+    CAPTURE(exponent);
+    const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), exponent, exponent);
+    const ContactManifold shallow = manifold_on_floor(brick, Matrix3::Identity(), 1e-12);
+    for (const double depth : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8}) {
+      CAPTURE(depth);
+      const ContactManifold manifold = manifold_on_floor(brick, Matrix3::Identity(), depth);
+      REQUIRE(manifold.corner_count == 4);
+      for (std::size_t k = 0; k < 4; ++k) {
+        CHECK(manifold.corners[k].depth == test::relative(depth));
+        const Vector3 moved = manifold.corners[k].point - shallow.corners[k].point;
+        CHECK(std::hypot(moved.x(), moved.y()) <= 1e-3 * 0.1);
+        CHECK(std::abs(manifold.corners[k].point.x() - 0.3) >= 0.4 * 0.1);
+      }
+    }
+  }
+}
+
+TEST_CASE("a corner in the air is drawn in to where the leaning faces are near to each other") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 200, 200);
+  const double depth = 1e-4;
+  for (const double lean : {0.01, 0.02, 0.05}) {
+    CAPTURE(lean);
+    const ContactManifold manifold = reduced_to(manifold_on_floor(brick, tilt(lean, std::numbers::pi / 2), depth), 8);
+    REQUIRE(manifold.corner_count == 4);
+    CHECK(manifold.corners[0].depth == test::relative(depth));
+    CHECK(manifold.corners[3].depth == 0);
+    const double between = std::abs(manifold.corners[3].point.x() - manifold.corners[0].point.x());
+    CHECK(between >= 0.95 * depth / lean);
+    CHECK(between <= 1.05 * (depth + 0.035 * 0.05) / lean);
+  }
+}
+
+TEST_CASE("a rounded body stands on what the body without its rounding stands on") {
+  const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 60, 60);
+  const Rounded rounded(std::make_shared<Superellipsoid>(brick), 0.04);
+  const ContactManifold of_brick = manifold_on_floor(brick, Matrix3::Identity(), 1e-4);
+  const ContactManifold of_rounded = manifold_on_floor(rounded, Matrix3::Identity(), 1e-4);
+  REQUIRE(of_rounded.corner_count == 4);
+  // The tilts are made for the whole body's half-extents.
+  CHECK(distance_of_corners(of_brick, of_rounded) <= 2e-3);
 }
 
 TEST_CASE("a body on a box has the corners that it has on a plane") {

@@ -151,7 +151,7 @@ TEST_CASE("there are never more contacts than there is room for, the deepest fir
   dGeomSetPosition(brick, 0, 0, dReal(0.0499));
   for (int room = 1; room <= 8; ++room) {
     const Contacts contacts = collide(brick, floor, room);
-    REQUIRE(contacts.size() == static_cast<std::size_t>(std::min(room, 5)));
+    REQUIRE(contacts.size() == static_cast<std::size_t>(std::min(room, 4)));
     CHECK(contacts[0].depth == relative(1e-4));
     // The body does not lean: the face is as deep as its deepest point.
     for (std::size_t k = 1; k < contacts.size(); ++k) CHECK(contacts[k].depth == relative(1e-4));
@@ -166,9 +166,9 @@ TEST_CASE("swapped geoms have the same contacts, the normals turned") {
   dGeomSetPosition(upper, dReal(0.03), dReal(0.02), dReal(0.0999));
   const Contacts contacts = collide(lower, upper);
   const Contacts swapped = collide(upper, lower);
-  REQUIRE(contacts.size() == 5);
-  REQUIRE(swapped.size() == 5);
-  for (std::size_t k = 0; k < 5; ++k) {
+  REQUIRE(contacts.size() == 4);
+  REQUIRE(swapped.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) {
     CHECK(norm(to_vec(contacts[k].pos) - to_vec(swapped[k].pos)) <= 1e-12);
     CHECK(norm(to_vec(contacts[k].normal) + to_vec(swapped[k].normal)) <= 1e-12);
     CHECK(contacts[k].g1 == lower.operator dGeomID());
@@ -181,32 +181,22 @@ TEST_CASE("what carries a flat body does not jump while it tilts, nor while it c
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom box(dCreateBox(nullptr, dReal(0.5), dReal(0.5), dReal(0.2)));
   dGeomSetPosition(box, dReal(0.02), dReal(0.01), dReal(-0.1));
-  constexpr double kMost = 0.02;  // relative to the weight
-  constexpr int kSteps = 4000;
   for (const dGeomID under : {plane.operator dGeomID(), box.operator dGeomID()}) {
     for (const double exponent : {5.0, 8.0, 60.0}) {
       CAPTURE(exponent);
       const Geom brick(
           snCreateSuperellipsoid(nullptr, dReal(kLongest), dReal(0.07), dReal(0.05), dReal(exponent), dReal(exponent)));
       Scale scale(brick, under);
-      Load previous;
-      double largest = 0;
-      const auto weigh = [&](bool is_first) {
-        const Load load = scale.weigh();
-        if (!is_first) largest = std::max(largest, difference(load, previous));
-        previous = load;
+      const auto tilted = [&](double x) {
+        lay(brick, under, 0.4 * x - 0.02, 1.1, 2e-4);
+        return scale.weigh();
       };
-      for (int step = 0; step <= kSteps; ++step) {
-        lay(brick, under, 1e-4 * (step - 200), 1.1, 2e-4);
-        weigh(step == 0);
-      }
-      CHECK(largest <= kMost);
-      largest = 0;
-      for (int step = 0; step <= kSteps; ++step) {
-        lay(brick, under, 0.01, 1.1, 1e-5 * std::pow(1500, static_cast<double>(step) / kSteps));
-        weigh(step == 0);
-      }
-      CHECK(largest <= kMost);
+      CHECK(largest_jump(tilted, 4000) <= 0.02);
+      const auto deepened = [&](double x) {
+        lay(brick, under, 0.01, 1.1, 1e-5 * std::pow(1500, x));
+        return scale.weigh();
+      };
+      CHECK(largest_jump(deepened, 4000) <= 0.02);
     }
   }
 }
@@ -252,7 +242,7 @@ TEST_CASE("a face has as many contacts at any depth up to 30 % of its half-heigh
         CAPTURE(depth);
         dGeomSetPosition(brick, 0, 0, dReal(0.05 - depth));
         for (int room = 2; room <= 8; ++room)
-          CHECK(collide(brick, under, room).size() == static_cast<std::size_t>(std::min(room, 5)));
+          CHECK(collide(brick, under, room).size() == static_cast<std::size_t>(std::min(room, 4)));
       }
     }
   }
