@@ -181,7 +181,7 @@ TEST_CASE("a ball on one triangle: the face's normal where it stands, the distan
   Draw draw(4);
   int standing[3] = {0, 0, 0};
   int beside[3] = {0, 0, 0};
-  for (int i = 0; i < 12000; ++i) {
+  for (int i = 0; i < 24000; ++i) {
     CAPTURE(i);
     MeshTriangle triangle;
     for (Vector3& vertex : triangle.vertices) vertex = draw.in_box({1, 1, 1});
@@ -297,6 +297,42 @@ TEST_CASE("steps, T-junctions and borders make no ghosts") {
   CHECK(at(0.2, 0.30).empty());
   REQUIRE(at(0.37, 0.19).size() == 2);  // the lower floor and the edge
   CHECK(at(0.37, 0.19)[0].proximity.gap + at(0.37, 0.19)[1].proximity.gap < -0.01);
+}
+
+TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are no seams") {
+  const Sphere ball(0.5);
+  const auto strips = [](const std::vector<Vector3>& profile) {  // of a floor along y, by x and z
+    TriangleMesh mesh;
+    for (const Vector3& point : profile) {
+      for (const double y : {-5.0, 5.0}) mesh.add({point.x(), y, point.z()});
+    }
+    for (int k = 0; k + 3 < static_cast<int>(mesh.vertices.size()); k += 2) {
+      mesh.triangles.push_back({k, k + 2, k + 3});
+      mesh.triangles.push_back({k, k + 3, k + 1});
+    }
+    return mesh.placed();
+  };
+  const auto at = [&](const std::vector<MeshTriangle>& floor, double x, double depth) {
+    return contacts_of(ball, {{x, 0.1, 0.5 - depth}, Matrix3::Identity()}, floor);
+  };
+  const double rise = 1e-3 * 5;
+  const std::vector<MeshTriangle> roof = strips({{-5, 0, -0.5 * rise}, {0, 0, 0}, {5, 0, -0.5 * rise}});
+  for (const double x : {-0.1, 0.0, 0.1}) {
+    const std::vector<MeshContact> contacts = at(roof, x, 1e-3);
+    REQUIRE(contacts.size() == 1);
+    const double lean = x == 0 ? 0 : std::copysign(5e-4, -x);
+    CHECK(std::abs(contacts[0].proximity.normal.x() - lean) < 1e-9);
+  }
+  const std::vector<MeshTriangle> valley = strips({{-5, 0, 0.5 * rise}, {0, 0, 0}, {5, 0, 0.5 * rise}});
+  const std::vector<MeshContact> both = at(valley, 0, 1e-3);
+  REQUIRE(both.size() == 2);
+  CHECK(std::abs(both[0].proximity.normal.x() - both[1].proximity.normal.x()) > 0.99e-3);
+  // A step of 1e-4 up, at the left: the ball on the lower floor meets its edge.
+  const std::vector<MeshTriangle> step = strips({{-5, 0, 1e-4}, {0, 0, 1e-4}, {0, 0, 0}, {5, 0, 0}});
+  const std::vector<MeshContact> contacts = at(step, 0.05, 0.01);
+  REQUIRE(contacts.size() == 2);
+  CHECK((contacts[0].proximity.normal + Vector3::UnitZ()).norm() < 1e-12);
+  CHECK(contacts[1].proximity.normal.x() == relative(-0.1).epsilon(0.05));
 }
 
 TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
