@@ -100,25 +100,29 @@ void Surface::number_corners() {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       int& corner = faces_[f].corner[k];
-      corner = find_corner(f, k, cell);
+      const Vector3 in_cells = faces_[f].vertices[k] / cell;
+      const Vector3 own = in_cells.array().floor();
+      corner = find_corner_in(own, f, k);
+      if (corner < 0) corner = find_corner_beside(in_cells - own, own, faces_[f].seam / cell, f, k);
       if (corner >= 0) continue;
       corner = corner_count_++;
-      enter_corner(f, k, cell);
+      enter_corner(own, f, k);
     }
   }
 }
 
-// Looks in the cells that are within a seam of the vertex: nearly always one. Returns -1 if there is no such vertex yet.
-int Surface::find_corner(std::size_t f, std::size_t k, double cell) const {
-  const Vector3& vertex = faces_[f].vertices[k];
-  const Vector3 seam = Vector3::Constant(faces_[f].seam);
-  const Vector3 low = ((vertex - seam) / cell).array().floor();
-  const Vector3 high = ((vertex + seam) / cell).array().floor();
-  int corner = find_corner_in((vertex / cell).array().floor(), f, k);
-  if (low == high) return corner;
-  for (unsigned i = 0; corner < 0 && i < 8; ++i) {
-    const Vector3 other((i & 1U) != 0 ? high.x() : low.x(), (i & 2U) != 0 ? high.y() : low.y(), (i & 4U) != 0 ? high.z() : low.z());
-    corner = find_corner_in(other, f, k);
+// Looks in the other cells that are within a seam of the vertex: nearly always none. Returns -1 if there is no such vertex yet.
+int Surface::find_corner_beside(const Vector3& in_cell, const Vector3& own, double seam, std::size_t f, std::size_t k) const {
+  Vector3 step;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double beyond = in_cell[axis] > 1 - seam ? 1 : 0;
+    step[axis] = in_cell[axis] < seam ? -1 : beyond;
+  }
+  if (step == Vector3::Zero()) return -1;
+  int corner = -1;
+  for (unsigned i = 1; corner < 0 && i < 8; ++i) {
+    const Vector3 taken{(i & 1U) != 0 ? step.x() : 0, (i & 2U) != 0 ? step.y() : 0, (i & 4U) != 0 ? step.z() : 0};
+    corner = find_corner_in(own + taken, f, k);
   }
   return corner;
 }
@@ -135,9 +139,9 @@ int Surface::find_corner_in(const Vector3& cell, std::size_t f, std::size_t k) c
   return -1;
 }
 
-void Surface::enter_corner(std::size_t f, std::size_t k, double cell) {
+void Surface::enter_corner(const Vector3& cell, std::size_t f, std::size_t k) {
   const std::size_t slots = corner_table_.size();
-  std::size_t slot = hash((faces_[f].vertices[k] / cell).array().floor()) & (slots - 1);
+  std::size_t slot = hash(cell) & (slots - 1);
   while (corner_table_[slot] >= 0) slot = (slot + 1) & (slots - 1);
   corner_table_[slot] = static_cast<int>(3 * f + k);
 }

@@ -87,9 +87,9 @@ class Surface {
 
   void append(const MeshTriangle& triangle, const Vector3& origin, double length_unit);
   void number_corners();
-  int find_corner(std::size_t face, std::size_t k, double cell) const;
+  int find_corner_beside(const Vector3& in_cell, const Vector3& own, double seam, std::size_t face, std::size_t k) const;
   int find_corner_in(const Vector3& cell, std::size_t face, std::size_t k) const;
-  void enter_corner(std::size_t face, std::size_t k, double cell);
+  void enter_corner(const Vector3& cell, std::size_t face, std::size_t k);
   void match_edges();
   void match_uses(std::span<EdgeUse> uses);
   EdgeConvexity convexity_between(const Face& face, int side, const Face& neighbour) const;
