@@ -30,9 +30,9 @@ class MeshContactSearch;
 /// Nothing else is carried over from one query to the next.
 ///
 /// The surface is single-sided: behind a triangle is solid. The triangles have to be all those that touch the body's box
-/// (body_box.hpp); others do not count, and the order does not matter. Neighbours are recognised by equal coordinates of the
-/// vertices that they share. Triangles without area, repeated ones and those with a coordinate that is not finite or beyond 1e30
-/// are skipped.
+/// (body_box.hpp); others do not count, and the order does not matter. Neighbours are recognised by the vertices that they share,
+/// which are the same up to 1e-6 of the smaller triangle's longest side. Triangles without area, repeated ones and those with a
+/// coordinate that is not finite or beyond 1e30 are skipped.
 class SUPERNORMAL_API MeshContacts {
  public:
   MeshContacts();
@@ -45,7 +45,10 @@ class SUPERNORMAL_API MeshContacts {
   ///
   ///  * a face, when the body's deepest point lies under it, or under the wall that the face runs into: explicit, with the digits
   ///    of find_plane_proximity();
-  ///  * a convex edge, over the arc between the normals of its two faces (at a border up to 90 degrees from that of its one face);
+  ///  * a convex edge, over the arc between the normals of its two faces;
+  ///  * the open border of a sheet, with the face's normal where the body stands on the sheet: its deepest point is below the face's
+  ///    plane by up to a tenth of the body's extent along the normal. The depth is that of the body over the border. From a fifth
+  ///    on the normal is that of the arc, up to 90 degrees from the face's; in between it turns from one to the other;
   ///  * a vertex, over the normals with whose tangent plane no triangle there violates the normal cone;
   ///  * a face that the body crosses, if there is nothing else: from there the way up.
   ///

@@ -57,7 +57,7 @@ bool DistinctContacts::has_similar(const Vector3& normal, const Vector3& point) 
 std::optional<double> DistinctContacts::shortest_separation(int part) const {
   std::optional<double> largest;
   for (const SurfaceContact& contact : contacts_) {
-    if (contact.part == part && (!largest || contact.gap > *largest)) largest = contact.gap;
+    if (contact.part == part && (!largest || contact.separation > *largest)) largest = contact.separation;
   }
   return largest;
 }

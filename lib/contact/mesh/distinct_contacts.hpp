@@ -13,6 +13,7 @@ namespace supernormal {
 struct SurfaceContact {
   Vector3 normal;         ///< unit, out of the surface
   double gap = 0;         ///< m, not positive
+  double separation = 0;  ///< m; the gap of the minimum translation, which differs from `gap` at an open border
   double error = 0;       ///< m
   Vector3 body_point;     ///< m
   Vector3 surface_point;  ///< m; body_point - gap * normal, on the plane or line of the feature
@@ -38,7 +39,7 @@ class DistinctContacts {
   /// Whether a contact with a similar normal is there that is at least as deep at the point.
   bool has_similar(const Vector3& normal, const Vector3& point) const;
 
-  /// The largest gap of the contacts with this part of the surface, m; empty if there are none.
+  /// The largest separation of the contacts with this part of the surface, m; empty if there are none.
   std::optional<double> shortest_separation(int part) const;
 
   /// Keeps, among several translations that separate the body from one convex part of the solid, the shortest. Two contacts are

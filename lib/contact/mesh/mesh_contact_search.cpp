@@ -71,6 +71,7 @@ SurfaceContact MeshContactSearch::contact_at(int face, const Vector3& normal, do
   SurfaceContact contact;
   contact.normal = normal;
   contact.gap = gap;
+  contact.separation = gap;
   contact.body_point = body_point;
   contact.surface_point = body_point - gap * normal;
   contact.feature_point = contact.surface_point;
@@ -112,7 +113,7 @@ bool MeshContactSearch::open_arc(SupportProbe& probe, int f, int side, Arc& arc,
   arc = {surface_.patches()[at(face.patch)].normal, across, 0.5 * std::numbers::pi, face.vertices[at(side)]};
   low = arc.sample(0, support.deepest);
   if (convexity == EdgeConvexity::Border) {
-    if (!(low.slope > surface_.rounding())) return false;
+    if (!(low.slope > surface_.rounding() + face.crack[at(side)])) return false;
     high = arc.sample(arc.end, probe);
     return true;
   }
@@ -142,6 +143,11 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
   const int first_evaluation = probe.evaluations();
   const ArcMaximum top = maximize_between(probe, arc, low, high, arc_tolerance(), settings_.max_evaluations);
   if (top.is_apart || !(top.gap <= 0)) return;
+  const double weight = face.convexity[at(side)] == EdgeConvexity::Border ? stands_on(probe, arc.from, arc.edge_point) : 0;
+  if (weight > 0) {
+    find_on_border(probe, f, side, arc, top, weight);
+    return;
+  }
   const Vector3 edge = face.vertices[at(next_corner(side))] - arc.edge_point;
   const double share = edge.dot(top.point - arc.edge_point) / edge.squaredNorm();
   SurfaceContact contact = contact_at(f, top.normal, top.gap, top.point);

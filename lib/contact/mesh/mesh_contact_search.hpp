@@ -43,6 +43,11 @@ class MeshContactSearch {
   void find_on_vertex(SupportProbe& probe, int face, int k, const Vector3& start);
   Proximity solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start);
   bool add_at_vertex(SupportProbe& probe, int face, int k, const Proximity& found);
+  double stands_on(SupportProbe& probe, const Vector3& face_normal, const Vector3& place) const;
+  void find_on_border(SupportProbe& probe, int face, int side, const Arc& arc, const ArcMaximum& top, double weight);
+  bool drop_below(SupportProbe& probe, SurfaceContact& contact) const;
+  void level_at_vertex(SupportProbe& probe, SurfaceContact& contact) const;
+  Vector3 face_normal_at(int corner, const Vector3& normal) const;
   void find_beyond_rim(SupportProbe& probe, std::size_t patch);
   void add_beyond_rim();
   void find_other_separations(SupportProbe& probe);

@@ -10,21 +10,27 @@ namespace {
 // Normals within this angle (radians) are those of triangles in one plane, but for rounding of their coordinates.
 constexpr double kLevel = 1e-5;
 
-// Width of a crack between triangles that were meant to meet, relative to the distance of a corner.
+// Width of a crack between triangles that were meant to meet, and how far their vertices are from one plane, relative to the
+// longest side of a triangle; and relative to the distance of a corner.
 constexpr double kCrack = 1e-6;
+
+double longest_side(const MeshTriangle& triangle) {
+  const std::array<Vector3, 3>& v = triangle.vertices;
+  return std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
+}
 
 /// The plane of a contact with a face, with the point of it under the body's deepest as its origin.
 struct Floor {
   Vector3 normal;  // unit, out of the surface
   Vector3 origin;  // m, world frame
-  double height;   // m; triangles farther from the plane than this are not the floor
+  double height;   // m; triangles farther from the plane than this, and a crack, are not the floor
 
   bool has(const MeshTriangle& triangle) const {
     const Vector3 a = triangle.vertices[0] - origin;
     const Vector3 b = triangle.vertices[1] - origin;
     const Vector3 c = triangle.vertices[2] - origin;
-    if (!(std::abs(normal.dot(a)) <= height && std::abs(normal.dot(b)) <= height && std::abs(normal.dot(c)) <= height))
-      return false;
+    const double near = height + kCrack * longest_side(triangle);
+    if (!(std::abs(normal.dot(a)) <= near && std::abs(normal.dot(b)) <= near && std::abs(normal.dot(c)) <= near)) return false;
     const Vector3 area = (b - a).cross(c - a);
     return area.cross(normal).norm() <= kLevel * area.dot(normal);
   }
@@ -33,24 +39,28 @@ struct Floor {
 struct Stretch {
   double from = 0;
   double to = 0;
+  double border = 0;  // `to` without the crack
 };
 
-/// The part of the segment from the origin to `corner` that is over the triangle, as shares of it; from > to if there is none.
+/// The part of the segment from the origin to `corner` that is over the triangle or in a crack beside it, as shares of it; from >
+/// to if there is none.
 Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vector3& corner) {
-  Stretch stretch{0, 1};
+  Stretch stretch{0, 1, 1};
   const Vector3 way = corner - floor.origin;
+  const double crack = kCrack * std::max(way.norm(), longest_side(triangle));
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3 start = triangle.vertices[k] - floor.origin;
     const Vector3 inward = floor.normal.cross(triangle.vertices[(k + 1) % 3] - triangle.vertices[k]).normalized();
     // The line is on the inner side, inward.(share way - start) >= 0, or outside by less than a crack.
     const double slope = inward.dot(way);
-    const double offset = inward.dot(start) - kCrack * way.norm();
+    const double offset = inward.dot(start);
     if (slope > 0) {
-      stretch.from = std::max(stretch.from, offset / slope);
-    } else if (slope < 0) {
-      stretch.to = std::min(stretch.to, offset / slope);
-    } else if (offset > 0) {
-      return {1, 0};
+      stretch.from = std::max(stretch.from, (offset - crack) / slope);
+    } else if (slope < 0 && (offset - crack) / slope < stretch.to) {
+      stretch.to = (offset - crack) / slope;
+      stretch.border = offset / slope;
+    } else if (slope == 0 && offset > crack) {
+      return {1, 0, 0};
     }
   }
   return stretch;
@@ -59,6 +69,7 @@ Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vec
 /// How far the floor reaches from the origin towards `corner`, as a share of the way.
 double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangles, const Vector3& corner) {
   double reached = 0;
+  double border = 0;
   bool goes_on = true;
   while (goes_on && reached < 1) {
     goes_on = false;
@@ -67,10 +78,11 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
       const Stretch stretch = stretch_over(floor, triangle, corner);
       if (stretch.from > reached + kCrack || stretch.to <= reached) continue;
       reached = stretch.to;
+      border = std::max(border, stretch.border);
       goes_on = true;
     }
   }
-  return reached;
+  return reached < 1 ? border : 1;
 }
 
 }  // namespace

@@ -15,6 +15,20 @@ constexpr double kNoHeight = 1e-12;
 // Normals that differ by less than this (radians) are equal but for rounding.
 constexpr double kFlat = 1e-12;
 
+// Vertices of neighbours differ by rounding, most of all where a program keeps them as floats, and so do those of a vertex and an
+// edge that it was laid on: by up to this share of a triangle's longest side.
+constexpr double kSeam = 1e-6;
+
+// Normals within this angle (radians) are those of triangles in one plane, but for seams.
+constexpr double kLevel = 1e-5;
+
+// A triangle counts as no larger than this, in units of the body's size, so that cracks which a body might notice stay.
+constexpr double kLargestFace = 1e3;
+
+// Cells of the hash table of vertices, in the largest seam: few vertices are so near to the border of a cell that another one has
+// to be looked at.
+constexpr double kCell = 16;
+
 // Hashes a point; -0 and 0 have the same hash, as they are equal.
 std::uint64_t hash(const Vector3& v) {
   std::uint64_t h = 0;
@@ -25,11 +39,11 @@ std::uint64_t hash(const Vector3& v) {
   return h;
 }
 
-// Whether the face stands out of the tangent plane by more than the contact tolerance and a rounding of the normal.
+// Whether the face stands out of the tangent plane by more than the contact tolerance and what is level but for seams.
 bool rises(const Face& face, const Vector3& normal, const Vector3& from, double contact_tolerance) {
   return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& vertex) {
     const Vector3 reach = vertex - from;
-    return normal.dot(reach) > contact_tolerance + 1e-9 * reach.norm();
+    return normal.dot(reach) > contact_tolerance + kLevel * reach.norm();
   });
 }
 
@@ -39,7 +53,7 @@ void Surface::build(std::span<const MeshTriangle> triangles, const Vector3& orig
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   faces_.clear();
   largest_ = 0;
-  for (const MeshTriangle& triangle : triangles) append(triangle, origin);
+  for (const MeshTriangle& triangle : triangles) append(triangle, origin, length_unit);
   rounding_ = 1e-12 * length_unit + 8 * kEpsilon * (largest_ + origin.lpNorm<Eigen::Infinity>());
   contact_tolerance_ = 1e-7 * length_unit + rounding_;
   number_corners();
@@ -47,7 +61,7 @@ void Surface::build(std::span<const MeshTriangle> triangles, const Vector3& orig
   collect_patches();
 }
 
-void Surface::append(const MeshTriangle& triangle, const Vector3& origin) {
+void Surface::append(const MeshTriangle& triangle, const Vector3& origin, double length_unit) {
   if (!is_usable(triangle)) return;
   Face face;
   double longest = 0;
@@ -67,35 +81,69 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin) {
   face.normal = area / length;
   for (std::size_t k = 0; k < 3; ++k) face.outward[k] = edges[k].normalized().cross(face.normal);
   largest_ = std::max(largest_, farthest);
+  face.seam = kSeam * std::min(longest, kLargestFace * length_unit);
   face.triangle = triangle.index;
   face.corner = {-1, -1, -1};
   face.neighbour = {-1, -1, -1};
   face.convexity = {EdgeConvexity::Border, EdgeConvexity::Border, EdgeConvexity::Border};
+  face.crack = {face.seam, face.seam, face.seam};
   face.patch = -1;
   face.next_in_patch = -1;
   faces_.push_back(face);
 }
 
 void Surface::number_corners() {
-  const std::size_t slots = std::bit_ceil(6 * faces_.size() + 1);
-  corner_table_.assign(slots, -1);
+  corner_table_.assign(std::bit_ceil(6 * faces_.size() + 1), -1);
   corner_count_ = 0;
+  double cell = std::numeric_limits<double>::min();
+  for (const Face& face : faces_) cell = std::max(cell, kCell * face.seam);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3& vertex = faces_[f].vertices[k];
-      std::size_t slot = hash(vertex) & (slots - 1);
       int& corner = faces_[f].corner[k];
-      for (; corner < 0; slot = (slot + 1) & (slots - 1)) {
-        int& entry = corner_table_[slot];
-        if (entry < 0) {
-          entry = static_cast<int>(3 * f + k);
-          corner = corner_count_++;
-        } else if (faces_[at(entry / 3)].vertices[at(entry % 3)] == vertex) {
-          corner = faces_[at(entry / 3)].corner[at(entry % 3)];
-        }
-      }
+      const Vector3 in_cells = faces_[f].vertices[k] / cell;
+      const Vector3 own = in_cells.array().floor();
+      corner = find_corner_in(own, f, k);
+      if (corner < 0) corner = find_corner_beside(in_cells - own, own, faces_[f].seam / cell, f, k);
+      if (corner >= 0) continue;
+      corner = corner_count_++;
+      enter_corner(own, f, k);
     }
   }
+}
+
+// Looks in the other cells that are within a seam of the vertex: nearly always none. Returns -1 if there is no such vertex yet.
+int Surface::find_corner_beside(const Vector3& in_cell, const Vector3& own, double seam, std::size_t f, std::size_t k) const {
+  Vector3 step;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double beyond = in_cell[axis] > 1 - seam ? 1 : 0;
+    step[axis] = in_cell[axis] < seam ? -1 : beyond;
+  }
+  if (step == Vector3::Zero()) return -1;
+  int corner = -1;
+  for (unsigned i = 1; corner < 0 && i < 8; ++i) {
+    const Vector3 taken{(i & 1U) != 0 ? step.x() : 0, (i & 2U) != 0 ? step.y() : 0, (i & 4U) != 0 ? step.z() : 0};
+    corner = find_corner_in(own + taken, f, k);
+  }
+  return corner;
+}
+
+int Surface::find_corner_in(const Vector3& cell, std::size_t f, std::size_t k) const {
+  const Face& face = faces_[f];
+  const std::size_t slots = corner_table_.size();
+  for (std::size_t slot = hash(cell) & (slots - 1); corner_table_[slot] >= 0; slot = (slot + 1) & (slots - 1)) {
+    const int entry = corner_table_[slot];
+    const Face& other = faces_[at(entry / 3)];
+    const double seam = std::min(face.seam, other.seam);
+    if ((other.vertices[at(entry % 3)] - face.vertices[k]).squaredNorm() <= seam * seam) return other.corner[at(entry % 3)];
+  }
+  return -1;
+}
+
+void Surface::enter_corner(const Vector3& cell, std::size_t f, std::size_t k) {
+  const std::size_t slots = corner_table_.size();
+  std::size_t slot = hash(cell) & (slots - 1);
+  while (corner_table_[slot] >= 0) slot = (slot + 1) & (slots - 1);
+  corner_table_[slot] = static_cast<int>(3 * f + k);
 }
 
 void Surface::match_edges() {
@@ -125,12 +173,16 @@ void Surface::match_uses(std::span<EdgeUse> uses) {
     double best = -std::numeric_limits<double>::infinity();
     for (const EdgeUse& other : uses) {
       const Face& candidate = faces_[at(other.face)];
-      if (candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;  // the face itself, or one wound differently
+      // The face itself, or one wound differently.
+      if (other.face == use.face || candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;
       const double flatness = face.normal.dot(candidate.normal);
       if (flatness <= best) continue;
       best = flatness;
       face.neighbour[at(use.side)] = other.face;
       face.convexity[at(use.side)] = convexity_between(face, use.side, candidate);
+      const double crack1 = (face.vertices[at(use.side)] - candidate.vertices[at(next_corner(other.side))]).norm();
+      const double crack2 = (face.vertices[at(next_corner(use.side))] - candidate.vertices[at(other.side)]).norm();
+      face.crack[at(use.side)] = std::max(crack1, crack2);
     }
   }
 }
@@ -196,7 +248,7 @@ int Surface::find_part(int patch) {
 
 bool Surface::is_over(const Face& face, const Vector3& point) const {
   for (std::size_t k = 0; k < 3; ++k) {
-    if (face.outward[k].dot(point - face.vertices[k]) > rounding_) return false;
+    if (face.outward[k].dot(point - face.vertices[k]) > rounding_ + face.crack[k]) return false;
   }
   return true;
 }
@@ -226,23 +278,30 @@ Vector3 Surface::nearest_on_rim(const CoplanarPatch& patch, const Vector3& point
 }
 
 bool Surface::touches(const Face& face, const Vector3& point) const {
-  if (std::abs(face.normal.dot(point - face.vertices[0])) > contact_tolerance_) return false;
+  const double near = std::max(contact_tolerance_, face.seam);
+  if (std::abs(face.normal.dot(point - face.vertices[0])) > near) return false;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (face.outward[k].dot(point - face.vertices[k]) > contact_tolerance_) return false;
+    if (face.outward[k].dot(point - face.vertices[k]) > near) return false;
   }
   return true;
 }
 
+// Whether `point` is behind a face that touches `at`, and not in its plane but for a seam.
+bool Surface::is_behind(const Face& face, const Vector3& at, const Vector3& point) const {
+  const Vector3 reach = point - at;
+  return face.normal.dot(reach) < -(rounding_ + kLevel * reach.norm());
+}
+
 int Surface::find_wall(const Vector3& normal, const Vector3& at, const Vector3& beyond, int first) const {
   const auto found = std::find_if(faces_.begin() + first, faces_.end(), [&](const Face& face) {
-    return face.normal.dot(beyond - at) < -rounding_ && touches(face, at) && rises(face, normal, at, contact_tolerance_);
+    return is_behind(face, at, beyond) && touches(face, at) && rises(face, normal, at, contact_tolerance_);
   });
   return found == faces_.end() ? -1 : static_cast<int>(found - faces_.begin());
 }
 
 bool Surface::violates_normal_cone(const Vector3& normal, const Vector3& at, const Vector3& foot) const {
   return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
-    return touches(face, at) && rises(face, normal, at, contact_tolerance_) && !(face.normal.dot(foot - at) < -rounding_);
+    return touches(face, at) && rises(face, normal, at, contact_tolerance_) && !is_behind(face, at, foot);
   });
 }
 

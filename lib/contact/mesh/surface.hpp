@@ -22,12 +22,14 @@ struct Face {
   std::array<Vector3, 3> vertices;
   std::array<Vector3, 3> outward;  ///< unit, in the plane, across edge k, which goes from vertex k to the next one
   Vector3 normal;                  ///< unit, out of the solid
-  std::array<int, 3> corner;       ///< numbers of the vertices; vertices at equal coordinates have the same number
+  double seam;                     ///< m; vertices of other faces nearer than this are meant to be its own
+  std::array<int, 3> corner;       ///< numbers of the vertices; vertices within a seam have the same number
   std::array<int, 3> neighbour;    ///< the face across edge k, or -1
   std::array<EdgeConvexity, 3> convexity;
-  int triangle;       ///< the caller's number for the triangle
-  int patch;          ///< number of the CoplanarPatch that it belongs to
-  int next_in_patch;  ///< next face of that patch, or -1
+  std::array<double, 3> crack;  ///< m; how far the neighbour's vertices are from those of edge k; a seam at a border
+  int triangle;                 ///< the caller's number for the triangle
+  int patch;                    ///< number of the CoplanarPatch that it belongs to
+  int next_in_patch;            ///< next face of that patch, or -1
 };
 
 /// Faces that share flat edges: a piece of a plane.
@@ -55,7 +57,7 @@ class Surface {
   /// Features thinner than this (m) do not separate: cracks between triangles that were meant to meet, slivers.
   double contact_tolerance() const { return contact_tolerance_; }
 
-  /// Whether the projection of the point into the face's plane is within the face or within rounding.
+  /// Whether the projection of the point into the face's plane is within the face, or in a crack beside it, or within rounding.
   bool is_over(const Face& face, const Vector3& point) const;
 
   /// The point of the patch's rim nearest to `point`, which is over none of its faces, with the face and edge there.
@@ -83,8 +85,11 @@ class Surface {
     int side;  // number k of the edge in the face
   };
 
-  void append(const MeshTriangle& triangle, const Vector3& origin);
+  void append(const MeshTriangle& triangle, const Vector3& origin, double length_unit);
   void number_corners();
+  int find_corner_beside(const Vector3& in_cell, const Vector3& own, double seam, std::size_t face, std::size_t k) const;
+  int find_corner_in(const Vector3& cell, std::size_t face, std::size_t k) const;
+  void enter_corner(const Vector3& cell, std::size_t face, std::size_t k);
   void match_edges();
   void match_uses(std::span<EdgeUse> uses);
   EdgeConvexity convexity_between(const Face& face, int side, const Face& neighbour) const;
@@ -93,6 +98,7 @@ class Surface {
   void join_parts();
   int find_part(int patch);
   bool touches(const Face& face, const Vector3& point) const;
+  bool is_behind(const Face& face, const Vector3& at, const Vector3& point) const;
   double share_to(const Face& face, const Vector3& start, const Vector3& end) const;
 
   std::vector<Face> faces_;

@@ -76,7 +76,9 @@ bool MeshContactSearch::add_at_vertex(SupportProbe& probe, int f, int k, const P
   contact.status = found.status;
   if (surface_.violates_normal_cone(contact.normal, vertex, vertex) || !is_outside_at(face.corner[at(k)], contact.normal))
     return false;
-  if (touches_surface(probe, contact)) found_.add(contact);
+  if (!touches_surface(probe, contact)) return true;
+  level_at_vertex(probe, contact);
+  found_.add(contact);
   return true;
 }
 

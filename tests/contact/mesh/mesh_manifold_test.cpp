@@ -26,9 +26,9 @@ void add_rectangle(double x0, double y0, double x1, double y1, double z, int col
 }
 
 /// The manifold of a brick with half-axes 0.1, 0.07, 0.05 at rest on z = 0.
-ContactManifold manifold_on_plane() {
+ContactManifold manifold_on_plane(double depth = 1e-5) {
   const Superellipsoid brick(Vector3(0.1, 0.07, 0.05), 20, 20);
-  const Pose pose{Vector3(0, 0, 0.05 - 1e-5), Matrix3::Identity()};
+  const Pose pose{Vector3(0, 0, 0.05 - depth), Matrix3::Identity()};
   return find_plane_contact_manifold(brick, pose, find_plane_proximity(brick, pose, Vector3::UnitZ(), 0));
 }
 
@@ -47,6 +47,28 @@ TEST_CASE("on a floor of triangles in any order all corners stay") {
     draw_in_corners(manifold, floor);
     REQUIRE(manifold.corner_count == 4);
     for (std::size_t k = 0; k < 4; ++k) CHECK(manifold.corners[k].point == plane.corners[k].point);
+  }
+}
+
+TEST_CASE("on triangles with vertices 1e-6 of their size apart all corners stay, however shallow the contact") {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> apart(-3e-7, 3e-7);  // of triangles with sides of 1
+  for (const double depth : {1e-5, 1e-8, 1e-11}) {
+    for (int repetition = 0; repetition < 20; ++repetition) {
+      std::vector<MeshTriangle> floor;
+      add_rectangle(-1, -1, 0.01, 0.02, 0, 1, floor);
+      add_rectangle(0.01, -1, 1, 0.02, 0, 1, floor);
+      add_rectangle(-1, 0.02, 1, 1, 0, 2, floor);
+      for (MeshTriangle& triangle : floor) {
+        for (Vector3& vertex : triangle.vertices) vertex += Vector3(apart(random), apart(random), apart(random));
+      }
+      ContactManifold manifold = manifold_on_plane(depth);
+      REQUIRE(manifold.corner_count == 4);
+      const ContactManifold plane = manifold;
+      draw_in_corners(manifold, floor);
+      REQUIRE(manifold.corner_count == 4);
+      for (std::size_t k = 0; k < 4; ++k) CHECK((manifold.corners[k].point - plane.corners[k].point).norm() < 1e-5);
+    }
   }
 }
 

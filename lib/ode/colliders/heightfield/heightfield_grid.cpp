@@ -15,6 +15,10 @@ constexpr std::size_t kEnough = 3;
 constexpr double kFirstRadius = 1.0 / 64;
 constexpr int kDoublings = 26;
 
+// A sample is at its place if it is within this share of a cell. Grids with fewer than a million cells along an axis differ by more
+// from the second sample on.
+constexpr double kOnSample = 1e-6;
+
 // Steps from a sample into the six triangles around it, in cells.
 constexpr std::array<std::array<double, 2>, 6> kIntoTriangles = {
     {{0.125, 0.125}, {-0.25, 0.125}, {-0.125, 0.25}, {0.125, -0.25}, {0.25, -0.125}, {-0.125, -0.125}}};
@@ -126,7 +130,7 @@ bool is_confirmed(HeightfieldProbe& probe, const SampleGrid& grid, const Facet& 
 
 // Lists all samples around, with those that ODE omits for the plane of one facet added from another facet.
 bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std::vector<Vector3>& samples) {
-  if (!probe.list_samples(spot, radius, samples)) return false;
+  if (!probe.list_samples(spot.place(), radius, samples)) return false;
   if (samples.empty()) return true;
   const Vector3 sample = samples[samples.size() / 2];  // off the plane of the spot
   // The second facet is beside the sample, also after rounding.
@@ -134,7 +138,7 @@ bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std:
   for (const double step : {aside, -aside}) {
     Facet other;
     if (probe.find_facet(sample.x() + step, sample.z() + 0.6 * step, radius, other)) {
-      return probe.list_samples(other, radius, samples);
+      return probe.list_samples(other.place(), radius, samples);
     }
   }
   return true;
@@ -157,7 +161,50 @@ bool is_plane_around(HeightfieldProbe& probe, const Facet& spot, double reach) {
   return true;
 }
 
+// Whether two of the samples, all of which are on the grid, are in neighbouring columns, or rows.
+bool has_neighbours(const SampleAxis& axis, const std::vector<Vector3>& samples, int along) {
+  const auto is_next_to = [&](const Vector3& a, const Vector3& b) {
+    return axis.sample_at(b[along]) == *axis.sample_at(a[along]) + 1;
+  };
+  return std::any_of(samples.begin(), samples.end(), [&](const Vector3& a) {
+    return std::any_of(samples.begin(), samples.end(), [&](const Vector3& b) { return is_next_to(a, b); });
+  });
+}
+
+// Looks for a witness among the four cells around a sample. All samples of a cell are within 0.6 of its diagonal from a place near
+// its middle. Those of a gentle ridge are in the planes on both sides: the samples beside it are listed only if they are far enough
+// from one another to be on one side.
+GridWitness find_witness_at(HeightfieldProbe& probe, const SampleGrid& grid, const Vector3& sample) {
+  const double diagonal = std::hypot(grid.x.spacing, grid.z.spacing);
+  for (const double radius : {0.6 * diagonal, 2 * diagonal}) {
+    for (const double along_x : {0.5, -0.5}) {
+      for (const double along_z : {0.5, -0.5}) {
+        const GridWitness witness{grid.x.cell_of(sample.x() + along_x * grid.x.spacing),
+                                  grid.z.cell_of(sample.z() + along_z * grid.z.spacing), sample.y(), radius};
+        if (is_shown(probe, grid, witness)) return witness;
+      }
+    }
+  }
+  return {};
+}
+
+GridWitness find_witness(HeightfieldProbe& probe, const SampleGrid& grid, const std::vector<Vector3>& samples) {
+  if (samples.empty()) return {};
+  for (const std::size_t k : {samples.size() / 2, std::size_t{0}, samples.size() - 1}) {
+    const GridWitness witness = find_witness_at(probe, grid, samples[k]);
+    if (witness.radius > 0) return witness;
+  }
+  return {};
+}
+
 }  // namespace
+
+std::optional<std::int64_t> SampleAxis::sample_at(double x) const {
+  const auto k = static_cast<std::int64_t>(std::round((x + half) / spacing));
+  const double rounding = kOnSample * spacing + 64 * kRealEpsilon * (std::abs(x) + half);
+  if (!(std::abs(x - at(k)) <= rounding)) return std::nullopt;
+  return k;
+}
 
 std::int64_t SampleAxis::cell_of(double x) const {
   const double k = std::floor((x + half) / spacing);
@@ -176,23 +223,44 @@ bool is_same_height(double height1, double height2, const Facet& facet, double e
   return std::abs(height1 - height2) <= 64 * facet.rounding + 1e-9 * extent;
 }
 
-std::optional<SampleGrid> find_grid(HeightfieldProbe& probe, const Facet& spot, double reach, bool& is_plane) {
+bool is_shown(HeightfieldProbe& probe, const SampleGrid& grid, const GridWitness& witness) {
+  thread_local std::vector<Vector3> samples;  // keeps its memory from one query to the next
+  samples.clear();
+  const auto is_on_grid = [&](const Vector3& sample) { return grid.x.sample_at(sample.x()) && grid.z.sample_at(sample.z()); };
+  if (!(witness.radius > 0)) return false;
+  // The second triangle shows the samples that are on the plane of the first one.
+  for (const double in_cell : {0.45, 0.55}) {
+    const Vector3 place{grid.x.at(witness.i) + in_cell * grid.x.spacing, witness.height,
+                        grid.z.at(witness.j) + in_cell * grid.z.spacing};
+    if (!probe.list_samples(place, witness.radius, samples)) return false;
+    if (!std::all_of(samples.begin(), samples.end(), is_on_grid)) return false;
+    if (has_neighbours(grid.x, samples, 0) && has_neighbours(grid.z, samples, 2)) return true;
+  }
+  return false;
+}
+
+std::optional<FoundGrid> find_grid(HeightfieldProbe& probe, const Facet& spot, double reach, bool& is_plane) {
   is_plane = false;
   const double whole = 2 * (probe.half_width() + probe.half_depth());
   std::vector<Vector3> samples;
+  std::optional<FoundGrid> without_witness;
   for (int k = 0; k <= kDoublings; ++k) {
     const double radius = std::ldexp(kFirstRadius * reach, k);
     samples.clear();
     const bool is_complete = list_around(probe, spot, radius, samples);
     const std::optional<SampleGrid> grid = grid_through(probe, samples, radius > whole);
-    if (grid && is_confirmed(probe, *grid, spot)) return grid;
+    if (grid && is_confirmed(probe, *grid, spot)) {
+      const FoundGrid found{*grid, find_witness(probe, *grid, samples)};
+      if (found.witness.radius > 0) return found;
+      if (!without_witness) without_witness = found;
+    }
     if (samples.empty() && radius > 2 * reach && is_plane_around(probe, spot, reach)) {
       is_plane = true;
       return std::nullopt;
     }
     if (!is_complete || radius > 1e3 * whole) break;
   }
-  return std::nullopt;
+  return without_witness;
 }
 
 }  // namespace supernormal::ode

@@ -66,7 +66,10 @@ std::span<const MeshTriangle> HeightfieldPatch::read(HeightfieldProbe& probe, co
   require_near(probe, wanted);
   const Region region = moved_inside(wanted, probe);
   const auto known = grids_.find(probe.data());
-  if (known == grids_.end() || !read_grid(probe, known->second, region)) read_anew(probe, region);
+  if (known == grids_.end() || !has_extent_of(known->second.grid, probe) ||
+      !is_shown(probe, known->second.grid, known->second.witness) || !read_grid(probe, known->second.grid, region)) {
+    read_anew(probe, region);
+  }
   make_triangles();
   return triangles_;
 }
@@ -75,9 +78,9 @@ void HeightfieldPatch::read_anew(HeightfieldProbe& probe, const Region& region) 
   Facet spot;
   if (find_spot(probe, region, spot)) {
     bool is_plane = false;
-    const std::optional<SampleGrid> grid = find_grid(probe, spot, 2 * region.reach(), is_plane);
-    if (grid && read_grid(probe, *grid, region)) {
-      grids_.insert_or_assign(probe.data(), *grid);
+    const std::optional<FoundGrid> found = find_grid(probe, spot, 2 * region.reach(), is_plane);
+    if (found && read_grid(probe, found->grid, region)) {
+      if (found->witness.radius > 0) grids_.insert_or_assign(probe.data(), *found);
       return;
     }
     if (is_plane) {
@@ -88,9 +91,8 @@ void HeightfieldPatch::read_anew(HeightfieldProbe& probe, const Region& region) 
   read_points(probe, region, kPoints);
 }
 
-// Returns false when the samples are not where the grid says: the program built the data anew.
+// Returns false when the samples are not where the grid says.
 bool HeightfieldPatch::read_grid(HeightfieldProbe& probe, const SampleGrid& grid, const Region& region) {
-  if (!has_extent_of(grid, probe)) return false;
   const std::int64_t i_low = grid.x.cell_of(region.x_low);
   const std::int64_t j_low = grid.z.cell_of(region.z_low);
   const std::int64_t i_high = grid.x.cell_of(region.x_high) + 1;

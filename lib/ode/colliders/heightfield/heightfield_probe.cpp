@@ -77,14 +77,14 @@ bool HeightfieldProbe::find_facet(double x, double z, double scale, Facet& facet
 
 // ODE lists the samples within the deep capsule, except for those of the triangle's planes that meet the capsule's lower end in
 // that very triangle (heightfield.cpp, "pass 2"); the points of these come first, far below.
-bool HeightfieldProbe::list_samples(const Facet& facet, double radius, std::vector<Vector3>& samples) {
+bool HeightfieldProbe::list_samples(const Vector3& place, double radius, std::vector<Vector3>& samples) {
   const double reach = 1e9 * radius;
   dGeomCapsuleSetParams(capsule_, to_real(radius), to_real(2 * reach));
-  dGeomSetPosition(capsule_, to_real(facet.x), to_real(facet.height), to_real(facet.z));
+  dGeomSetPosition(capsule_, to_real(place.x()), to_real(place.y()), to_real(place.z()));
   const int count = dCollide(heightfield_, capsule_, kMaxListed, contacts_.data(), sizeof(dContactGeom));
   for (int k = 0; k < count; ++k) {
     const Vector3 point = to_vector(contacts_[static_cast<std::size_t>(k)].pos);
-    if (point.allFinite() && std::abs(point.y() - facet.height) < reach / 2) samples.push_back(point);
+    if (point.allFinite() && std::abs(point.y() - place.y()) < reach / 2) samples.push_back(point);
   }
   return count < kMaxListed;
 }

@@ -27,6 +27,8 @@ struct Facet {
   double rounding = 0;                ///< m; rounding error of the height, from the terms that ODE adds up for it
   Vector3 normal = Vector3::UnitY();  ///< unit, upward
 
+  Vector3 place() const { return {x, height, z}; }
+
   /// The height y of the plane at (at_x, at_z), m.
   double height_at(double at_x, double at_z) const {
     return height - (normal.x() * (at_x - x) + normal.z() * (at_z - z)) / normal.y();
@@ -62,9 +64,10 @@ class HeightfieldProbe {
   /// number. `scale` (m) is the length that matters to the caller.
   bool find_facet(double x, double z, double scale, Facet& facet);
 
-  /// Adds samples within `radius` (m) of the facet's (x, z), at their exact places: as a rule all of them, but ODE omits those of
-  /// some planes, above all that of the facet. Returns false when there are more than it can list.
-  bool list_samples(const Facet& facet, double radius, std::vector<Vector3>& samples);
+  /// Adds samples within `radius` (m) of the place's (x, z), at their exact places: as a rule all of them, but ODE omits those of
+  /// some planes, above all that of the triangle there. The place is no more than 5e8 radii above or below the surface. Returns
+  /// false when there are more than it can list.
+  bool list_samples(const Vector3& place, double radius, std::vector<Vector3>& samples);
 
  private:
   HeightfieldProbe();

@@ -110,15 +110,15 @@ TEST_CASE("the grid is found: every landscape, finite and infinite, wherever one
         bool is_plane = false;
         // The reach goes from that of a body of a hundredth of a cell to that of one of four cells.
         const double reach = terrain.spacing_x() * std::pow(10, random.uniform(-2, 0.6));
-        std::optional<SampleGrid> grid = find_grid(probe, spot, reach, is_plane);
-        if (!grid) {
+        std::optional<FoundGrid> found = find_grid(probe, spot, reach, is_plane);
+        if (!found) {
           // All of the neighbourhood is a plane, which shows no samples.
           REQUIRE(is_plane);
-          grid = find_grid(probe, spot, 6 * std::max(terrain.spacing_x(), terrain.spacing_z()), is_plane);
+          found = find_grid(probe, spot, 6 * std::max(terrain.spacing_x(), terrain.spacing_z()), is_plane);
         }
-        REQUIRE(grid);
-        check_axis(grid->x, layout.width / (layout.columns - 1), layout.width / 2, layout.columns, repeats);
-        check_axis(grid->z, layout.depth / (layout.rows - 1), layout.depth / 2, layout.rows, repeats);
+        REQUIRE(found);
+        check_axis(found->grid.x, layout.width / (layout.columns - 1), layout.width / 2, layout.columns, repeats);
+        check_axis(found->grid.z, layout.depth / (layout.rows - 1), layout.depth / 2, layout.rows, repeats);
       }
     }
   }
@@ -188,6 +188,36 @@ TEST_CASE("what the program changes is seen") {
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
   terrain.build({14, 11, 7, 9, true}, rough(9, 1));
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
+}
+
+TEST_CASE("a rebuilt heightfield, or another one at its address, is read as a new one") {
+  const OdeSession session;
+  Random random(33);
+  const std::vector<Landscape> all = landscapes();
+  constexpr std::array<int, 10> kCounts = {3, 4, 5, 6, 7, 9, 11, 13, 17, 33};  // some are finer by a whole factor than others
+  const auto any_of = [&](const auto& list) {
+    return list[static_cast<std::size_t>(random.uniform(0, static_cast<double>(list.size())))];
+  };
+  Terrain terrain({5, 5, 8, 8}, all[0].height);
+  const Geom geom(terrain.create());
+  HeightfieldPatch patch;
+  int wrong = 0;
+  for (int k = 0; k < 3000; ++k) {
+    if (k % 10 == 0) {
+      const Landscape landscape = any_of(all);
+      terrain.build({any_of(kCounts), any_of(kCounts), 8, 8, k % 30 == 0}, landscape.height);
+    }
+    const double x = random.uniform(-3.5, 3.5);
+    const double z = random.uniform(-3.5, 3.5);
+    const double size = std::pow(10, random.uniform(-1.5, 0));
+    double worst = 0;
+    for (const MeshTriangle& triangle : patch.read(HeightfieldProbe::looking_at(geom), {x - size, x + size, z - size, z + size})) {
+      const Vector3 middle = (triangle.vertices[0] + triangle.vertices[1] + triangle.vertices[2]) / 3;
+      worst = std::max(worst, std::abs(middle.y() - terrain.surface(middle.x(), middle.z())) / (1 + std::abs(middle.y())));
+    }
+    if (worst > within_rounding(1e-12)) ++wrong;
+  }
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("an infinite heightfield far from the origin") {
