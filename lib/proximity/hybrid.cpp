@@ -33,7 +33,7 @@ ExpandingPolytope::Goal search_goal(const GapFunction& gap, const Settings& sett
   const double min_radii = gap.shape1().min_curvature_radius_estimate() + gap.shape2().min_curvature_radius_estimate();
   if (!gap.shape2().has_kinks() && !may_have_other_maxima(min_radii, depth)) return {};
   const int most = std::min(limit, gap.evaluations() + kTuning.search_evaluations);
-  if (follows) return {kTuning.branch_width, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
+  if (follows) return {kTuning.branch_gain, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
   return {kTuning.search_width, most, tolerance, kTuning.near_best * depth};
 }
 
