@@ -64,6 +64,15 @@ void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& o
     out = answer(gap, settings, best, std::max(out.error - gap.rounding(), 0.0), out.status);  // which adds the rounding
     out.global_error = std::min(out.global_error, upper - out.gap);
   }
+  // The ascent has stalled where the cuts of body 1 coincide but for rounding. Its vertices do not.
+  if (out.status == Status::Stalled) {
+    const double estimate = kTuning.gain_safety * meeting.remaining_gain(best);
+    if (estimate <= tolerance) {
+      const Proximity ascended = out;
+      out = answer(gap, settings, best, estimate, Status::Converged);
+      out.global_error = std::min(out.global_error, ascended.global_error);
+    }
+  }
   out.point1 = best.jet1.r;
   out.point2 = best.jet1.r + best.d;
   out.contact = meeting.contact(tolerance, best);
