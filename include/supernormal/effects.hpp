@@ -101,11 +101,11 @@ struct Restitution {
 
 /// A linear spring and damper for each pair that touches, in place of rigid contact: the force is k depth + c approach velocity,
 /// and never pulls. Springs and dampers of two materials are in series, also where both are the same; a material without them is
-/// rigid. Values listed for all materials are those of the pair. The spring follows the deepest contact (contacts with depths of
-/// their own share its force in proportion to depth); the damper is shared equally by the corners of a flat contact. Costs no
-/// row. It is integrated as a leapfrog, which is of second order and adds no damping down to ten steps a contact. With fewer
-/// steps it is made implicit as far as stability asks, and loses energy: costs().coarse counts those contacts. (ODE's own soft
-/// ERP and CFM are the implicit Euler method, which loses a part 2 pi / steps of the energy of every contact.)
+/// rigid. Values listed for all materials are those of the pair. The spring follows the deepest contact, and all contacts with
+/// the same normal share its force in proportion to their depths; the force of the damper acts in the middle of their region.
+/// Costs no row. It is integrated as a leapfrog, which is of second order and adds no damping down to ten steps a contact. With
+/// fewer steps it is made implicit as far as stability asks, and loses energy: costs().coarse counts those contacts. (ODE's own
+/// soft ERP and CFM are the implicit Euler method, which loses a part 2 pi / steps of the energy of every contact.)
 struct Compliance {
   double stiffness = 0;  ///< k, N/m, (0, 1e15]
   double damping = 0;    ///< c, N s/m, [0, 1e15]
@@ -126,10 +126,10 @@ struct Hertz {
   MaterialSelector on;        ///< the contacts that it applies to
 };
 
-/// An attraction of constant force while in contact: to pull a pair apart takes `pull_off` newtons. Values combine by the
-/// geometric mean, and the force is shared equally by the corners of a flat contact. It adds to the normal force, and so to what
-/// friction may hold (DMT). Rigid bodies stick with an overlap of 1e-4 of the smaller mean half-extent. Costs no row: it is an
-/// external force.
+/// An attraction of constant force while in contact: to pull a pair apart takes `pull_off` newtons, for each of the normals that
+/// their contacts have. Values combine by the geometric mean. The force acts in the middle of the region of contact: the centre of
+/// a rectangle, the middle of an edge. It adds to the normal force, and so to what friction may hold (DMT). Rigid bodies stick with
+/// an overlap of 1e-4 of the smaller mean half-extent. Costs no row: it is an external force.
 struct Adhesion {
   double pull_off = 0;  ///< N, (0, 1e9]
   MaterialSelector on;  ///< the contacts that it applies to
@@ -251,9 +251,10 @@ class SUPERNORMAL_API Effects {
   /// Applies the effects of the world to ODE's parameters; parameters of effects that are not listed keep their values.
   void set_up(dWorldID world) const;
 
-  /// Sets surface and fdir1 of the contacts that dCollide found for one pair, in dCollide's order. Returns how many to attach:
-  /// those that can carry no force (corners of an undamped spring) are moved behind them. The materials are those of geom.g1 and
-  /// geom.g2. Call it when the bodies' velocities are those at the start of the step; adhesion adds its force to the bodies here.
+  /// Sets surface and fdir1 of the contacts that dCollide found for one pair, in any order. Returns how many to attach:
+  /// those that can carry no force (of depth 0, on an undamped spring) are moved behind them. The materials are those of geom.g1
+  /// and geom.g2. Call it when the bodies' velocities are those at the start of the step; adhesion adds its force to the bodies
+  /// here.
   int set_up_contacts(std::span<dContact> contacts, Material material1 = 0, Material material2 = 0);
 
   /// The same where a contact's bodies are not those of its geoms: a plane of ODE has no body, but may be a wall that moves, and a

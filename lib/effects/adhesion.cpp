@@ -9,17 +9,13 @@ namespace {
 
 constexpr double kLayer = 1e-4;  // depth at which rigid contacts stick, relative to the mean half-extent
 
-// ODE pushes overlaps out to nothing, and rounding would then part the bodies. So a rigid contact that sticks is pushed only to a
-// layer of this depth, and may sink into it; corners, whose depth is 0, sink with the deepest.
+// ODE pushes overlaps out to nothing, and rounding would then part the bodies. So each rigid contact that sticks is pushed only to
+// a layer of this depth, and may sink into it.
 void keep_in_touch(Patch& patch) {
-  const dContactGeom& geom = patch.deepest().geom;
-  const double layer = kLayer * std::min(mean_half_extent(geom.g1), mean_half_extent(geom.g2));
+  const double layer = kLayer * std::min(mean_half_extent(patch.geom1()), mean_half_extent(patch.geom2()));
   const dBodyID body = patch.body1 != nullptr ? patch.body1 : patch.body2;
   const double rate = dWorldGetERP(dBodyGetWorld(body)) / patch.step;
-  const double missing = std::max(0.0, layer - geom.depth);
-  for (dContact& contact : patch.contacts) {
-    contact.surface.motionN = ode::to_real(-rate * (contact.geom.depth > 0 ? layer : missing));
-  }
+  for (dContact& contact : patch.contacts) contact.surface.motionN = ode::to_real(-rate * layer);
 }
 
 }  // namespace
@@ -32,14 +28,10 @@ void add_adhesion(const PairMaterial& pair, Patch& patch) {
   // ODE keeps the forces on a sleeping body until it wakes.
   if (!is_awake(body1) && !is_awake(body2)) return;
   if ((pair.surface.mode & dContactSoftCFM) == 0) keep_in_touch(patch);
-  const double share = pair.pull_off / patch.bearers();
-  for (const dContact& contact : patch.contacts) {
-    if (!patch.bears(contact)) continue;
-    const Vector3 pull = -share * ode::to_vector(contact.geom.normal);
-    const Vector3 point = ode::to_vector(contact.geom.pos);
-    add_force(body1, pull, point);
-    add_force(body2, -pull, point);
-  }
+  const Vector3 pull = -pair.pull_off * patch.normal();
+  const Vector3 point = patch.middle();
+  add_force(body1, pull, point);
+  add_force(body2, -pull, point);
 }
 
 }  // namespace supernormal::effects

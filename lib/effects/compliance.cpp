@@ -25,28 +25,24 @@ constexpr double kStiffest = (std::numbers::pi / kLeastSteps) * (std::numbers::p
 constexpr double kLeastShare = 1e-6;  // smallest B, in mass / step: it stands for 0, a rigid row, and ODE's solver can divide by it
 
 struct Spring {
-  double force;    ///< N, at the depth of the deepest contact
+  double force;    ///< N, at the greatest depth
   double tangent;  ///< N/m
   double damping;  ///< N s/m
 };
 
+/// kg; the mass that the spring moves, whose force acts where the depths have their centre.
 double effective_mass(const Patch& patch) {
-  const Vector3 point = ode::to_vector(patch.deepest().geom.pos);
-  const Vector3 n = ode::to_vector(patch.deepest().geom.normal);
+  const Vector3 point = patch.centre_of_depth();
+  const Vector3 n = patch.normal();
   const double mobilities = mobility(patch.body1, point, n) + mobility(patch.body2, point, n);
   return mobilities > 0 ? 1 / mobilities : 0;
 }
 
-double greatest_depth(const Patch& patch) {
-  double depth = 0;
-  for (const dContact& contact : patch.contacts) depth = std::max(depth, double{contact.geom.depth});
-  return depth;
-}
-
-/// Puts contacts that carry no force, corners of an undamped spring, behind the others.
-void leave_out_idle(Patch& patch) {
+/// Puts contacts that carry no force behind the others.
+void leave_out_idle(double damping, Patch& patch) {
+  if (damping > 0) return;
   const auto carries = [](const dContact& contact) { return contact.geom.depth > 0; };
-  const auto idle = std::partition(patch.contacts.begin() + 1, patch.contacts.end(), carries);
+  const auto idle = std::stable_partition(patch.contacts.begin(), patch.contacts.end(), carries);
   patch.kept = static_cast<int>(idle - patch.contacts.begin());
 }
 
@@ -59,34 +55,35 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
   if (implicit > 0) patch.coarse = patch.kept;
   // A damper so strong that it would reverse the velocity within the step is made fully implicit.
   const double new_half = spring.damping * h > 2 * mass ? 1 - mass / (spring.damping * h) : 0.5;
-  const double damping = spring.damping / patch.bearers();
-  const Vector3 n = ode::to_vector(patch.deepest().geom.normal);
-  for (dContact& contact : patch.contacts) {
+  const Vector3 n = patch.normal();
+  for (std::size_t k = 0; k < patch.contacts.size(); ++k) {
+    dContact& contact = patch.contacts[k];
     const Vector3 point = ode::to_vector(contact.geom.pos);
     const double velocity = n.dot(velocity_at(patch.body1, point) - velocity_at(patch.body2, point));
     const double share = depths > 0 ? contact.geom.depth / depths : 0;
-    const double damper = patch.bears(contact) ? damping : 0;
+    const double damper = spring.damping > 0 ? patch.fraction_at(k) * spring.damping : 0;
     const double A = share * spring.force - (1 - new_half) * damper * velocity;
     const double B = std::max(share * implicit * h * spring.tangent + new_half * damper, kLeastShare * mass / h);
     contact.surface.soft_cfm = ode::to_real(B > 0 ? 1 / B : 0);
     contact.surface.motionN = ode::to_real(B > 0 ? A / B : 0);
   }
-  if (spring.damping == 0) leave_out_idle(patch);
+  leave_out_idle(spring.damping, patch);
 }
 
 }  // namespace
 
 void set_spring(const PairMaterial& pair, Patch& patch) {
-  const double depth = greatest_depth(patch);
+  const double depth = patch.greatest_depth();
   set_rows({pair.stiffness * depth, pair.stiffness, pair.damping}, effective_mass(patch), patch);
 }
 
 void set_hertz(const PairMaterial& pair, Patch& patch) {
-  const dContactGeom& geom = patch.deepest().geom;
-  const Vector3 n = ode::to_vector(geom.normal);  // into g1
-  const ContactCurvature curvature = find_contact_curvature(curvature_of(geom.g1, -n) + curvature_of(geom.g2, n), n);
-  const double depth = greatest_depth(patch);
-  const double width = std::min(mean_half_extent(geom.g1), mean_half_extent(geom.g2));
+  const Vector3 n = patch.normal();
+  const dGeomID geom1 = patch.geom1();
+  const dGeomID geom2 = patch.geom2();
+  const ContactCurvature curvature = find_contact_curvature(curvature_of(geom1, -n) + curvature_of(geom2, n), n);
+  const double depth = patch.greatest_depth();
+  const double width = std::min(mean_half_extent(geom1), mean_half_extent(geom2));
   Spring spring{2 * pair.elastic_modulus * width * depth, 2 * pair.elastic_modulus * width, 0};  // force of the flat punch
   // Hertz's ellipses that are longer than a thousand times their width count as straight lines.
   const double smaller = std::max(curvature.smaller, 1e-6 * curvature.larger);

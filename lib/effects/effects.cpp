@@ -56,7 +56,15 @@ std::vector<Effect> validated(const std::vector<Effect>& list) {
   return list;
 }
 
-bool is_same_normal(const dContact& a, const dContact& b) { return std::equal(a.geom.normal, a.geom.normal + 3, b.geom.normal); }
+/// Moves all contacts of the region of the first one to the front, in their order, and returns how many they are. Colliders list a
+/// region's contacts one after the other as a rule, but those of a mesh need not.
+std::size_t gather_region(std::span<dContact> contacts) {
+  const dContact& first = contacts.front();
+  const auto end = std::ranges::find_if_not(contacts, [&](const dContact& contact) { return is_same_region(first, contact); });
+  const dContact lead = first;
+  const auto rest = std::stable_partition(end, contacts.end(), [&](const dContact& c) { return is_same_region(lead, c); });
+  return static_cast<std::size_t>(rest - contacts.begin());
+}
 
 }  // namespace
 
@@ -84,12 +92,11 @@ struct Effects::State {
   std::array<unsigned long long, std::variant_size_v<Effect>> visits{};
 };
 
-// Runs the passes on each group of contacts with the same normal, which are consecutive; contacts to be attached move to the
-// front.
+// Runs the passes on each region of contact; contacts to be attached move to the front.
 int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2) {
   std::size_t kept = 0;
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
-    while (end < contacts.size() && is_same_normal(contacts[first], contacts[end])) ++end;
+    end = first + gather_region(contacts.subspan(first));
     Patch patch{contacts.subspan(first, end - first), step, static_cast<int>(end - first), body1, body2};
     for (const Pass& pass : pair.passes) timed(pass.effect, [&] { pass.run(pair, patch); });
     pair.coarse += static_cast<unsigned long long>(patch.coarse);

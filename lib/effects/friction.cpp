@@ -22,13 +22,12 @@ void align_corner(const Slip& slip, dContact& contact) {
 
 /// The direction in the world frame; it is fixed to the body or, without one, to the geom.
 Vector3 world_direction(const FrictionAxes& axes, const Patch& patch) {
-  const dContactGeom& geom = patch.deepest().geom;
   const Vector3& d = axes.direction;
   dVector3 world;
   if (const dBodyID body = axes.is_on_second ? patch.body2 : patch.body1) {
     dBodyVectorToWorld(body, ode::to_real(d.x()), ode::to_real(d.y()), ode::to_real(d.z()), world);
   } else {
-    const dGeomID carrier = axes.is_on_second ? geom.g2 : geom.g1;
+    const dGeomID carrier = axes.is_on_second ? patch.geom2() : patch.geom1();
     dGeomVectorToWorld(carrier, ode::to_real(d.x()), ode::to_real(d.y()), ode::to_real(d.z()), world);
   }
   return ode::to_vector(world);

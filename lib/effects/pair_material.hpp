@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <vector>
 
+#include "effects/patch.hpp"
 #include "supernormal/effects.hpp"
 
 namespace supernormal::effects {
@@ -16,23 +16,6 @@ namespace supernormal::effects {
 using EffectIndex = std::size_t;
 
 struct PairMaterial;
-
-/// Contacts of one pair with the same normal: the deepest point and the corners that share its load.
-struct Patch {
-  std::span<dContact> contacts;
-  double step;    ///< s
-  int kept;       ///< contacts that may be attached; a pass may move others behind them
-  dBodyID body1;  ///< of the side of geom.g1; 0: a wall at rest
-  dBodyID body2;
-  int coarse = 0;  ///< compliant contacts among them that last too few steps
-
-  dContact& deepest() const { return contacts.front(); }
-  /// Our corners have depth 0, and the deepest point lies anywhere between them: forces that the contacts share equally are
-  /// shared by the corners alone, so that the resultant acts in the middle. For ODE's own pairs all contacts bear.
-  bool has_corners() const { return contacts.size() > 1 && contacts.back().geom.depth == 0; }
-  bool bears(const dContact& contact) const { return !has_corners() || &contact != &contacts.front(); }
-  double bearers() const { return static_cast<double>(contacts.size() - (has_corners() ? 1 : 0)); }
-};
 
 struct Pass {
   EffectIndex effect;

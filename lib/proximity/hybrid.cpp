@@ -33,7 +33,7 @@ ExpandingPolytope::Goal search_goal(const GapFunction& gap, const Settings& sett
   const double min_radii = gap.shape1().min_curvature_radius_estimate() + gap.shape2().min_curvature_radius_estimate();
   if (!gap.shape2().has_kinks() && !may_have_other_maxima(min_radii, depth)) return {};
   const int most = std::min(limit, gap.evaluations() + kTuning.search_evaluations);
-  if (follows) return {kTuning.branch_width, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
+  if (follows) return {kTuning.branch_gain, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
   return {kTuning.search_width, most, tolerance, kTuning.near_best * depth};
 }
 
@@ -63,6 +63,15 @@ void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& o
     const double upper = out.gap + out.global_error;
     out = answer(gap, settings, best, std::max(out.error - gap.rounding(), 0.0), out.status);  // which adds the rounding
     out.global_error = std::min(out.global_error, upper - out.gap);
+  }
+  // The ascent has stalled where the cuts of body 1 coincide but for rounding. Its vertices do not.
+  if (out.status == Status::Stalled) {
+    const double estimate = kTuning.gain_safety * meeting.remaining_gain(best);
+    if (estimate <= tolerance) {
+      const Proximity ascended = out;
+      out = answer(gap, settings, best, estimate, Status::Converged);
+      out.global_error = std::min(out.global_error, ascended.global_error);
+    }
   }
   out.point1 = best.jet1.r;
   out.point2 = best.jet1.r + best.d;

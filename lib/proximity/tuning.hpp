@@ -29,8 +29,8 @@ struct Tuning {
   double search_width = 0.003;   ///< of the depth: the search ends when no depth can be less by more
   int search_evaluations = 200;  ///< or after so many
   double near_best = 0.03;       ///< of the depth: other hills whose normals come as near to the best are climbed in the end
-  double branch_width = 0.33;    ///< of the depth: a warm query does not look closer
-  double branch_gain = 0.17;     ///< of the depth: it leaves its branch for one that is shallower by more, so that it does not flip
+  double branch_gain = 0.17;  ///< of the depth: a warm query leaves its branch for one that is shallower by more, so that it does
+                              ///< not flip, and its search ends when there is none
   double same_hill_cosine = 0.996;  ///< normals closer than five degrees lead up the same hill
 };
 

@@ -36,7 +36,6 @@ std::vector<Trial> trials() {
           {"search_width", &Tuning::search_width, {0.01, 0.1}},
           {"search_evaluations", &Tuning::search_evaluations, {20, 100}},
           {"near_best", &Tuning::near_best, {0, 0.06}},
-          {"branch_width", &Tuning::branch_width, {0.1, 1}},
           {"branch_gain", &Tuning::branch_gain, {0, 0.33}},
           {"same_hill_cosine", &Tuning::same_hill_cosine, {0.98, 0.9999}}};
 }

@@ -111,6 +111,24 @@ TEST_CASE("a simple cubic lattice fills pi / 6 and has six contacts a grain, thr
   CHECK(packing.at_contact == supernormal::test::relative(std::numbers::pi / 6).epsilon(1e-9));
 }
 
+TEST_CASE("a contact counts once for the compression, however many points it has and wherever the boundary cuts it") {
+  const Grain brick = {"brick", {6e-3, 5e-3, 4e-3}, 40, 40, 0, 1000, "test"};
+  constexpr double kDepth = 1e-5;
+  for (const double place : {0.5, 0.0, 0.97}) {  // of the cell's side
+    CAPTURE(place);
+    const Scene scene = weightless(kSide, brick, 2);
+    const double at = place * kSide;
+    const World world(scene, {{0, {at, at, at}, {1, 0, 0, 0}}, {0, {at, at, at + 8e-3 - kDepth}, {1, 0, 0, 0}}});
+    Stepper stepper(world, scene);
+    stepper.step();
+    CHECK(stepper.contacts() > 1);
+    const MeanOverlap overlap = measure_mean_overlap(stepper.contact_geoms());
+    CHECK(overlap.contacts == 1);
+    // The step has pushed the bricks apart by a part of the depth.
+    CHECK(overlap.relative == supernormal::test::relative(kDepth / 8e-3).epsilon(kDepth / 8e-3));
+  }
+}
+
 TEST_CASE("compression jams grains, with the overlap asked for") {
   Scene scene = weightless(0.05, ball(), 60);
   scene.solver = {30, 0.8, 1e-10};

@@ -55,7 +55,7 @@ struct Proximity {
   bool is_global = false;
   /// m; proved bound on how much larger than `gap` the largest value of the gap function can be, so that this lies within [gap,
   /// gap + global_error]. When is_global, it is the larger of `error` and the tolerance. Where the hybrid has looked for other
-  /// maxima, it is 0.3 % of the depth (more where a shallow overlap ended the search), or a third of the depth when it followed an
+  /// maxima, it is 0.3 % of the depth (more where a shallow overlap ended the search), or a sixth of the depth when it followed an
   /// earlier normal. It is infinite for contacts with meshes, where only a part of the surface counts.
   double global_error = std::numeric_limits<double>::infinity();
 };

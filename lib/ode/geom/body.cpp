@@ -62,6 +62,7 @@ void Body::set_shape(std::shared_ptr<const Shape> core, double rounding) {
   core_ = std::move(core);
   shape_ = std::move(shape);
   rounding_ = rounding;
+  serial_ = ++last_serial;
 }
 
 Body* find_body(dGeomID geom) noexcept {

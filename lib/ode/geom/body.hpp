@@ -44,7 +44,8 @@ class Body {
   /// The smallest half-extent of shape(), m.
   double size() const { return size_; }
 
-  /// The number 1, 2, ... in the order of creation; never used again in this process (unless 2^32 bodies wrap it around).
+  /// The number 1, 2, ... of the shape, in the order of creation and of changes; never used again in this process (unless 2^32
+  /// shapes wrap it around). What is kept under it, in any thread, is of this shape alone.
   std::uint32_t serial() const { return serial_; }
 
   const Settings& settings() const { return settings_; }

@@ -94,6 +94,8 @@ bool MeetingPoint::settle(double tolerance, int max_evaluations, GapJet& jet) {
   return true;
 }
 
+double MeetingPoint::remaining_gain(const GapJet& jet) const { return std::max(maximum_near(jet).gain, 0.0); }
+
 Vector3 MeetingPoint::contact(double tolerance, const GapJet& jet) const {
   GapJet meeting = jet;
   move_witnesses(tolerance, meeting);

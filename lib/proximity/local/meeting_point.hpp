@@ -24,6 +24,9 @@ class MeetingPoint {
   /// function since it was made. Witness points stay in their tangent planes. Returns whether the normal has moved.
   bool settle(double tolerance, int max_evaluations, GapJet& jet);
 
+  /// m; how much higher than `jet` the maximum of the pieces near its normal is.
+  double remaining_gain(const GapJet& jet) const;
+
   /// The point where the bodies touch, halfway between their tangent planes, in body 1's frame: in the middle of the witness points
   /// of `jet`, or of the points that meet within `tolerance` (m) of these planes.
   Vector3 contact(double tolerance, const GapJet& jet) const;

@@ -1,31 +1,74 @@
 #include "compression.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace falling_particles {
 namespace {
 
-constexpr double kRate = 0.2;      // largest strain of a step, relative to the target overlap
-constexpr double kRestFrom = 0.8;  // share of the duration after which the target stays, and nothing has inertia
+constexpr double kRate = 0.2;        // largest strain of a step, relative to the target overlap
+constexpr double kRestFrom = 0.8;    // share of the duration after which the target stays, and nothing has inertia
+constexpr double kSamePlace = 1e-3;  // of the grain's radius; another meeting of the same grains is a cell away
+
+using Grains = std::pair<const Body*, const Body*>;
+
+/// A place in the cell where two grains meet, with one contact point or several: of a face, of parts of compounds, on both sides of
+/// the boundary of the cell.
+struct Meeting {
+  std::array<double, 3> between;  ///< m, from the centre of the second grain to that of the first
+  double overlap;                 ///< relative, the largest of its points
+};
+
+/// Adds a contact point to the meeting that it belongs to, among those of its two grains.
+void add(const dContactGeom& contact, std::vector<Meeting>& meetings) {
+  const double sign = body_of(contact.g1) < body_of(contact.g2) ? 1 : -1;
+  const dReal* p1 = dBodyGetPosition(dGeomGetBody(contact.g1));  // of a compound, not of the part
+  const dReal* p2 = dBodyGetPosition(dGeomGetBody(contact.g2));
+  std::array<double, 3> between{};
+  double along = 0;  // distance of the centres along the normal, which points into g1
+  for (std::size_t i = 0; i < 3; ++i) {
+    between.at(i) = sign * (p1[i] - p2[i]);
+    along += (p1[i] - p2[i]) * contact.normal[i];
+  }
+  // Where compounds are hooked into one another the normal may point the other way, and shrinking would not part them.
+  if (!(along > 0)) along = dCalcPointsDistance3(p1, p2);
+  const double overlap = contact.depth / (along + contact.depth);
+  const double near = kSamePlace * body_of(contact.g1)->bounding_radius();
+  const auto is_here = [&](const Meeting& meeting) {
+    return std::hypot(meeting.between[0] - between[0], meeting.between[1] - between[1], meeting.between[2] - between[2]) < near;
+  };
+  const auto here = std::ranges::find_if(meetings, is_here);
+  if (here == meetings.end()) {
+    meetings.push_back({between, overlap});
+  } else {
+    here->overlap = std::max(here->overlap, overlap);
+  }
+}
 
 }  // namespace
 
 MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts) {
-  double sum = 0;
-  std::size_t count = 0;
+  MeanOverlap mean;
+  std::vector<Meeting> meetings;
+  const auto count = [&] {
+    for (const Meeting& meeting : meetings) mean.relative += meeting.overlap;
+    mean.contacts += meetings.size();
+    meetings.clear();
+  };
+  Grains last{};
   for (const dContactGeom& contact : contacts) {
-    if (!(contact.depth > 0)) continue;                            // a corner of a wide contact
-    const dReal* p1 = dBodyGetPosition(dGeomGetBody(contact.g1));  // of a compound, not of the part
-    const dReal* p2 = dBodyGetPosition(dGeomGetBody(contact.g2));
-    double between = 0;  // distance of the centres along the normal, which points into g1
-    for (int i = 0; i < 3; ++i) between += (p1[i] - p2[i]) * contact.normal[i];
-    // Where compounds are hooked into one another the normal may point the other way, and shrinking would not part them.
-    if (!(between > 0)) between = dCalcPointsDistance3(p1, p2);
-    sum += contact.depth / (between + contact.depth);
-    ++count;
+    if (!(contact.depth > 0)) continue;
+    const Grains grains = std::minmax(body_of(contact.g1), body_of(contact.g2));
+    if (grains != last) count();
+    last = grains;
+    add(contact, meetings);
   }
-  return {count == 0 ? 0 : sum / static_cast<double>(count), count};
+  count();
+  if (mean.contacts > 0) mean.relative /= static_cast<double>(mean.contacts);
+  return mean;
 }
 
 Compressor::Compressor(const World& world, PeriodicCell& cell, const Compression& compression, double duration)

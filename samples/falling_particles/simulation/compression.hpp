@@ -11,12 +11,13 @@
 
 namespace falling_particles {
 
-/// The mean overlap of grains over their contacts: how much both grains of a contact would have to shrink to touch, depth /
-/// distance of their parallel tangent planes from centre to centre along the normal.
+/// The mean overlap of grains that meet: how much both would have to shrink to touch, depth / distance of their parallel tangent
+/// planes from centre to centre along the normal. However many points a contact has, it counts once.
 struct MeanOverlap {
   double relative = 0;
-  std::size_t contacts = 0;  ///< number of contacts that overlap
+  std::size_t contacts = 0;  ///< pairs of grains that overlap; two that meet in two places of the cell count twice
 };
+/// `contacts` are sorted by their grains.
 MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts);
 
 struct Packing {
@@ -25,7 +26,7 @@ struct Packing {
   double at_contact;       ///< volume_fraction of grains shrunk, all alike, until they no longer overlap in the mean
   MeanOverlap overlap;
   double target_overlap;      ///< relative, for the mean
-  double contacts_per_grain;  ///< contacts that overlap, each counted for both its grains; rattlers included
+  double contacts_per_grain;  ///< grains that a grain overlaps, mean; rattlers included
 };
 
 /// Compresses the grains in a periodic cell until they jam. They are moved by the push out of their overlaps, and every step

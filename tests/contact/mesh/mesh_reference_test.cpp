@@ -2,13 +2,17 @@
 // is in the reference.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "contact/mesh/mesh_samples.hpp"
 #include "proximity/collider_reference.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;
@@ -65,4 +69,37 @@ TEST_CASE("2000 bodies and closed meshes, apart, touching, overlapping by up to 
     CHECK(std::abs(height_over(hull, mesh_pose, -found.normal, found.point2)) < 1e-9 * unit);
   }
   MESSAGE("worst gap error / smallest half-extent: ", worst);
+}
+
+// The radius of curvature vanishes at a vertex of an exponent below 2, and only there.
+TEST_CASE("bodies with vertices, these deep in an edge of a mesh: no shorter translation is missed") {
+  Draw draw(32);
+  const TriangleMesh mesh = box_mesh({0.9, 1.4, 0.7});
+  const Polytope hull(mesh.vertices);
+  const std::vector<MeshTriangle> triangles = mesh.placed({});
+  constexpr std::array kDepths = {0.005, 0.02, 0.06, 0.15, 0.3};  // relative to the smallest half-extent
+  MeshContacts query;
+  for (std::size_t i = 0; i < 600; ++i) {
+    CAPTURE(i);
+    const Vector3 half = draw.in_box({0.35, 0.35, 0.35}) + Vector3::Constant(0.65);
+    const Vector3 exponents = draw.in_box({0.375, 0.375, 0}) + Vector3::Constant(1.575);
+    const Superellipsoid body(half, exponents.x(), exponents.y());
+    const double unit = half.minCoeff();
+    // One vertex of the body points into the edge of the box at (0.9, 1.4), nearly.
+    const Vector3 aside = draw.in_box({1, 1, 1});
+    const double angle = std::numbers::pi / 4 * (1 + 0.9 * aside.x());
+    const Vector3 inwards = (Vector3(-std::cos(angle), -std::sin(angle), 0) + std::pow(10, -1 - aside.y()) * aside).normalized();
+    const auto axis = static_cast<int>(i % 3);
+    const Matrix3 turn = Eigen::Quaterniond::FromTwoVectors(Vector3::Unit(axis), inwards).toRotationMatrix() *
+                         Eigen::AngleAxisd(std::numbers::pi * aside.z(), Vector3::Unit(axis)).toRotationMatrix();
+    const double depth = kDepths[i / 3 % kDepths.size()] * unit;
+    const Pose pose{Vector3(0.9, 1.4, 0.3 * aside.z()) - (half[axis] - depth) * inwards, turn};
+    Settings settings;
+    settings.certify_depth = true;
+    const Proximity expected = find_proximity(body, pose, hull, {}, settings);
+    REQUIRE(expected.is_global);
+    const std::span<const MeshContact> contacts = query.find(body, pose, triangles, {});
+    if (expected.gap < -1e-9 * unit) REQUIRE(!contacts.empty());
+    if (!contacts.empty()) CHECK(contacts[0].proximity.gap > expected.gap - 1e-6 * unit);
+  }
 }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "ode/ode_fixture.hpp"
@@ -191,6 +193,64 @@ TEST_CASE("a pair that turned far in its place starts afresh") {
   CHECK_FALSE(is_warm_after_turn(1.0));
   CHECK(is_warm_after_turn(1.4));
   CHECK_FALSE(is_warm_after_turn(0.7));
+}
+
+TEST_CASE("a pair of which one has changed its shape starts afresh and finds what it finds without memory") {
+  OdeSession session;
+  Random random(28);
+  const auto half = [&] { return dReal(random.uniform(0.4, 1)); };
+  const auto exponent = [&] { return dReal(random.uniform(0, 1) < 0.5 ? random.uniform(1.1, 2) : random.uniform(10, 100)); };
+  using Change = std::function<void(dGeomID)>;
+  const Change lengths = [&](dGeomID geom) {
+    CHECK(snGeomSuperellipsoidSetParams(geom, half(), half(), half(), exponent(), exponent()) == 1);
+  };
+  const Change taper = [&](dGeomID geom) {
+    CHECK(snGeomSuperovoidSetParams(geom, half(), half(), half(), 3, 2, dReal(random.uniform(-0.5, 0.5)), 0) == 1);
+  };
+  const Change rounding = [&](dGeomID geom) { CHECK(snGeomSetRounding(geom, half()) == 1); };
+  const Change box = [&](dGeomID geom) { dGeomBoxSetLengths(geom, half(), half(), half()); };
+  const Change capsule = [&](dGeomID geom) { dGeomCapsuleSetParams(geom, half(), half()); };
+  const Change cylinder = [&](dGeomID geom) { dGeomCylinderSetParams(geom, half(), half()); };
+  // The vertices of a tetrahedron are mirrored: as many, in the same box.
+  std::array<dReal, 12> vertices = {-1, -1, -1, 1, dReal(0.8), -1, dReal(-0.6), 1, -1, dReal(0.1), dReal(0.2), 1};
+  std::array<dReal, 4> plane = {0, 0, -1, 1};
+  std::array<unsigned int, 4> polygon = {3, 0, 2, 1};
+  const Change convex = [&](dGeomID geom) {
+    for (std::size_t k = 0; k < vertices.size(); k += 3) vertices.at(k) *= -1;
+    std::swap(polygon[2], polygon[3]);  // counter-clockwise again
+    dGeomSetConvex(geom, plane.data(), 1, vertices.data(), 4, polygon.data());
+    dGeomMoved(geom);
+  };
+  const auto superellipsoid = [&] { return snCreateSuperellipsoid(nullptr, half(), half(), half(), exponent(), exponent()); };
+  for (int i = 0; i < 100; ++i) {
+    CAPTURE(i);
+    const std::pair<dGeomID, Change> changing[] = {
+        {superellipsoid(), lengths},
+        {superellipsoid(), rounding},
+        {snCreateSuperovoid(nullptr, half(), half(), half(), 3, 2, dReal(0.2), 0), taper},
+        {dCreateBox(nullptr, half(), half(), half()), box},
+        {dCreateCapsule(nullptr, half(), half()), capsule},
+        {dCreateCylinder(nullptr, half(), half()), cylinder},
+        {dCreateConvex(nullptr, plane.data(), 1, vertices.data(), 4, polygon.data()), convex}};
+    const Geom other(superellipsoid());
+    random.turn(other);
+    for (const auto& [id, change] : changing) {
+      const Geom geom(id);
+      CAPTURE(dGeomGetClass(geom));
+      place(geom, 0.2 * random.direction());
+      collide(geom, other);
+      change(geom);
+      snResetStatistics();
+      const auto changed = collide(geom, other, 1);
+      CHECK(statistics().queries_cold == 1);
+      collide(geom, other, 1);
+      CHECK(statistics().queries_warm == 1);  // it is remembered from then on
+      snSetWarmStart(0);
+      const auto cold = collide(geom, other, 1);
+      snSetWarmStart(1);
+      CHECK(same_bits(changed, cold));
+    }
+  }
 }
 
 TEST_CASE("a geom that takes a dead one's address does not take its memory") {

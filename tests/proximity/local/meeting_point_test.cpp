@@ -178,3 +178,23 @@ TEST_CASE("an edge across the rim of a cylinder: the contact is on both") {
     if (!(std::max(beside, beside_cylinder) <= 1e-3)) FAIL_CHECK("sample ", sample, " off by ", beside, " and ", beside_cylinder);
   }
 }
+
+// Cuts at points of a cylinder's rim that coincide but for rounding do not tell where the rim goes on.
+TEST_CASE("a cylinder that overlaps a box or another cylinder converges") {
+  std::mt19937 engine(61);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
+  const auto direction = [&] { return Vector3{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}.normalized(); };
+  for (int k = 0; k < 4000; ++k) {
+    CAPTURE(k);
+    const Cylinder cylinder(uniform(0.3, 1), uniform(0.3, 1));
+    const Box box(Vector3{uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1)});
+    const Cylinder other(uniform(0.3, 1), uniform(0.3, 1));
+    const Shape& partner = k % 2 == 0 ? static_cast<const Shape&>(box) : other;
+    Pose pose2;
+    pose2.rotation = Eigen::AngleAxisd(uniform(0, 3), direction()).toRotationMatrix();
+    const Vector3 n = direction();
+    const double depth = k % 4 < 2 ? std::pow(10, uniform(-6, -2)) : uniform(0.01, 0.3);
+    pose2.position = cylinder.point(n) - depth * n - pose2.rotation * partner.point(-(pose2.rotation.transpose() * n));
+    CHECK(find_proximity(cylinder, {}, partner, pose2).status == Status::Converged);
+  }
+}

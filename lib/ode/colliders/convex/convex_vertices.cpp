@@ -1,10 +1,12 @@
 #include "ode/colliders/convex/convex_vertices.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 
 #include "ode/geom/convert.hpp"
+#include "ode/runtime/warm_start.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -84,6 +86,23 @@ bool ConvexVertices::list_below(dGeomID convex, int axis, double side, double of
     if (with_plane || contacts_[k].depth != 0) points_.push_back(to_vector(contacts_[k].pos));
   }
   return count > 0;
+}
+
+// Coordinates are counted in units of the size, so that the rounding of a pose does not change them. Round numbers are far from
+// where the count changes.
+double ConvexVertices::fingerprint() const {
+  constexpr double kUnits = 1000;
+  constexpr double kOffRoundNumbers = 0.382;
+  double size = 0;
+  for (const Vector3& point : points_) size = std::max(size, point.cwiseAbs().maxCoeff());
+  if (!(size > 0)) return 0;
+  const double magnitude = std::floor(4 * std::log2(size) + kOffRoundNumbers);
+  double sum = 0;
+  for (const Vector3& point : points_) {
+    const Vector3 units = (kUnits / size * point.array() + kOffRoundNumbers).floor();
+    sum += collider_kind(dConvexClass, {units.x(), units.y(), units.z(), magnitude});
+  }
+  return sum;
 }
 
 void ConvexVertices::move_to_middle(const Pose& geom_pose) {

@@ -32,6 +32,9 @@ class ConvexVertices {
   /// The vertices, m, in the frame of pose(). Each is listed once, in an order that depends on nothing but vertices and pose.
   std::span<const Vector3> points() const { return points_; }
 
+  /// A number for the vertices, whatever their order and wherever the geom is: another one for other vertices.
+  double fingerprint() const;
+
   /// The attitude of the geom, with the middle of its vertices as origin.
   const Pose& pose() const { return pose_; }
 
