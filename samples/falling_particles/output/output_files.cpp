@@ -16,11 +16,11 @@ std::string line_of(std::initializer_list<std::string> fields) {
 
 }  // namespace
 
-Table::Table(const std::filesystem::path& path, std::string_view head, std::uint64_t kept) : file_(path, kept) {
-  if (kept == 0) file_.write(head);
+Table::Table(const std::filesystem::path& path, std::string_view head, const FileState& kept) : file_(path, kept) {
+  if (kept.bytes == 0) file_.write(head);
 }
 
-Trajectory::Trajectory(const std::filesystem::path& path, std::uint64_t kept)
+Trajectory::Trajectory(const std::filesystem::path& path, const FileState& kept)
     : Table(path, "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n", kept) {}
 
 void Trajectory::write(double time, const World& world) {
@@ -37,7 +37,7 @@ void Trajectory::write(double time, const World& world) {
   append(frame);
 }
 
-Energies::Energies(const std::filesystem::path& path, std::uint64_t kept)
+Energies::Energies(const std::filesystem::path& path, const FileState& kept)
     : Table(path, "time_s,kinetic_J,potential_J,total_J,contacts\n", kept) {}
 
 void Energies::write(double time, const Energy& energy, std::size_t contacts) {
@@ -45,7 +45,7 @@ void Energies::write(double time, const Energy& energy, std::size_t contacts) {
       {shortest(time), shortest(energy.kinetic), shortest(energy.potential), shortest(energy.total()), std::to_string(contacts)}));
 }
 
-StateFile::StateFile(const std::filesystem::path& path, std::uint64_t kept)
+StateFile::StateFile(const std::filesystem::path& path, const FileState& kept)
     : Table(path,
             "time_s,deepest_contact_m,deepest_contact_of_all_steps_m,kinetic_height_m,largest_kinetic_energy_J,energy_lost_J,"
             "energy_gained_J,bodies_leaked\n",
@@ -57,14 +57,14 @@ void StateFile::write(double time, const State& state) {
                   shortest(state.energy_lost), shortest(state.energy_gained), std::to_string(state.leaked)}));
 }
 
-DischargeFile::DischargeFile(const std::filesystem::path& path, std::uint64_t kept)
+DischargeFile::DischargeFile(const std::filesystem::path& path, const FileState& kept)
     : Table(path, "time_s,discharged_kg,discharged_grains\n", kept) {}
 
 void DischargeFile::write(double time, double mass, std::size_t count) {
   append(line_of({shortest(time), shortest(mass), std::to_string(count)}));
 }
 
-CompressionFile::CompressionFile(const std::filesystem::path& path, std::uint64_t kept)
+CompressionFile::CompressionFile(const std::filesystem::path& path, const FileState& kept)
     : Table(path, "time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain\n",
             kept) {}
 
@@ -73,7 +73,7 @@ void CompressionFile::write(double time, const Packing& packing) {
                   shortest(packing.overlap.relative), shortest(packing.target_overlap), shortest(packing.contacts_per_grain)}));
 }
 
-FeedersFile::FeedersFile(const std::filesystem::path& path, std::uint64_t kept)
+FeedersFile::FeedersFile(const std::filesystem::path& path, const FileState& kept)
     : Table(path, "time_s,feeder,grain,grains,kg\n", kept) {}
 
 void FeedersFile::write(double time, const Population& population) {
@@ -88,7 +88,8 @@ void FeedersFile::write(double time, const Population& population) {
   append(frame);
 }
 
-SinksFile::SinksFile(const std::filesystem::path& path, std::uint64_t kept) : Table(path, "time_s,sink,grain,grains,kg\n", kept) {}
+SinksFile::SinksFile(const std::filesystem::path& path, const FileState& kept)
+    : Table(path, "time_s,sink,grain,grains,kg\n", kept) {}
 
 void SinksFile::write(double time, const Population& population, const Scene& scene) {
   std::string frame;
@@ -102,7 +103,7 @@ void SinksFile::write(double time, const Population& population, const Scene& sc
   append(frame);
 }
 
-PartsFile::PartsFile(const std::filesystem::path& path, std::uint64_t kept)
+PartsFile::PartsFile(const std::filesystem::path& path, const FileState& kept)
     : Table(path, "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n",
             kept) {}
 
@@ -122,7 +123,7 @@ void PartsFile::write(double time, const PartBodies& parts) {
   append(frame);
 }
 
-GrainsFile::GrainsFile(const std::filesystem::path& path, std::uint64_t kept, std::size_t written)
+GrainsFile::GrainsFile(const std::filesystem::path& path, const FileState& kept, std::size_t written)
     : Table(path, "body,grain,scale,sieve_size_m,mass_kg\n", kept), written_(written) {}
 
 void GrainsFile::write(const World& world) {

@@ -1,20 +1,27 @@
 #include "output/write_file.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "checkpoint/files.hpp"
+#include "scene/input_error.hpp"
+
 namespace falling_particles {
 namespace {
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
   throw std::runtime_error("cannot write \"" + path.string() + "\": " + std::generic_category().message(error));
+}
+
+[[noreturn]] void refuse_damaged(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError('"' + path.string() + "\" " + reason + kStartAnew);
 }
 
 }  // namespace
@@ -28,21 +35,35 @@ bool write_all(int file, std::string_view text) {
   return true;
 }
 
-OutputFile::OutputFile(std::filesystem::path path, std::uint64_t kept) : path_(std::move(path)), size_(kept) {
+OutputFile::OutputFile(std::filesystem::path path, const FileState& kept) : path_(std::move(path)) {
   constexpr mode_t kReadable = 0666;  // less the user's umask
-  file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (kept == 0 ? O_TRUNC : O_APPEND), kReadable);
+  file_ = open(path_.c_str(), O_CLOEXEC | (kept.bytes == 0 ? O_WRONLY | O_CREAT | O_TRUNC : O_RDWR), kReadable);
+  if (file_ < 0 && kept.bytes > 0 && errno == ENOENT) refuse_damaged(path_, "is missing");
   if (file_ < 0) fail();
-  if (kept == 0) return;
-  struct stat status {};
-  const bool is_known = fstat(file_, &status) == 0;
-  const bool is_short = is_known && std::cmp_less(status.st_size, kept);
-  const bool is_cut = is_known && !is_short && ftruncate(file_, static_cast<off_t>(kept)) == 0;
-  if (is_cut) return;
-  const int error = errno;
-  ::close(std::exchange(file_, -1));
-  if (!is_short) fail_to_write(path_, error);
-  throw std::runtime_error("\"" + path_.string() + "\" has " + std::to_string(status.st_size) + " bytes, and had " +
-                           std::to_string(kept) + " when it was last saved");
+  if (kept.bytes == 0) return;
+  try {
+    go_on_after(kept);
+  } catch (const std::exception&) {
+    ::close(std::exchange(file_, -1));
+    throw;
+  }
+}
+
+void OutputFile::go_on_after(const FileState& kept) {
+  std::string piece(1U << 20U, '\0');
+  while (size_ < kept.bytes) {
+    const ssize_t count = ::read(file_, piece.data(), std::min<std::uint64_t>(piece.size(), kept.bytes - size_));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail();
+    if (count == 0) {
+      refuse_damaged(path_,
+                     "has " + std::to_string(size_) + " bytes, and had " + std::to_string(kept.bytes) + " when it was last saved");
+    }
+    hash_.add({piece.data(), static_cast<std::size_t>(count)});
+    size_ += static_cast<std::uint64_t>(count);
+  }
+  if (hash_.value() != kept.hash) refuse_damaged(path_, "was changed since it was last saved: its checksum is another one");
+  if (ftruncate(file_, static_cast<off_t>(size_)) != 0) fail();
 }
 
 OutputFile::~OutputFile() {
@@ -52,6 +73,7 @@ OutputFile::~OutputFile() {
 void OutputFile::write(std::string_view text) {
   if (!write_all(file_, text)) fail();
   size_ += text.size();
+  hash_.add(text);
 }
 
 void OutputFile::sync() {
