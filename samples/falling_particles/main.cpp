@@ -2,6 +2,7 @@
 // reads a scene file and writes trajectories and a summary.
 
 #include <fcntl.h>
+#include <ode/ode.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,7 @@
 #include "check/forecast.hpp"
 #include "measurements/measurement.hpp"
 #include "output/lammps_input.hpp"
+#include "output/list_tables.hpp"
 #include "output/rendering.hpp"
 #include "parts/list_parts.hpp"
 #include "population/list_population.hpp"
@@ -54,8 +56,20 @@ void list() {
   std::fputs(falling_particles::list_measurements().c_str(), stdout);
   std::puts("\nWalls besides those of its container, which stand, move or are driven, are its sections [[part]].\n");
   std::fputs(falling_particles::list_parts().c_str(), stdout);
+  std::puts("\nIt writes these tables, besides those of its measurements. --tables SCENE prints the columns of a scene's.\n");
+  std::fputs(falling_particles::list_tables().c_str(), stdout);
   std::puts("\nGrains come from its sections [[feeder]], and go into its sections [[sink]].\n");
   std::fputs(falling_particles::list_population().c_str(), stdout);
+}
+
+void print_tables(const std::string& scene_path, const std::vector<std::string>& overrides) {
+  std::fputs(tables_of(falling_particles::load_scene(scene_path, overrides)).c_str(), stdout);
+}
+
+/// All that results depend on besides a run's files and options.
+std::string version() {
+  return std::string("falling_particles ") + FALLING_PARTICLES_VERSION + ", ODE with " +
+         (sizeof(dReal) == sizeof(double) ? "double" : "single") + " precision";
 }
 
 void check(const std::string& scene_path, const std::vector<std::string>& overrides) {
@@ -67,6 +81,7 @@ struct Options {
   std::string scene_path;
   std::vector<std::string> overrides;
   std::string check_path;
+  std::string tables_path;
   falling_particles::RunOptions run;
   bool check_leaks = false;
   bool no_pictures = false;
@@ -98,6 +113,10 @@ ExitCode run_program(int argc, char** argv) {
       app.add_option("--check", options.check_path,
                      "scene file: say what its run would do and take, and end. Takes a second or two, and writes nothing");
   checked->excludes(scene);
+  CLI::Option* const tabled = app.add_option("--tables", options.tables_path,
+                                             "scene file: print the tables that its run would write, with columns, as TOML")
+                                  ->excludes(scene)
+                                  ->excludes(checked);
   app.add_option("--set", options.overrides, "another value than the scene's, once for each: time.step=1e-3, grain[pea].count=20")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -122,10 +141,11 @@ ExitCode run_program(int argc, char** argv) {
   app.add_flag_callback(
       "--list", list_and_end,
       "print the effects, measurements, parts, feeders and sinks that a scene may name, with units, ranges, costs and sources");
+  app.set_version_flag("--version", version(), "print the version, and the precision of ODE");
   app.footer(kFooter);
   try {
     app.parse(argc, argv);
-    if (scene->count() + checked->count() == 0) throw CLI::RequiredError("--scene");
+    if (scene->count() + checked->count() + tabled->count() == 0) throw CLI::RequiredError("--scene");
   } catch (const CLI::ExtrasError&) {
     std::vector<std::string> unknown = app.remaining();
     std::ranges::reverse(unknown);  // ExtrasError tells them the other way round
@@ -134,8 +154,9 @@ ExitCode run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? Done : BadInput;
   }
-  if (checked->count() == 0) return simulate(options);
-  check(options.check_path, options.overrides);
+  if (scene->count() > 0) return simulate(options);
+  if (checked->count() > 0) check(options.check_path, options.overrides);
+  if (tabled->count() > 0) print_tables(options.tables_path, options.overrides);
   return Done;
 }
 

@@ -25,6 +25,14 @@ same_seed_same_result() {
   state_is_as_summed_up "$work/first/short"
 }
 
+# --tables prints the tables of a run and their first lines. $1: the scene, $2: the results
+tables_are_told() {
+  "$program" --tables "$1" >"$work/tables" || fail "--tables fails"
+  (cd "$2" && for table in *.csv measurements/*.csv; do
+    echo "\"$table\" = [\"$(head -n 1 "$table" | sed 's/,/", "/g')\"]"
+  done) | sort | diff - <(sort "$work/tables") || fail "--tables prints others than a run writes"
+}
+
 # Measurements change no grain's way, and are the same with any number of threads.
 measurements_are_written() {
   { cat "$samples/scenes/short.toml"
@@ -40,6 +48,7 @@ measurements_are_written() {
     [ "$(wc -l <"$work/measured1/short/measurements/$table.csv")" -gt 10 ] || fail "$table.csv has less than a line a sample"
     grep -q "^measurement.$table.seconds " "$work/measured1/short/summary.toml" || fail "the cost of $table is not told"
   done
+  tables_are_told "$work/scenes/short.toml" "$work/measured1/short"
   expect 0 "$program" -q --scene "$samples/scenes/short.toml" --out "$work/measured1"
   [ ! -e "$work/measured1/short/measurements" ] || fail "an earlier run's measurements stay"
   expect 0 "$program" --list

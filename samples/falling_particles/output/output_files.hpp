@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "measure/energy.hpp"
 #include "output/write_file.hpp"
@@ -28,6 +29,18 @@ inline constexpr std::string_view kSinksFile = "sinks.csv";
 inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,  kStateFile,       kSummaryFile, kFeedersFile,
                                             kSinksFile,      kDischargeFile, kCompressionFile, kPartsFile,   kGrainsFile};
 
+/// A table of a run but for those of its measurements.
+struct TableFormat {
+  std::string_view name;     ///< of its file
+  std::string_view columns;  ///< its first line
+  std::string_view lines;    ///< what there is a line of
+  std::string_view of;       ///< the scenes that have it
+  bool (*is_written)(const Scene& scene);
+};
+
+/// All of them, in the order in which they are listed for users.
+const std::vector<TableFormat>& table_formats();
+
 /// A table that grows line by line.
 class Table {
  public:
@@ -36,8 +49,8 @@ class Table {
   void sync() { file_.sync(); }
 
  protected:
-  /// Begins with the line `head`, or goes on after the bytes of `kept`, with which a table that is there begins.
-  Table(const std::filesystem::path& path, std::string_view head, const FileState& kept);
+  /// Begins with the columns of the table `name`, or goes on after the bytes of `kept`, with which a table that is there begins.
+  Table(const std::filesystem::path& path, std::string_view name, const FileState& kept);
   ~Table() = default;
   void append(std::string_view lines) { file_.write(lines); }
 

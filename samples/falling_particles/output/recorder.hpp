@@ -53,8 +53,9 @@ class Recorder {
  private:
   Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, const RecorderState& saved,
            bool logs_frames);
-  template <typename File>
-  void add(std::optional<File>& file, std::string_view name);
+  /// Adds the table, if the scene has it. `written`: what it is to know of its lines that are there.
+  template <typename File, typename... Counts>
+  void add(std::optional<File>& file, std::string_view name, Counts... written);
 
   const OutputFolder& folder_;
   const Scene& scene_;
