@@ -1,16 +1,13 @@
 // Drops real grains into a container (a box, a hopper, a terrain), or packs them in a periodic cell, and measures the result: it
 // reads a scene file and writes trajectories and a summary.
 
-#include <fcntl.h>
 #include <ode/ode.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
@@ -160,28 +157,11 @@ ExitCode run_program(int argc, char** argv) {
   return Done;
 }
 
-/// Opens streams that are closed, because a file that is opened while stdin, stdout or stderr is closed would take its number,
-/// and get the printed text.
-void occupy_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);  // takes the lowest free number; writing to it fails
-  }
-}
-
-bool is_stdout_written() {
-  std::cout.flush();
-  return std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  occupy_standard_streams();
   try {
-    const ExitCode code = run_program(argc, argv);
-    if (is_stdout_written()) return code;
-    std::fputs("falling_particles: cannot write to stdout (is it closed, or the disk full?)\n", stderr);
-    return code == Done ? Failed : code;
+    return run_program(argc, argv);
   } catch (const falling_particles::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return BadInput;

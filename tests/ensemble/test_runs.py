@@ -183,7 +183,7 @@ class Failures(RunTest):
 
     def test_a_signal_is_told(self):
         self.stub.write_text("#!/bin/sh\nkill -SEGV $$\n")
-        self.assertIn("FAILED: signal 11: it said nothing", self.ensemble("point", 0).stderr)
+        self.assertIn("FAILED: signal 11: ", self.ensemble("point", 0).stderr)
 
     def test_no_summary_is_a_failure(self):
         self.stub.write_text("#!/bin/sh\n")
@@ -194,6 +194,19 @@ class Failures(RunTest):
         done = self.ensemble("point", 0)
         self.assertEqual(done.returncode, 1)
         self.assertIn('summary.toml has no run.stps; did you mean "steps"?; there are: steps, interrupted', done.stderr)
+
+    def test_a_stdout_that_is_full_or_closed_is_told_once(self):
+        for stdout in (">/dev/full", ">&-"):
+            for arguments in (["--help"], ["run", "--help"], ["points", str(self.sweep)], ["collect", str(self.sweep), "--out", str(self.out)]):
+                for unbuffered in ("", "1"):
+                    environment = os.environ | {"PYTHONUNBUFFERED": unbuffered}
+                    command = ["sh", "-c", f'exec "$@" {stdout}', "sh", sys.executable, str(ENSEMBLE), *arguments]
+                    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+                    with self.subTest(arguments=arguments, stdout=stdout, unbuffered=unbuffered):
+                        self.assertEqual(done.returncode, 1)
+                        self.assertIn("ensemble: cannot write to stdout: ", done.stderr.splitlines()[-1])
+        silent = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", *self.command("point", 0)], capture_output=True, check=False)
+        self.assertEqual(silent.returncode, 0)
 
     def test_bad_input_has_its_own_exit_status(self):
         for arguments, says in (

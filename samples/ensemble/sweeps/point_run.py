@@ -44,9 +44,8 @@ def run_point(sweep, point, store, program):
     return True
 
 
-# Runs a program and writes down how it ended, also where whoever started it has been killed meanwhile. Its stderr becomes the shell's
-# stdout, apart from what the shell itself says of a signal.
-SUPERVISED = 'end=$1; shift; "$@" 2>&1 >/dev/null; code=$?; echo $code >"$end.new" && mv "$end.new" "$end"; exit $code'
+# Runs a program and writes down how it ended, also where whoever started it has been killed meanwhile.
+SUPERVISED = 'end=$1 log=$2; shift 2; "$@" >/dev/null 2>"$log"; code=$?; echo $code >"$end.new" && mv "$end.new" "$end"; exit $code'
 INTERRUPTED = 130  # exit code of falling_particles; above 128, those of the shell for a program that a signal has ended
 FIRST_SIGNAL = 128
 
@@ -62,7 +61,7 @@ def _simulate(sweep, point, store, run, program, lock):
         return None
     end.unlink(missing_ok=True)
     end.parent.mkdir(parents=True, exist_ok=True)
-    command = ["sh", "-c", SUPERVISED, "sh", str(end.absolute())]
+    command = ["sh", "-c", SUPERVISED, "sh", str(end.absolute()), str(store.log(run).absolute())]
     command += [str(program.absolute()), "--quiet", "--no-pictures", "--threads", "1", "--scene", str(sweep.scene), "--out", str(store.run_folder(run))]
     command += sweep.arguments
     for assignment in sweep.assignments(point):
@@ -70,10 +69,8 @@ def _simulate(sweep, point, store, run, program, lock):
     store.log(run).parent.mkdir(parents=True, exist_ok=True)
     threads = dict.fromkeys(["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"], "1")
     try:
-        with open(store.log(run), "wb") as log:
-            code = subprocess.run(
-                command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.DEVNULL, pass_fds=[lock], env=os.environ | threads
-            ).returncode
+        silent = dict.fromkeys(["stdin", "stdout", "stderr"], subprocess.DEVNULL)
+        code = subprocess.run(command, **silent, pass_fds=[lock], env=os.environ | threads, check=False).returncode
     except OSError as error:
         return f"cannot start {program}: {error.strerror}"
     if code == 0:

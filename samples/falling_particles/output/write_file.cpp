@@ -1,10 +1,12 @@
 #include "output/write_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -18,6 +20,15 @@ namespace {
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
   throw std::runtime_error("cannot write \"" + path.string() + "\": " + std::generic_category().message(error));
+}
+
+/// Writes to a pipe or a device.
+void write_in_place(const std::filesystem::path& path, std::string_view text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) fail_to_write(path, errno);
+  const int failure = write_all(file, text) ? 0 : errno;
+  if (::close(file) != 0 && failure == 0) fail_to_write(path, errno);
+  if (failure != 0) fail_to_write(path, failure);
 }
 
 [[noreturn]] void refuse_damaged(const std::filesystem::path& path, const std::string& reason) {
@@ -96,6 +107,27 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
     std::filesystem::remove(path, ignored);
     throw;
   }
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view text) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status there = fs::status(path, error);
+  if (fs::exists(there) && !fs::is_regular_file(there)) return write_in_place(path, text);
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;  // a link stays one
+  std::string beside = target.string() + ".XXXXXX";
+  const int file = mkstemp(beside.data());
+  if (file < 0) fail_to_write(path, errno);
+  const mode_t mask = umask(0);
+  umask(mask);
+  const auto mode = fs::exists(there) ? static_cast<mode_t>(there.permissions()) : static_cast<mode_t>(0666 & ~mask);
+  const bool is_written = write_all(file, text) && fchmod(file, mode) == 0 && fsync(file) == 0;
+  int failure = is_written ? 0 : errno;
+  if (::close(file) != 0 && failure == 0) failure = errno;
+  if (failure == 0 && ::rename(beside.c_str(), target.c_str()) != 0) failure = errno;
+  if (failure == 0) return;
+  ::unlink(beside.c_str());
+  fail_to_write(path, failure);
 }
 
 void sync_folder(const std::filesystem::path& path) {

@@ -51,8 +51,12 @@ class OutputFile {
   RunningHash hash_;
 };
 
-/// Writes a whole file, or none.
+/// Writes a whole file, or none. For files in a folder of ours: what was there is gone if it fails.
 void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// Writes a file that the user has named: the whole of it, or what was there stays. What is no regular file, such as a pipe or a
+/// device, is written as it is, and never removed.
+void replace_file(const std::filesystem::path& path, std::string_view text);
 
 /// Returns when the names of the files in a folder survive a power cut.
 void sync_folder(const std::filesystem::path& path);
