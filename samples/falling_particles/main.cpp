@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -93,7 +92,6 @@ ExitCode simulate(const Options& options) {
   }
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // what does not fit `ulimit -f` is an error of its write
   const falling_particles::RunEnd end = falling_particles::run(scene, options.run);
   std::fflush(stdout);
   falling_particles::catch_interrupts();  // again: the results are in place, and a Ctrl-C ends only the drawing

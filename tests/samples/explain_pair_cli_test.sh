@@ -65,6 +65,7 @@ refuses '--body2: "" is no kind of body; allowed: sphere, ellipsoid' "${ellipsoi
 refuses 'did you mean "concentric: identical ellipsoids"?' --case "concentric: identical elipsoids"
 refuses 'missing: --bodies' "${run[@]}"
 refuses '--bodies: there is no body 60; allowed: 0 to 59' "${run[@]}" --bodies 60
+refuses 'is a device; allowed: a file' --scene "$samples/scenes/short.toml" --trajectory /dev/zero --time 0 --bodies 1
 refuses '--position2 has a nan; allowed: ' "${ellipsoid[@]}" --body2 "sphere 1" --position2 0 nan 0
 refuses '--tolerance' "${ellipsoid[@]}" --body2 "sphere 1" --tolerance 2
 refuses '--max-evaluations' "${ellipsoid[@]}" --body2 "sphere 1" --max-evaluations 0
