@@ -19,6 +19,8 @@
 #include "parts/list_parts.hpp"
 #include "population/list_population.hpp"
 #include "scene/input_error.hpp"
+#include "scene/list_sections.hpp"
+#include "scene/load_effects.hpp"
 #include "scene/scene.hpp"
 #include "simulation/interrupt.hpp"
 #include "simulation/run.hpp"
@@ -40,11 +42,13 @@ constexpr const char* kFooter =
     "130 stopped by Ctrl-C, with all results up to then written; with --checkpoint-every, at a checkpoint, to be resumed.";
 
 void list() {
+  std::puts("A scene has these sections and keys, and those below. Where no default is named, a key is needed.\n");
+  std::fputs(falling_particles::list_sections().c_str(), stdout);
   std::puts(
-      "A scene runs with the effects whose sections it has, and with nothing else. Rigid contact itself is 1 row a contact.\n");
+      "\nA scene runs with the effects whose sections it has, and with nothing else. Rigid contact itself is 1 row a contact.\n");
   for (const supernormal::effects::Description& effect : supernormal::effects::descriptions()) {
     std::printf("[%s]\n  parameters  %s\n  cost        %d rows per contact; passes per step: %s\n  source      %s\n", effect.name,
-                effect.parameters, effect.rows, effect.passes, effect.source);
+                falling_particles::scene_parameters(effect).c_str(), effect.rows, effect.passes, effect.source);
   }
   std::puts("\nIt measures what its sections [[measurement]] ask for, each into measurements/NAME.csv. Parameters of all:\n");
   std::puts("  interval: s, from sample to sample, a multiple of time.step; name: of the table, the kind without it;");

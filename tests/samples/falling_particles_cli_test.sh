@@ -55,6 +55,15 @@ measurements_are_written() {
   for name in friction stress part_force surface; do grep -q "[[\"]$name[]\"]" "$work/log" || fail "--list does not name $name"; done
 }
 
+# The page is what --list prints.
+the_page_lists_everything() {
+  "$program" --list >"$work/list" || fail "--list fails"
+  sed -n '/^```text$/,/^```$/{/^```/!p}' "$samples/falling_particles/scene_files.md" | diff - "$work/list" ||
+    fail "scene_files.md is not what --list prints"
+  local table
+  for table in trajectory energies state grains parts feeders; do grep -q "^$table.csv$" "$work/list" || fail "no $table.csv"; done
+}
+
 # What a scene would do, and what it may name, is told without a run.
 scenes_are_checked() {
   (cd "$work" && expect 0 "$program" --check "$samples/scenes/short.toml" && [ ! -e out ]) || fail "--check has left something"
@@ -303,6 +312,7 @@ a_killed_run_leaves_whole_frames_until_the_next() {
 mkdir "$work/scenes" && cp -r "$samples/data" "$work/data"
 same_seed_same_result
 measurements_are_written
+the_page_lists_everything
 scenes_are_checked
 other_seed_other_result
 values_are_set
