@@ -129,11 +129,9 @@ ExitCode run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? Done : BadInput;
   }
   const Explanation explanation = explain(chosen_pair(options), options.settings);
-  falling_particles::write_file(options.out, picture_of(explanation));
+  falling_particles::replace_file(options.out, picture_of(explanation));
   print(explanation);
-  if (std::fflush(stdout) == 0) return Done;
-  std::fputs("explain_pair: cannot write to stdout (is it closed, or the disk full?)\n", stderr);
-  return Failed;
+  return Done;
 }
 
 }  // namespace

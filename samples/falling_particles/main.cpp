@@ -1,15 +1,12 @@
 // Drops real grains into a container (a box, a hopper, a terrain), or packs them in a periodic cell, and measures the result: it
 // reads a scene file and writes trajectories and a summary.
 
-#include <fcntl.h>
-#include <unistd.h>
+#include <ode/ode.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <string>
 #include <supernormal/effects.hpp>
 #include <vector>
@@ -17,10 +14,13 @@
 #include "check/forecast.hpp"
 #include "measurements/measurement.hpp"
 #include "output/lammps_input.hpp"
+#include "output/list_tables.hpp"
 #include "output/rendering.hpp"
 #include "parts/list_parts.hpp"
 #include "population/list_population.hpp"
 #include "scene/input_error.hpp"
+#include "scene/list_sections.hpp"
+#include "scene/load_effects.hpp"
 #include "scene/scene.hpp"
 #include "simulation/interrupt.hpp"
 #include "simulation/run.hpp"
@@ -42,11 +42,13 @@ constexpr const char* kFooter =
     "130 stopped by Ctrl-C, with all results up to then written; with --checkpoint-every, at a checkpoint, to be resumed.";
 
 void list() {
+  std::puts("A scene has these sections and keys, and those below. Where no default is named, a key is needed.\n");
+  std::fputs(falling_particles::list_sections().c_str(), stdout);
   std::puts(
-      "A scene runs with the effects whose sections it has, and with nothing else. Rigid contact itself is 1 row a contact.\n");
+      "\nA scene runs with the effects whose sections it has, and with nothing else. Rigid contact itself is 1 row a contact.\n");
   for (const supernormal::effects::Description& effect : supernormal::effects::descriptions()) {
     std::printf("[%s]\n  parameters  %s\n  cost        %d rows per contact; passes per step: %s\n  source      %s\n", effect.name,
-                effect.parameters, effect.rows, effect.passes, effect.source);
+                falling_particles::scene_parameters(effect).c_str(), effect.rows, effect.passes, effect.source);
   }
   std::puts("\nIt measures what its sections [[measurement]] ask for, each into measurements/NAME.csv. Parameters of all:\n");
   std::puts("  interval: s, from sample to sample, a multiple of time.step; name: of the table, the kind without it;");
@@ -54,8 +56,20 @@ void list() {
   std::fputs(falling_particles::list_measurements().c_str(), stdout);
   std::puts("\nWalls besides those of its container, which stand, move or are driven, are its sections [[part]].\n");
   std::fputs(falling_particles::list_parts().c_str(), stdout);
+  std::puts("\nIt writes these tables, besides those of its measurements. --tables SCENE prints the columns of a scene's.\n");
+  std::fputs(falling_particles::list_tables().c_str(), stdout);
   std::puts("\nGrains come from its sections [[feeder]], and go into its sections [[sink]].\n");
   std::fputs(falling_particles::list_population().c_str(), stdout);
+}
+
+void print_tables(const std::string& scene_path, const std::vector<std::string>& overrides) {
+  std::fputs(tables_of(falling_particles::load_scene(scene_path, overrides)).c_str(), stdout);
+}
+
+/// All that results depend on besides a run's files and options.
+std::string version() {
+  return std::string("falling_particles ") + FALLING_PARTICLES_VERSION + ", ODE with " +
+         (sizeof(dReal) == sizeof(double) ? "double" : "single") + " precision";
 }
 
 void check(const std::string& scene_path, const std::vector<std::string>& overrides) {
@@ -67,6 +81,7 @@ struct Options {
   std::string scene_path;
   std::vector<std::string> overrides;
   std::string check_path;
+  std::string tables_path;
   falling_particles::RunOptions run;
   bool check_leaks = false;
   bool no_pictures = false;
@@ -81,7 +96,6 @@ ExitCode simulate(const Options& options) {
   }
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();
-  std::signal(SIGXFSZ, SIG_IGN);  // what does not fit `ulimit -f` is an error of its write
   const falling_particles::RunEnd end = falling_particles::run(scene, options.run);
   std::fflush(stdout);
   falling_particles::catch_interrupts();  // again: the results are in place, and a Ctrl-C ends only the drawing
@@ -98,6 +112,10 @@ ExitCode run_program(int argc, char** argv) {
       app.add_option("--check", options.check_path,
                      "scene file: say what its run would do and take, and end. Takes a second or two, and writes nothing");
   checked->excludes(scene);
+  CLI::Option* const tabled = app.add_option("--tables", options.tables_path,
+                                             "scene file: print the tables that its run would write, with columns, as TOML")
+                                  ->excludes(scene)
+                                  ->excludes(checked);
   app.add_option("--set", options.overrides, "another value than the scene's, once for each: time.step=1e-3, grain[pea].count=20")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -122,10 +140,11 @@ ExitCode run_program(int argc, char** argv) {
   app.add_flag_callback(
       "--list", list_and_end,
       "print the effects, measurements, parts, feeders and sinks that a scene may name, with units, ranges, costs and sources");
+  app.set_version_flag("--version", version(), "print the version, and the precision of ODE");
   app.footer(kFooter);
   try {
     app.parse(argc, argv);
-    if (scene->count() + checked->count() == 0) throw CLI::RequiredError("--scene");
+    if (scene->count() + checked->count() + tabled->count() == 0) throw CLI::RequiredError("--scene");
   } catch (const CLI::ExtrasError&) {
     std::vector<std::string> unknown = app.remaining();
     std::ranges::reverse(unknown);  // ExtrasError tells them the other way round
@@ -134,33 +153,17 @@ ExitCode run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? Done : BadInput;
   }
-  if (checked->count() == 0) return simulate(options);
-  check(options.check_path, options.overrides);
+  if (scene->count() > 0) return simulate(options);
+  if (checked->count() > 0) check(options.check_path, options.overrides);
+  if (tabled->count() > 0) print_tables(options.tables_path, options.overrides);
   return Done;
-}
-
-/// Opens streams that are closed, because a file that is opened while stdin, stdout or stderr is closed would take its number,
-/// and get the printed text.
-void occupy_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);  // takes the lowest free number; writing to it fails
-  }
-}
-
-bool is_stdout_written() {
-  std::cout.flush();
-  return std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  occupy_standard_streams();
   try {
-    const ExitCode code = run_program(argc, argv);
-    if (is_stdout_written()) return code;
-    std::fputs("falling_particles: cannot write to stdout (is it closed, or the disk full?)\n", stderr);
-    return code == Done ? Failed : code;
+    return run_program(argc, argv);
   } catch (const falling_particles::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return BadInput;

@@ -1,6 +1,8 @@
 """Runs, results and what becomes of them: with a program that does as it is told, and with falling_particles."""
 
 import os
+import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -28,6 +30,7 @@ interrupted = (scene.parent / f"interrupt-{{seed}}").exists()
 text = f"[run]\\nsteps = {{seed}}\\ninterrupted = {{str(interrupted).lower()}}\\n"
 (out / "summary.toml").write_text(text)
 if interrupted: sys.exit(130)
+if (scene.parent / f"leak-{{seed}}").exists(): sys.exit(3)
 """
 
 
@@ -107,6 +110,10 @@ class Results(RunTest):
             lambda: (self.folder / "scene.toml").write_text('seed = 2\ncatalogue = "grains.toml"\n'),
             lambda: catalogue.write_text("[pea]\n"),
             lambda: self.write('seeds = 4\n[grid]\n"a" = [1, 2]', collect='[[collect]]\nname = "s"\nsummary = "run.steps"\n'),
+            lambda: self.write('seeds = 4\narguments = ["--check-leaks"]\n[grid]\n"a" = [1, 2]'),
+            lambda: (self.folder / "scene.toml").write_text('seed = 2\ncatalogue = "grains.toml"\n[[part]]\nfile = "drum.stl"\n'),
+            lambda: (self.folder / "drum.stl").write_text("solid"),
+            lambda: self.stub.write_text(self.stub.read_text() + "# another program\n"),
         ):
             before = len(self.starts())
             change()
@@ -124,6 +131,7 @@ class Results(RunTest):
     def test_tables_give_means_of_the_last_part_and_of_chosen_lines(self):
         table = self.folder / "t.csv"
         table.write_text("time_s,slice,x\n" + "".join(f"{t},{s},{t * 10 + s}\n" for t in range(11) for s in (1, 2)))
+        (self.folder / "v.csv").write_text("time_s,x\n0,1\n1,\n")
         quantity = Quantity("q", table="t.csv", column="x", last=0.2, where=(("slice", 2),))
         self.assertEqual(quantity.value(self.folder), 92)  # of times 8, 9, 10
         self.assertEqual(Quantity("q", table="t.csv", column="x").value(self.folder), 51.5)
@@ -131,6 +139,7 @@ class Results(RunTest):
             (Quantity("q", table="t.csv", column="y"), "t.csv has no column y; there are: time_s, slice, x"),
             (Quantity("q", table="t.csv", column="x", where=(("slice", 3),)), "no line, slice = 3"),
             (Quantity("q", table="u.csv", column="x"), "cannot read u.csv"),
+            (Quantity("q", table="v.csv", column="x"), "v.csv, x, has a line without a number"),
         ):
             with self.assertRaises(NoValue) as caught:
                 wrong.value(self.folder)
@@ -156,11 +165,48 @@ class Failures(RunTest):
         self.assertEqual(self.ensemble("point", *range(8)).returncode, 0)
         self.assertEqual(self.ensemble("collect").returncode, 0)
 
+    def test_a_run_that_failed_after_its_results_is_no_result_the_next_time_either(self):
+        self.tell("leak-2")
+        for _ in range(3):
+            self.assertEqual(self.ensemble("point", 1).returncode, 1)
+        self.assertEqual(self.starts(), ["2"] * 3)
+        done = self.ensemble("collect")
+        self.assertIn("point 1 (a=1 seed=2): exit code 3: ", done.stderr)
+        self.assertEqual(self.tables()[0], "a,seed,steps\n")
+
+    def test_a_mistake_in_what_is_collected_loses_no_run(self):
+        self.write("seeds = 4", collect='[[collect]]\nname = "s"\nsummary = "run.stps"\n')
+        self.assertEqual(self.ensemble("point", *range(4)).returncode, 1)
+        self.write("seeds = 4", collect='[[collect]]\nname = "s"\nsummary = "run.steps"\n')
+        self.assertEqual(self.ensemble("point", *range(4)).returncode, 0)
+        self.assertEqual(self.starts(), ["1", "2", "3", "4"])
+
+    def test_a_signal_is_told(self):
+        self.stub.write_text("#!/bin/sh\nkill -SEGV $$\n")
+        self.assertIn("FAILED: signal 11: ", self.ensemble("point", 0).stderr)
+
+    def test_no_summary_is_a_failure(self):
+        self.stub.write_text("#!/bin/sh\n")
+        self.assertIn("FAILED: cannot read summary.toml: ", self.ensemble("point", 0).stderr)
+
     def test_a_number_that_is_not_there_is_a_failure(self):
         self.write("seeds = 1", collect='[[collect]]\nname = "s"\nsummary = "run.stps"\n')
         done = self.ensemble("point", 0)
         self.assertEqual(done.returncode, 1)
         self.assertIn('summary.toml has no run.stps; did you mean "steps"?; there are: steps, interrupted', done.stderr)
+
+    def test_a_stdout_that_is_full_or_closed_is_told_once(self):
+        for stdout in (">/dev/full", ">&-"):
+            for arguments in (["--help"], ["run", "--help"], ["points", str(self.sweep)], ["collect", str(self.sweep), "--out", str(self.out)]):
+                for unbuffered in ("", "1"):
+                    environment = os.environ | {"PYTHONUNBUFFERED": unbuffered}
+                    command = ["sh", "-c", f'exec "$@" {stdout}', "sh", sys.executable, str(ENSEMBLE), *arguments]
+                    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+                    with self.subTest(arguments=arguments, stdout=stdout, unbuffered=unbuffered):
+                        self.assertEqual(done.returncode, 1)
+                        self.assertIn("ensemble: cannot write to stdout: ", done.stderr.splitlines()[-1])
+        silent = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", *self.command("point", 0)], capture_output=True, check=False)
+        self.assertEqual(silent.returncode, 0)
 
     def test_bad_input_has_its_own_exit_status(self):
         for arguments, says in (
@@ -231,6 +277,43 @@ class FallingParticles(RunTest):
         self.assertEqual(self.ensemble("point", *range(4), program=PROGRAM).returncode, 0)
         self.assertEqual(self.ensemble("collect").returncode, 0)
         self.assertEqual(self.tables(), expected)
+
+    def test_a_misspelt_column_or_table_is_refused_before_the_first_run(self):
+        for collect, says in (
+            ('table = "energies.csv"\ncolumn = "kinetik_J"', 'energies.csv has no column kinetik_J; did you mean "kinetic_J"?; there are: time_s, '),
+            ('table = "energy.csv"\ncolumn = "kinetic_J"', "there is no energy.csv; did you mean"),
+            ('table = "measurements/stress.csv"\ncolumn = "contact_xx"', 'has no column contact_xx; did you mean "contact_xx_Pa"?'),
+            ('table = "energies.csv"\ncolumn = "kinetic_J"\nwhere = {slice = 1}', "energies.csv has no column slice"),
+        ):
+            scene = self.folder / "measured.toml"
+            text = (SCENES / "short.toml").read_text().replace('"../data', f'"{SCENES.parent}/data')
+            box = "lower = [0, 0, 0]\nupper = [0.05, 0.05, 0.05]\n"
+            scene.write_text(text + f'[[measurement]]\nkind = "stress"\ninterval = 0.05\n{box}')
+            self.write("seeds = 2", scene, f'[[collect]]\nname = "q"\n{collect}\n')
+            done = self.ensemble("run", program=PROGRAM)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("sweep.toml: [[collect]] q: ", done.stderr)
+            self.assertIn(says, done.stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_names_of_files_are_names_whatever_they_look_like(self):
+        if shutil.which("parallel") is None:
+            self.skipTest("GNU parallel is missing")
+        for name in ("o{}x", "{= system 'touch PERL' =}", "{%} {#} {1}", "$HOME `id` 'a\" \\", "%A %%"):
+            with self.subTest(name):
+                folder = self.folder / name
+                folder.mkdir()
+                self.out = folder / "out"
+                done = self.ensemble("run", "--jobs", 1, program=PROGRAM)
+                self.assertEqual((done.returncode, done.stdout.splitlines()[-1][:6]), (0, "4 of 4"), done.stderr)
+                self.assertEqual(sorted(path.name for path in folder.iterdir()), ["out"])
+        self.assertFalse(pathlib.Path("PERL").exists())
+
+    def test_a_text_of_any_characters_comes_to_the_scene(self):
+        catalogue = self.folder / "k\U0001f600\u00e4\x7f.toml"
+        catalogue.write_text((SCENES.parent / "data/grains.toml").read_text(encoding="utf-8"), encoding="utf-8")
+        self.write(f'seeds = 1\nset = {{"time.duration" = 0.01, catalogue = "{self.folder}/k\U0001f600\u00e4\\u007f.toml"}}', SCENES / "short.toml")
+        self.assertEqual(self.ensemble("point", 0, program=PROGRAM).returncode, 0)
 
     def test_a_value_that_the_scene_refuses_is_told_with_the_point(self):
         self.write('seeds = 1\nset = {"time.step" = -1}', SCENES / "short.toml")

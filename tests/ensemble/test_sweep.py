@@ -1,11 +1,14 @@
 """Sweep files become points, and mistakes in them messages."""
 
+import os
+import tomllib
 import unittest
 
 from sweep_files import COLLECT, SCENES, SweepTest
 
 from sweeps.errors import InputError
 from sweeps.sweep import load_sweep
+from sweeps.toml_text import toml_text
 
 
 class Points(SweepTest):
@@ -47,6 +50,20 @@ class Points(SweepTest):
         self.assertEqual(sum(value < 1e-2 for value in log), 200)  # half of the strata are in the lower half of the decades
         self.assertEqual([whole.count(value) for value in (1, 2, 3, 4)], [100] * 4)
         self.assertTrue(all(type(value) is int for value in whole))
+
+    def test_numbers_of_narrow_ranges_differ_and_stay_within(self):
+        ranges = 'a = {from = 1, to = 1.0000001}, b = {from = 0.9999999, to = 1.00000001, scale = "log"}, c = {from = -1000.0001, to = -1000}'
+        sweep = load_sweep(self.write(f"[latin_hypercube]\npoints = 500\nseed = 5\nranges = {{{ranges}}}"))
+        for key, lower, upper in (("a", 1, 1.0000001), ("b", 0.9999999, 1.00000001), ("c", -1000.0001, -1000)):
+            values = [point.values[key] for point in sweep.points]
+            self.assertGreater(len(set(values)), 240)
+            self.assertTrue(all(lower <= value <= upper for value in values))
+
+    def test_a_text_reads_back_as_it_was(self):
+        for text in ("\U0001f600", "\U0010ffff\ue000", "\x7f\x00\t\n", 'a"b\\', "{= 1 =}"):
+            written = toml_text({text: text})
+            self.assertTrue(written.isascii())
+            self.assertEqual(tomllib.loads("a = " + written)["a"], {text: text})
 
     def test_the_samples_are_read(self):
         self.assertEqual(len(load_sweep(SCENES.parent / "ensemble/packing.toml").points), 64)
@@ -92,6 +109,27 @@ class Mistakes(SweepTest):
             ("[grid]\na = [1]\n[figure]\nx = \"b\"\ny = \"steps\"", "[figure]: x is 'b'; allowed: a"),
             ("[slurm]\noption = []", 'unknown key "option"; did you mean "options"?'),
             ("a = ", "allowed: valid TOML 1.0"),
+            ("[grid]\na = [2024-01-01]", '[grid] "a" is or holds a date or time; allowed: numbers'),
+            ("set = {a = [{b = 07:32:00}]}", '[set] "a" is or holds a date or time'),
+            ("[[list]]\na = 9223372036854775808", '[[list]] "a" is or holds a whole number beyond 64 bits'),
+            ('set = {"a=b" = 1}', "[set] has the key 'a=b'; allowed: a key of the scene"),
+            ('set = {"a\\u0000" = 1}', "[set] has the key 'a\\x00'"),
+            ('arguments = ["\\u0000"]', "without a zero character"),
+            ("a = " + "[" * 100000, "nested too deeply"),
+            ("[grid]\n" + "".join(f"a{i} = [1, 2, 3, 4, 5, 6, 7, 8, 9, 0]\n" for i in range(10)), "the sweep has 10000000000 points; allowed: up to 1000000"),
+            ("seeds = 1000\n[grid]\na = [1, 2]\n[latin_hypercube]\npoints = 1000\nseed = 1\nranges = {b = {from = 0, to = 1}}", "has 2000000 points"),
+            ("seeds = 10_000_000_000", "seeds is 10000000000; allowed"),
+            *(
+                (f"[latin_hypercube]\npoints = 100\nseed = 1\nranges = {{a = {{{limits}}}}}", f'ranges "a" {says}')
+                for limits, says in (
+                    ("from = 1, to = 1.0000000000000002", "goes from 1 to 1.0000000000000002, too narrow for 100 different numbers; allowed: a wider"),
+                    ("from = 0.2, to = 0.8, whole = true", "goes from 0.2 to 0.8, between which there is no whole number"),
+                    ("from = 0, to = 1e400", "goes from 0 to inf"),
+                    ("from = 0, to = 99999999999999999999", "goes from 0 to 99999999999999999999"),
+                    ('from = 1e-300, to = 1e299, scale = "log"', "has scale = 'log'"),
+                    ("from = 2024-01-01, to = 2024-01-02", "goes from datetime.date(2024, 1, 1)"),
+                )
+            ),
         ]:
             with self.subTest(text):
                 self.assert_says(self.complaint(text), *parts)
@@ -108,6 +146,14 @@ class Mistakes(SweepTest):
         ]:
             with self.subTest(collect):
                 self.assert_says(self.complaint("", collect=collect), *parts)
+
+    def test_a_pipe_is_not_waited_for(self):
+        os.mkfifo(self.folder / "pipe.toml")
+        for path in (self.folder / "pipe.toml", self.folder, "/dev/null"):
+            with self.assertRaises(InputError) as caught:
+                load_sweep(path)
+            self.assert_says(caught.exception, "is a folder, a pipe or a device; allowed: a file")
+        self.assert_says(self.complaint("", scene="pipe.toml"), "scene: there is no file")
 
     def test_files_that_are_not_there(self):
         self.assert_says(self.complaint("", scene="other.toml"), "scene: there is no file", "other.toml; allowed: a scene file")

@@ -90,12 +90,11 @@ hopper_scene() {
   printf '[[measurement]]\nkind = "part_force"\nname = "walls"\ninterval = 0.01\n%s\n' "$pictures"
 }
 
-# What a run leaves, but for what it took: [cost] of the summary, which the page holds, too. $1: the folder
+# What a run leaves, but for what it took: [cost] of the summary. $1: the folder
 results() {
   (cd "$1" && find . -type f | sort | while read -r file; do
     case $file in
       ./summary.toml) echo "$(sed '/^\[cost\]/,$d' "$file" | sha256sum) $file" ;;
-      ./view.html) echo "$(sed -E 's/"summary":"([^"\\]|\\.)*"//' "$file" | sha256sum) $file" ;;
       *) sha256sum "$file" ;;
     esac
   done)
@@ -195,12 +194,35 @@ refused() {
   same_results "refused before"
 }
 
+# A table that was changed since the checkpoint is refused, without the advice to resume; a user's file in the folder is none.
+damaged() {
+  local unfinished=$work/out/$scene.unfinished-1
+  rm -rf "$work/out"
+  start "$work/out"
+  while [ ! -e "$unfinished/checkpoint" ]; do sleep 0.02; done
+  kill -9 $!
+  wait $! 2>/dev/null || true
+  touch "$unfinished/.energies.csv.swp"
+  cp "$unfinished/energies.csv" "$work/whole_table"
+  for damage in 'truncate -s 10' 'sed -i 1s/kinetic/kinetik/' rm; do
+    $damage "$unfinished/energies.csv"
+    expect 2 "$program" -q --scene "$work/scenes/$scene.toml" --out "$work/out" --resume
+    grep -q "energies.csv\" .*; without --resume the run starts anew" "$work/log" || fail "unclear: $(cat "$work/log")"
+    ! grep -q "goes on from there" "$work/log" || fail "the advice leads nowhere: $(cat "$work/log")"
+    cp "$work/whole_table" "$unfinished/energies.csv"
+  done
+  run "$work/out" --resume || fail "$scene, with a foreign file: $(cat "$work/log")"
+  rm "$work/out/$scene/.energies.csv.swp"
+  same_results "a foreign file in its folder"
+}
+
 left_alone busy 40
 for _ in $(seq "$kills"); do killed; done
 stopped TERM
 stopped INT
 out_of_space
 refused
+damaged
 left_alone hopper 70
 killed
 left_alone packing 30

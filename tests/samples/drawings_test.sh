@@ -80,12 +80,16 @@ a_still() {
   brief '"povray"'
   fake povray 'echo "$*"'
   expect 0 with_fakes -q --scene "$work/scenes/short.toml" --out "$work/out"
-  [ "$(cat "$work/out/short/still.png")" = "+Istill.pov +O- +FN +W900 +H560 +A0.2 -D" ] || fail "$(cat "$work/out/short/still.png")"
+  [ "$(cat "$work/out/short/still.png")" = "+Istill.pov +O- +FN +W900 +H560 +A0.2 -D +WT1" ] || fail "$(cat "$work/out/short/still.png")"
   results_are_whole
   command -v povray >/dev/null || { echo "no povray: no still is rendered" >&2; return 0; }
   expect 0 "$program" -q --scene "$work/scenes/short.toml" --out "$work/out"
   [ "$(od -An -tx1 -j1 -N23 "$work/out/short/still.png" | tr -d ' \n')" = 504e470d0a1a0a0000000d494844520000038400000230 ] ||
     fail "still.png is not a PNG of 900 x 560 pixels"
+  local first
+  first=$(sha256sum <"$work/out/short/still.png")
+  expect 0 "$program" -q --scene "$work/scenes/short.toml" --out "$work/out"
+  [ "$(sha256sum <"$work/out/short/still.png")" = "$first" ] || fail "still.png is not the same bytes when it is drawn again"
 }
 
 ctrl_c_ends_the_drawing_alone() {

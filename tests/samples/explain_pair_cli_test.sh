@@ -65,9 +65,29 @@ refuses '--body2: "" is no kind of body; allowed: sphere, ellipsoid' "${ellipsoi
 refuses 'did you mean "concentric: identical ellipsoids"?' --case "concentric: identical elipsoids"
 refuses 'missing: --bodies' "${run[@]}"
 refuses '--bodies: there is no body 60; allowed: 0 to 59' "${run[@]}" --bodies 60
+refuses 'is a device; allowed: a file' --scene "$samples/scenes/short.toml" --trajectory /dev/zero --time 0 --bodies 1
 refuses '--position2 has a nan; allowed: ' "${ellipsoid[@]}" --body2 "sphere 1" --position2 0 nan 0
 refuses '--tolerance' "${ellipsoid[@]}" --body2 "sphere 1" --tolerance 2
 refuses '--max-evaluations' "${ellipsoid[@]}" --body2 "sphere 1" --max-evaluations 0
 expect 1 "$program" --case "concentric: identical ellipsoids" --out "$work/missing/pair.svg"
 grep -q 'cannot write ' "$work/log" || fail "does not say what failed: $(cat "$work/log")"
+
+# What was there stays if the picture cannot be written, and what is no file is written as it is, and stays.
+echo "a user's" >"$work/old.svg"
+expect 1 prlimit --fsize=1000 "$program" --case "concentric: identical ellipsoids" --out "$work/old.svg"
+[ "$(cat "$work/old.svg")" = "a user's" ] || fail "an earlier file is gone"
+[ "$(ls "$work" | grep -c old.svg)" -eq 1 ] || fail "left beside it: $(ls "$work")"
+ln -s old.svg "$work/link.svg"
+expect 0 "$program" --case "concentric: identical ellipsoids" --out "$work/link.svg"
+[ -L "$work/link.svg" ] && parse "$work/old.svg" || fail "a link is no link any more"
+if mknod "$work/full" c 1 7 2>/dev/null; then
+  expect 1 "$program" --case "concentric: identical ellipsoids" --out "$work/full"
+  [ -c "$work/full" ] || fail "a device is gone"
+fi
+expect 1 "$program" --case "concentric: identical ellipsoids" --out /dev/full
+mkfifo "$work/pipe.svg"
+cat "$work/pipe.svg" >"$work/from_pipe.svg" &
+expect 0 "$program" --case "concentric: identical ellipsoids" --out "$work/pipe.svg"
+wait $!
+parse "$work/from_pipe.svg" && [ -p "$work/pipe.svg" ] || fail "a pipe got no picture, or is gone"
 echo "all passed"

@@ -80,6 +80,39 @@ TEST_CASE("what a killed run has left goes, but only where it is a run's") {
   CHECK(content_of(folder.path() / "scene/summary.toml") == "finished");
 }
 
+TEST_CASE("what somebody put into the folders of a run is never deleted") {
+  for (const char* foreign : {"measurements/heights.png", "measurements/mine.svg", "vtk/view.pvsm", "measurements/old/grid.csv"}) {
+    CAPTURE(foreign);
+    const TemporaryFolder folder;
+    for (const char* of_run : {"scene", "scene.unfinished-1"}) {
+      fs::create_directories((folder.path() / of_run / foreign).parent_path());
+      folder.write(std::string(of_run) + '/' + foreign, "a user's");
+    }
+    folder.write("scene.unfinished-1/UNFINISHED", "");
+    CHECK_THROWS_WITH_AS(OutputFolder(folder.path(), "scene"), doctest::Contains("which no run writes"), InputError);
+    fs::rename(folder.path() / "scene", folder.path() / "other");
+    run_once(folder.path(), "finished", true);
+    CHECK(content_of(folder.path() / "scene.unfinished-1" / foreign) == "a user's");
+    CHECK(content_of(folder.path() / "scene/summary.toml") == "finished");
+  }
+  const TemporaryFolder folder;
+  {
+    OutputFolder run(folder.path(), "scene");
+    std::ofstream(run.file("plot.png")) << "a user's";
+  }
+  CHECK(content_of(folder.path() / "scene.unfinished-1/plot.png") == "a user's");
+}
+
+TEST_CASE("folders of other scenes are not those of a run") {
+  const TemporaryFolder folder;
+  for (const char* name : {"scene.unfinished-1.unfinished-1", "scene.unfinished-", "scene.unfinished-1a"}) {
+    fs::create_directory(folder.path() / name);
+    folder.write(std::string(name) + "/UNFINISHED", "");
+  }
+  run_once(folder.path(), "finished", true);
+  CHECK(entries(folder.path()) == 4);
+}
+
 TEST_CASE("a run that was killed while it took its place is finished by the next one") {
   const TemporaryFolder folder;
   const auto leave = [&folder](const std::string& name, const std::string& file) {

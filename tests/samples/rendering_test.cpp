@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "checkpoint/read_file.hpp"
 #include "output/child_process.hpp"
 #include "output/output_files.hpp"
 #include "output/picture.hpp"
@@ -45,6 +46,25 @@ TEST_CASE("what a program writes is kept whole, also if it is much") {
   const ProgramEnd end = run_shell("head -c 3000000 /dev/zero; head -c 200000 /dev/zero >&2");
   CHECK(end.output.size() == 3'000'000);
   CHECK(end.messages.size() == 200'000);
+}
+
+TEST_CASE("a PNG is the same bytes whenever it is drawn") {
+  const TemporaryFolder folder;
+  const auto chunk = [](const std::string& name, const std::string& content) {
+    return std::string("\0\0\0", 3) + static_cast<char>(content.size()) + name + content + "sum.";
+  };
+  const std::string head = "\x89PNG\r\n\x1a\n" + chunk("IHDR", "900 x 560"), end = chunk("IDAT", "pixels") + chunk("IEND", "");
+  const std::string dated = head + chunk("tIME", "now") + chunk("tEXt", "Comment: now") + end;
+  const auto drawn = [&folder](const std::string& output) {
+    render({{"still.png", {"cat"}, output, "coreutils"}}, folder.path(), true);
+    return read_file(folder.path() / "still.png");
+  };
+  CHECK(drawn(dated) == head + end);
+  CHECK(drawn(head + end) == head + end);
+  for (const std::size_t size : {dated.size() - 1, dated.size() - 6, head.size() + 5}) {
+    CHECK(drawn(dated.substr(0, size)) == dated.substr(0, size));  // torn: as it is
+  }
+  CHECK(drawn("<svg/>") == "<svg/>");
 }
 
 TEST_CASE("a program that fails says why") {

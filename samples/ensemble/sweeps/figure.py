@@ -22,7 +22,8 @@ def figure_data(sweep, means):
     texts = []
     for title, points in blocks.items():
         rows = [f"{x!r} {mean} {half_width}\n" for x, mean, half_width in sorted(points)]
-        texts.append(f'"{title}"\n' + "".join(rows))
+        plain = title.replace("\\", "/").replace('"', "'").replace("\n", " ")  # gnuplot reads escapes
+        texts.append(f'"{plain}"\n' + "".join(rows))
     return "\n\n".join(texts)
 
 
@@ -39,7 +40,7 @@ def draw_figure(sweep, store, means):
     write_text(store.folder / "figure.dat", data)
     labels = [sweep.figure["x"], sweep.figure["y"], sweep.figure.get("scale", "linear"), f"{100 * sweep.confidence:g}"]
     drawn = subprocess.run(
-        ["gnuplot", "-c", str(SCRIPT), str(store.folder / "figure.dat"), *labels], capture_output=True, text=True, check=False
+        ["gnuplot", "-c", str(SCRIPT), str((store.folder / "figure.dat").absolute()), *labels], capture_output=True, text=True, check=False
     )
     if drawn.returncode != 0:
         return f"no figure: gnuplot: {drawn.stderr.strip()}"

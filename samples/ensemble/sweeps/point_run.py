@@ -6,7 +6,6 @@ import os
 import subprocess
 import sys
 import time
-import tomllib
 
 from .quantity import NoValue
 from .toml_text import toml_text
@@ -26,17 +25,17 @@ def pin(slot):
 
 def run_point(sweep, point, store, program):
     """Runs a point that has no result yet, on one thread. Returns whether it has one now; a failure is saved with its reason, and told."""
-    key = store.key(point)
+    key, run = store.key(point), store.run_key(point)
     if store.result(key) is not None:
         return True
-    with store.lock(key) as lock:
+    with store.lock(run) as lock:
         if store.result(key) is not None:  # by who held the lock
             return True
         store.forget_failure(key)
         start = time.monotonic()
-        failure = _simulate(sweep, point, store, key, program, lock)
+        failure = _simulate(sweep, point, store, run, program, lock)
         if failure is None:
-            failure = _collect(sweep, point, store, key)
+            failure = _collect(sweep, point, store, key, run)
         if failure is not None:
             store.save_failure(key, failure)
             print(f"{point.describe()} FAILED: {failure}", file=sys.stderr)
@@ -45,45 +44,47 @@ def run_point(sweep, point, store, program):
     return True
 
 
-def _results_folder(sweep, store, key):
-    return store.run_folder(key) / sweep.scene.stem
+# Runs a program and writes down how it ended, also where whoever started it has been killed meanwhile.
+SUPERVISED = 'end=$1 log=$2; shift 2; "$@" >/dev/null 2>"$log"; code=$?; echo $code >"$end.new" && mv "$end.new" "$end"; exit $code'
+INTERRUPTED = 130  # exit code of falling_particles; above 128, those of the shell for a program that a signal has ended
+FIRST_SIGNAL = 128
 
 
-def _is_finished(folder):
-    """Whether a run that was started earlier is there in full; Ctrl-C leaves results of a part."""
-    try:
-        return tomllib.loads((folder / "summary.toml").read_text(encoding="utf-8"))["run"]["interrupted"] is False
-    except (OSError, ValueError, KeyError):
-        return False
+def _results_folder(sweep, store, run):
+    return store.run_folder(run) / sweep.scene.stem
 
 
-def _simulate(sweep, point, store, key, program, lock):
-    """None, or why it failed."""
-    if _is_finished(_results_folder(sweep, store, key)):
+def _simulate(sweep, point, store, run, program, lock):
+    """None, or why it failed. A run that has ended with exit code 0 before is not done again."""
+    end = store.run_folder(run) / "exit_code"
+    if end.exists() and end.read_text(encoding="utf-8").strip() == "0":
         return None
-    command = [str(program), "--quiet", "--no-pictures", "--threads", "1", "--scene", str(sweep.scene), "--out", str(store.run_folder(key))]
+    end.unlink(missing_ok=True)
+    end.parent.mkdir(parents=True, exist_ok=True)
+    command = ["sh", "-c", SUPERVISED, "sh", str(end.absolute()), str(store.log(run).absolute())]
+    command += [str(program.absolute()), "--quiet", "--no-pictures", "--threads", "1", "--scene", str(sweep.scene), "--out", str(store.run_folder(run))]
     command += sweep.arguments
     for assignment in sweep.assignments(point):
         command += ["--set", assignment]
-    store.log(key).parent.mkdir(parents=True, exist_ok=True)
+    store.log(run).parent.mkdir(parents=True, exist_ok=True)
     threads = dict.fromkeys(["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"], "1")
     try:
-        with open(store.log(key), "wb") as log:
-            code = subprocess.run(
-                command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log, pass_fds=[lock], env=os.environ | threads
-            ).returncode
+        silent = dict.fromkeys(["stdin", "stdout", "stderr"], subprocess.DEVNULL)
+        code = subprocess.run(command, **silent, pass_fds=[lock], env=os.environ | threads, check=False).returncode
     except OSError as error:
         return f"cannot start {program}: {error.strerror}"
     if code == 0:
         return None
-    said = store.log(key).read_text(encoding="utf-8", errors="replace").strip().splitlines()
+    said = store.log(run).read_text(encoding="utf-8", errors="replace").strip().splitlines()
+    if code > FIRST_SIGNAL and code != INTERRUPTED:
+        code = FIRST_SIGNAL - code
     ended = f"exit code {code}" if code > 0 else f"signal {-code}"
     return f"{ended}: {said[-1] if said else 'it said nothing'}"
 
 
-def _collect(sweep, point, store, key):
-    """Saves the line. None, or why there is none."""
-    folder = _results_folder(sweep, store, key)
+def _collect(sweep, point, store, key, run):
+    """Saves the line. None, or why there is none; the run is kept then, for the next time."""
+    folder = _results_folder(sweep, store, run)
     try:
         numbers = [quantity.value(folder) for quantity in sweep.quantities]
     except NoValue as error:
@@ -92,5 +93,5 @@ def _collect(sweep, point, store, key):
     seed = [] if point.seed is None else [point.seed]
     store.save_result(key, csv_line([*values, *seed, *(repr(number) for number in numbers)]))
     if not sweep.keep:
-        store.remove_run(key)
+        store.remove_run(run)
     return None

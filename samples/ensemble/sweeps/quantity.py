@@ -26,7 +26,10 @@ class Quantity:
         return self._of_summary(results) if self.summary else self._of_table(results)
 
     def _of_summary(self, results):
-        node = tomllib.loads((results / "summary.toml").read_text(encoding="utf-8"))
+        try:
+            node = tomllib.loads((results / "summary.toml").read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise NoValue(f"cannot read summary.toml: {error}") from None
         for key in self.summary.split("."):
             if not isinstance(node, dict) or key not in node:
                 keys = list(node) if isinstance(node, dict) else []
@@ -44,15 +47,30 @@ class Quantity:
                 head, *lines = csv.reader(file)
         except (OSError, ValueError) as error:
             raise NoValue(f"cannot read {self.table}: {error}") from None
-        for column in (self.column, *(name for name, _ in self.where)):
-            if column not in head:
-                raise NoValue(f'{self.table} has no column {column}{did_you_mean(column, head)}; there are: {", ".join(head)}')
+        self._refuse_other_columns(head)
         chosen = [line for line in lines if all(_is(line[head.index(name)], value) for name, value in self.where)]
         if not chosen:
             raise NoValue(f"{self.table} has no line" + "".join(f", {name} = {value}" for name, value in self.where))
-        first, end = float(chosen[0][0]), float(chosen[-1][0])
-        numbers = [float(line[head.index(self.column)]) for line in chosen if float(line[0]) >= end - self.last * (end - first)]
+        column = head.index(self.column)
+        try:
+            first, end = float(chosen[0][0]), float(chosen[-1][0])
+            numbers = [float(line[column]) for line in chosen if float(line[0]) >= end - self.last * (end - first)]
+        except (ValueError, IndexError) as error:
+            raise NoValue(f"{self.table}, {self.column}, has a line without a number: {error}") from None
         return math.fsum(numbers) / len(numbers)
+
+    def refuse_other_tables(self, tables):
+        """Raises NoValue where a run does not write what is collected. `tables`: the columns of its tables, by name."""
+        if self.table is None:
+            return
+        if self.table not in tables:
+            raise NoValue(f'there is no {self.table}{did_you_mean(self.table, tables)}; there are: {", ".join(tables)}')
+        self._refuse_other_columns(tables[self.table])
+
+    def _refuse_other_columns(self, columns):
+        for column in (self.column, *(name for name, _ in self.where)):
+            if column not in columns:
+                raise NoValue(f'{self.table} has no column {column}{did_you_mean(column, columns)}; there are: {", ".join(columns)}')
 
 
 def _is(text, value):

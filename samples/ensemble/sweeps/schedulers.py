@@ -20,11 +20,13 @@ def run_parallel(entry, sweep, store, program, jobs):
     """As many points at once as `jobs`, each bound to a processor of its own while there are as many. Returns when all have ended."""
     if shutil.which("parallel") is None:
         raise InputError("GNU parallel is not installed; samples/ensemble/run installs it (Debian package parallel)")
-    command = _point_command(entry, sweep, store, program)
     slot = " --slot {%}" if jobs <= len(os.sched_getaffinity(0)) else ""
-    # Its request to cite it (--citation) is in README.md; on a terminal it would stop to make it.
-    parallel = ["parallel", "--will-cite", "--jobs", str(jobs), "--halt", "never", shlex.join(command) + slot + " {}"]
-    subprocess.run(parallel, input="".join(f"{index}\n" for index in unfinished(sweep, store)), text=True, check=False)
+    # The command comes through the environment, since GNU parallel replaces {} and runs {= … =} also in names of files. Its request to
+    # cite it (--citation) is in README.md; on a terminal it would stop to make it.
+    command = {"ENSEMBLE_POINT": shlex.join(_point_command(entry, sweep, store, program)), "PARALLEL_SHELL": "/bin/sh"}
+    parallel = ["parallel", "--plain", "--will-cite", "--jobs", str(jobs), "--halt", "never", 'eval "$ENSEMBLE_POINT"' + slot + " {}"]
+    points = "".join(f"{index}\n" for index in unfinished(sweep, store))
+    subprocess.run(parallel, input=points, text=True, check=False, env=os.environ | command)
 
 
 def submit_slurm(entry, sweep, store, program, jobs, options, wait):
@@ -42,7 +44,8 @@ def submit_slurm(entry, sweep, store, program, jobs, options, wait):
     logs = store.folder.resolve() / "logs"
     logs.mkdir(parents=True, exist_ok=True)
     array = ",".join(map(str, tasks)) + (f"%{jobs}" if jobs else "")
-    sbatch = ["sbatch", f"--array={array}", f"--job-name={sweep.path.stem}", f"--output={logs}/slurm-%A_%a.log"]
+    log = str(logs).replace("%", "%%")  # Slurm replaces %x
+    sbatch = ["sbatch", f"--array={array}", f"--job-name={sweep.path.stem}", f"--output={log}/slurm-%A_%a.log"]
     sbatch += ["--ntasks=1", "--cpus-per-task=1", "--requeue", *(["--wait"] if wait else []), *sweep.slurm_options, *options]
     submitted = subprocess.run(sbatch, input=script, text=True, check=False)
     if submitted.returncode != 0 and not wait:

@@ -2,9 +2,10 @@
 
 results/KEY.csv    one line, the result of a point
 failures/KEY.txt   why the last attempt at it failed
-runs/KEY/          what falling_particles writes, until the result is there
-logs/KEY.log       what it said in the last attempt
-locks/KEY          held by who works at it
+runs/RUN/          what falling_particles writes, and exit_code, until the result is there
+logs/RUN.log       what it said in the last attempt
+locks/RUN          held by who works at it
+program.txt        the version of falling_particles that has run the last point
 """
 
 import contextlib
@@ -18,26 +19,41 @@ import tomllib
 
 
 class Store:
-    def __init__(self, folder, sweep):
+    """Of a sweep. `program`: what falling_particles says of its version; None: as it was when the last point was run."""
+
+    def __init__(self, folder, sweep, program=None):
         self.folder = pathlib.Path(folder)
         self.sweep = sweep
         self._scene = sweep.scene.read_bytes()
+        self._named = _texts_of(_parsed(self._scene))
+        self._digests = {}
+        if program is not None and program != self._last_program():
+            _replace(self.folder / "program.txt", program + "\n")
+        self._program = program or self._last_program()
 
     def key(self, point):
-        """Of a point: scene, catalogue, values and what is collected, so that no result is taken for another one's."""
-        assignments = self.sweep.assignments(point)
-        quantities = [repr(quantity) for quantity in self.sweep.quantities]
-        text = json.dumps([_digest(self._scene), self._catalogue(point), assignments, quantities])
-        return f"{_digest(text.encode())[:24]}"
+        """Of the result of a point: of its run, and of what is collected, so that no result is taken for another one's."""
+        return _key([self.run_key(point), [repr(quantity) for quantity in self.sweep.quantities]])
 
-    def _catalogue(self, point):
-        """The digest of the scene's catalogue. A file that cannot be read is for falling_particles to complain about."""
-        chosen = {**self.sweep.settings, **point.values}.get("catalogue")
-        try:
-            name = chosen if chosen is not None else tomllib.loads(self._scene.decode())["catalogue"]
-            return _digest((self.sweep.scene.parent / name).read_bytes())
-        except (OSError, ValueError, KeyError, TypeError):
-            return None
+    def run_key(self, point):
+        """Of the run of a point: the scene, the files that it names, values, arguments and the program."""
+        texts = self._named | _texts_of([self.sweep.settings, point.values])
+        files = sorted((name, self._digest_of(name)) for name in texts)
+        used = [entry for entry in files if entry[1] is not None]
+        return _key([_digest(self._scene), used, self.sweep.assignments(point), self.sweep.arguments, self._program])
+
+    def _digest_of(self, name):
+        """Of a file beside the scene, where a text of it is the name of one; None where it is not."""
+        if name not in self._digests:
+            try:
+                path = self.sweep.scene.parent / name
+                self._digests[name] = _digest(path.read_bytes()) if path.is_file() else None
+            except (OSError, ValueError):  # falling_particles complains
+                self._digests[name] = None
+        return self._digests[name]
+
+    def _last_program(self):
+        return (_read(self.folder / "program.txt") or "").strip()
 
     def run_folder(self, key):
         return self.folder / "runs" / key
@@ -78,6 +94,30 @@ class Store:
             yield descriptor
         finally:
             os.close(descriptor)
+
+
+def _parsed(scene):
+    """The scene as tables; what is no scene is for falling_particles to complain about."""
+    try:
+        return tomllib.loads(scene.decode())
+    except (ValueError, RecursionError):
+        return {}
+
+
+def _texts_of(value):
+    """All texts in tables and arrays."""
+    texts, left = set(), [value]
+    while left:
+        value = left.pop()
+        if isinstance(value, str):
+            texts.add(value)
+        elif isinstance(value, (dict, list)):
+            left.extend(value.values() if isinstance(value, dict) else value)
+    return texts
+
+
+def _key(parts):
+    return _digest(json.dumps(parts).encode())[:24]
 
 
 def _digest(content):

@@ -9,10 +9,12 @@ import tomllib
 from .errors import InputError, refuse_unknown_keys
 from .latin_hypercube import latin_hypercube
 from .quantity import read_quantities
-from .toml_text import toml_text
+from .toml_text import WHOLE_NUMBERS, toml_text
 
 KEYS = ["scene", "seeds", "arguments", "keep", "confidence", "set", "grid", "list", "latin_hypercube", "collect", "figure", "slurm"]
 MOST_POINTS = 1_000_000
+LEAST_DIGITS = 6  # of the numbers of a Latin hypercube
+MOST_DIGITS = 15  # that every double keeps
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,25 +59,28 @@ class Sweep:
 def load_sweep(path):
     """Raises InputError."""
     path = pathlib.Path(path)
+    if path.exists() and not path.is_file():
+        raise InputError(f"sweep file {path} is a folder, a pipe or a device; allowed: a file")
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(f"cannot read sweep file {path}: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: {error} (allowed: valid TOML 1.0)") from None
+    except RecursionError:
+        raise InputError(f"{path}: tables or arrays are nested too deeply; allowed: fewer levels") from None
     refuse_unknown_keys(table, KEYS, str(path))
     scene = path.parent / _read(table, "scene", str, "a scene file, its path relative to the sweep file", path)
     if not scene.is_file():
         raise InputError(f"{path}: scene: there is no file {scene}; allowed: a scene file, its path relative to the sweep file")
     settings = _read(table, "set", dict, "a table of keys of the scene and values", path, {})
+    _check_values(settings, f"{path}: [set]")
     axes = [_grid(table, path), _list(table, path), _latin_hypercube(table, path)]
     seeds = _seeds(table, path)
     parameters = _parameters(settings, axes, seeds, path)
-    combinations = itertools.product(*axes, seeds)
+    _refuse_too_many(math.prod(map(len, [*axes, seeds])), path)
     points = []
-    for *parts, seed in combinations:
-        if len(points) == MOST_POINTS:
-            raise InputError(f"{path}: more than {MOST_POINTS} points; allowed: up to {MOST_POINTS}")
+    for *parts, seed in itertools.product(*axes, seeds):
         points.append(Point(len(points), {key: value for part in parts for key, value in part.items()}, seed))
     confidence = _read(table, "confidence", (int, float), "a number in (0, 1)", path, 0.95)
     if not 0 < confidence < 1:
@@ -109,10 +114,28 @@ def _read(table, key, kind, allowed, path, default=None):
     return value
 
 
+def _refuse_too_many(points, path):
+    if points > MOST_POINTS:
+        raise InputError(f"{path}: the sweep has {points} points; allowed: up to {MOST_POINTS}")
+
+
+def _check_values(values, where):
+    """Refuses keys and values that cannot be given to --set."""
+    for key, value in values.items():
+        if not key or "=" in key or not key.isprintable():
+            raise InputError(f"{where} has the key {key!r}; allowed: a key of the scene, without = and control characters")
+        try:
+            toml_text(value)
+        except ValueError as error:
+            raise InputError(f'{where} "{key}" is or holds {error}; allowed: numbers, texts, true, false, arrays and tables of these') from None
+
+
 def _texts(table, key, path):
     texts = _read(table, key, list, "an array of texts", path, [])
     if not all(isinstance(text, str) for text in texts):
         raise InputError(f"{path}: {key} is {texts!r}; allowed: an array of texts")
+    if any("\0" in text for text in texts):
+        raise InputError(f"{path}: {key} is {texts!r}; allowed: texts without a zero character")
     return texts
 
 
@@ -134,6 +157,9 @@ def _grid(table, path):
     for key, values in grid.items():
         if not isinstance(values, list) or not values:
             raise InputError(f'{path}: [grid] "{key}" is {values!r}; allowed: an array of values, not empty')
+        for value in values:
+            _check_values({key: value}, f"{path}: [grid]")
+    _refuse_too_many(math.prod(map(len, grid.values())), path)
     return [dict(zip(grid, values)) for values in itertools.product(*grid.values())]
 
 
@@ -143,6 +169,8 @@ def _list(table, path):
     entries = _read(table, "list", list, allowed, path, [{}])
     if not entries or not all(isinstance(entry, dict) and set(entry) == set(entries[0]) for entry in entries):
         raise InputError(f"{path}: [[list]]: its entries have different keys, or it has none; allowed: {allowed}")
+    for entry in entries:
+        _check_values(entry, f"{path}: [[list]]")
     return [{key: entry[key] for key in entries[0]} for entry in entries]
 
 
@@ -157,31 +185,63 @@ def _latin_hypercube(table, path):
         raise InputError(f"{where}: points is {points}; allowed: a whole number from 1 to {MOST_POINTS}")
     seed = _read(section, "seed", int, "a whole number", where)
     ranges = _read(section, "ranges", dict, 'keys of the scene, each {from = 0.1, to = 0.5}', where)
-    scales = [_scale(f'{where} ranges "{key}"', limits) for key, limits in ranges.items()]
+    _check_values(dict.fromkeys(ranges, 0), f"{where} ranges")
+    scales = [_scale(f'{where} ranges "{key}"', limits, points) for key, limits in ranges.items()]
     sample = latin_hypercube(points, len(ranges), seed)
     return [{key: scale(share) for key, scale, share in zip(ranges, scales, shares)} for shares in sample]
 
 
-def _scale(where, limits):
-    """The function that takes [0, 1) to the range."""
+def _scale(where, limits, points):
+    """The function that takes [0, 1), of which each of the points has an interval of its own, to the range."""
     allowed = 'allowed: {from = 0.1, to = 0.5}, with scale = "log" if from is above 0, and with whole = true for whole numbers'
     if not isinstance(limits, dict):
         raise InputError(f"{where} is {limits!r}; {allowed}")
     refuse_unknown_keys(limits, ["from", "to", "scale", "whole"], where)
     lower, upper = limits.get("from"), limits.get("to")
     kind, whole = limits.get("scale", "linear"), limits.get("whole", False)
-    if type(lower) not in (int, float) or type(upper) not in (int, float) or not lower < upper or not math.isfinite(upper - lower):
+    if not _is_range(lower, upper):
         raise InputError(f"{where} goes from {lower!r} to {upper!r}; {allowed}")
-    if kind not in ("linear", "log") or not isinstance(whole, bool) or (kind == "log" and lower <= 0):
+    if kind not in ("linear", "log") or not isinstance(whole, bool) or (kind == "log" and not (lower > 0 and math.isfinite(upper / lower))):
         raise InputError(f"{where} has scale = {kind!r}, whole = {whole!r} from {lower!r}; {allowed}")
+    # A range of whole numbers includes both ends, each with the same share of [0, 1).
+    low, high = (math.ceil(lower), math.floor(upper) + 1) if whole else (lower, upper)
+    if whole and not low < high:
+        raise InputError(f"{where} goes from {lower!r} to {upper!r}, between which there is no whole number; {allowed}")
+
+    def exact(share):
+        return low * (high / low) ** share if kind == "log" else low + (high - low) * share
+
+    if whole:
+        return lambda share: min(int(exact(share)), high - 1)
+    digits = _digits([exact(k / points) for k in (0, 1, points - 1)] + [upper])
+    if digits > MOST_DIGITS:
+        raise InputError(f"{where} goes from {lower!r} to {upper!r}, too narrow for {points} different numbers; allowed: a wider range, or fewer points")
 
     def scaled(share):
-        # A range of whole numbers includes both ends, each with the same share of [0, 1).
-        low, high = (math.ceil(lower), math.floor(upper) + 1) if whole else (lower, upper)
-        value = low * (high / low) ** share if kind == "log" else low + (high - low) * share
-        return int(value) if whole else float(f"{value:.6g}")  # digits that people can type again
+        value = exact(share)
+        short = float(f"{value:.{digits}g}")  # digits that people can type again
+        return short if lower <= short <= upper else min(max(value, lower), upper)  # beyond an end by rounding alone
 
     return scaled
+
+
+def _is_range(lower, upper):
+    if not all(type(limit) in (int, float) and -1e300 < limit < 1e300 for limit in (lower, upper)):
+        return False
+    return lower < upper and not any(type(limit) is int and limit not in WHOLE_NUMBERS for limit in (lower, upper))
+
+
+def _digits(ends):
+    """How many significant digits tell numbers apart that are an interval away from each other; at least LEAST_DIGITS. `ends`: of the
+    first and of the last interval of a range.
+    """
+    digits = LEAST_DIGITS
+    for lower, upper in (ends[:2], ends[2:]):
+        width, largest = upper - lower, max(abs(lower), abs(upper))
+        if not width > 0:
+            return MOST_DIGITS + 1
+        digits = max(digits, math.ceil(math.log10(largest / width) + 1))
+    return digits
 
 
 def _parameters(settings, axes, seeds, path):

@@ -11,6 +11,7 @@
 #include <supernormal/proximity/solve.hpp>
 #include <vector>
 
+#include "checkpoint/read_file.hpp"
 #include "pair/described_body.hpp"
 #include "scene/grain_shape.hpp"
 #include "scene/input_error.hpp"
@@ -65,6 +66,9 @@ struct NearestFrame {
 };
 
 NearestFrame nearest_frame(const std::string& path, double wanted) {
+  if (const std::string other = falling_particles::what_is_no_file(path); !other.empty()) {
+    throw InputError("--trajectory: \"" + path + "\" is " + other + "; allowed: a file");
+  }
   std::ifstream stream(path);
   std::string row;
   if (!std::getline(stream, row)) throw InputError("cannot read \"" + path + "\"; allowed: the trajectory.csv of a run");

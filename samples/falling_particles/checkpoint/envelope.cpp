@@ -6,18 +6,17 @@
 #include <string_view>
 
 #include "checkpoint/archive.hpp"
+#include "checkpoint/files.hpp"
 #include "scene/input_error.hpp"
 
 namespace falling_particles {
 namespace {
 
 constexpr std::string_view kMagic = "SNCHKPT\n";
-constexpr std::uint32_t kFormat = 1;  // to be counted up with every change of what is saved
-
-constexpr const char* kWayOut = "; without --resume the run starts anew and removes it";
+constexpr std::uint32_t kFormat = 2;  // to be counted up with every change of what is saved
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError("checkpoint \"" + path.string() + "\" " + reason + kWayOut);
+  throw InputError("checkpoint \"" + path.string() + "\" " + reason + kStartAnew);
 }
 
 std::string words(const std::vector<std::string>& list, const char* none) {

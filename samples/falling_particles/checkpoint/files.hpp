@@ -11,4 +11,8 @@ inline constexpr std::string_view kNewCheckpointFile = "checkpoint.new";  ///< o
 inline constexpr std::string_view kFrameLogFile = "checkpoint.frames";
 inline constexpr std::array kCheckpointFiles = {kCheckpointFile, kNewCheckpointFile, kFrameLogFile};
 
+/// What a user can do where a run cannot go on from what is there.
+inline constexpr const char* kStartAnew =
+    "; without --resume the run starts anew, and removes this unless other files are beside it";
+
 }  // namespace falling_particles

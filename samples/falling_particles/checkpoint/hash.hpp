@@ -4,7 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string_view>
+
+struct XXH3_state_s;
 
 namespace falling_particles {
 
@@ -12,6 +15,20 @@ namespace falling_particles {
 using Hash = std::array<std::uint64_t, 2>;
 
 Hash hash_of(std::string_view bytes);
+
+/// The hash of bytes that come piece by piece.
+class RunningHash {
+ public:
+  RunningHash();
+  void add(std::string_view bytes);
+  Hash value() const;  ///< of all bytes so far
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_s* state) const;
+  };
+  std::unique_ptr<XXH3_state_s, Free> state_;
+};
 
 /// Of a file's content. Throws std::runtime_error when it cannot be read.
 Hash hash_of_file(const std::filesystem::path& path);

@@ -19,10 +19,10 @@ Measuring::Measuring(const Scene& scene, const World& world, const OutputFolder&
     Entry entry;
     entry.request = &request;
     entry.measurement = request.make(world);
-    entry.file = std::make_unique<OutputFile>(folder_ / (request.name + ".csv"), table.bytes);
+    entry.file = std::make_unique<OutputFile>(folder_ / (request.name + ".csv"), table.file);
     entry.state = table.state;
     entry.watch = table.watch;
-    if (table.bytes == 0) entry.file->write(entry.measurement->columns() + '\n');
+    if (table.file.bytes == 0) entry.file->write(entry.measurement->columns() + '\n');
     entries_.push_back(std::move(entry));
   }
 }
@@ -37,7 +37,7 @@ MeasuringState Measuring::save() {
   saved.tables.reserve(entries_.size());
   for (Entry& entry : entries_) {
     entry.file->sync();
-    saved.tables.push_back({entry.file->size(), entry.state, entry.watch});
+    saved.tables.push_back({entry.file->state(), entry.state, entry.watch});
   }
   if (!entries_.empty()) sync_folder(folder_);
   return saved;

@@ -33,13 +33,13 @@ struct MeasurementState {
 /// All that the measurements of a run accumulate.
 struct MeasuringState {
   struct OfTable {
-    std::uint64_t bytes = 0;
+    FileState file;
     MeasurementState state;
     Stopwatch watch;
 
     template <typename Archive>
     void serialize(Archive& archive) {
-      archive(bytes, state, watch);
+      archive(file, state, watch);
     }
   };
   std::vector<OfTable> tables;  ///< in the order of the scene

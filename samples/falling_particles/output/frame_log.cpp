@@ -1,11 +1,12 @@
 #include "output/frame_log.hpp"
 
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "checkpoint/archive.hpp"
+#include "checkpoint/files.hpp"
 #include "checkpoint/hash.hpp"
+#include "scene/input_error.hpp"
 
 namespace falling_particles {
 namespace {
@@ -29,10 +30,11 @@ void FrameLog::add(const Frame& frame) {
 
 void replay_frames(const std::filesystem::path& path, std::uint64_t size, const std::function<void(const Frame&)>& visit) {
   std::ifstream stream(path, std::ios::binary);
+  const auto refuse = [&](const char* reason) { throw InputError('"' + path.string() + "\" " + reason + kStartAnew); };
   const auto take = [&](std::uint64_t count) {
     std::string bytes(count <= size ? count : 0, '\0');
     stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (count > size || !stream) throw std::runtime_error("\"" + path.string() + "\" ends within a frame");
+    if (count > size || !stream) refuse("ends within a frame");
     size -= count;
     return bytes;
   };
@@ -41,7 +43,7 @@ void replay_frames(const std::filesystem::path& path, std::uint64_t size, const 
     Reader reader(take(sizeof head.bytes + sizeof head.hash));
     reader(head.bytes, head.hash);
     const std::string bytes = take(head.bytes);
-    if (hash_of(bytes) != head.hash) throw std::runtime_error("\"" + path.string() + "\" is damaged: a frame has another checksum");
+    if (hash_of(bytes) != head.hash) refuse("is damaged: a frame has another checksum");
     visit(Reader(bytes).read<Frame>());
   }
 }

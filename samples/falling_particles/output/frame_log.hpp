@@ -14,17 +14,17 @@ namespace falling_particles {
 /// back when they see the same frames again.
 class FrameLog {
  public:
-  /// Begins a file, or goes on after the first `kept` bytes of one that is there.
-  explicit FrameLog(const std::filesystem::path& path, std::uint64_t kept = 0) : file_(path, kept) {}
+  /// Begins a file, or goes on after the bytes of `kept`, with which one that is there begins.
+  explicit FrameLog(const std::filesystem::path& path, const FileState& kept = {}) : file_(path, kept) {}
   void add(const Frame& frame);
-  std::uint64_t size() const { return file_.size(); }  ///< bytes
+  FileState state() const { return file_.state(); }
   void sync() { file_.sync(); }
 
  private:
   OutputFile file_;
 };
 
-/// Visits the frames in the first `size` bytes of a log. Throws std::runtime_error where they are not what was written.
+/// Visits the frames in the first `size` bytes of a log. Throws InputError where they are not what was written.
 void replay_frames(const std::filesystem::path& path, std::uint64_t size, const std::function<void(const Frame&)>& visit);
 
 }  // namespace falling_particles

@@ -229,9 +229,9 @@ LammpsInput lammps_input(const Scene& scene) {
 void write_lammps_input(const Scene& scene, const std::filesystem::path& folder) {
   const LammpsInput input = lammps_input(scene);
   create_folder(folder);
-  write_file(folder / (scene.name + ".data"), input.data);
-  for (const LammpsFile& file : input.files) write_file(folder / file.name, file.text);
-  write_file(folder / (scene.name + ".in"), input.commands);
+  replace_file(folder / (scene.name + ".data"), input.data);
+  for (const LammpsFile& file : input.files) replace_file(folder / file.name, file.text);
+  replace_file(folder / (scene.name + ".in"), input.commands);
 }
 
 }  // namespace falling_particles

@@ -1,7 +1,9 @@
 #include "output_files.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
+#include <variant>
 
 #include "scene/interval.hpp"
 
@@ -14,14 +16,43 @@ std::string line_of(std::initializer_list<std::string> fields) {
   return line + '\n';
 }
 
+std::string_view columns_of(std::string_view name) { return std::ranges::find(table_formats(), name, &TableFormat::name)->columns; }
+
 }  // namespace
 
-Table::Table(const std::filesystem::path& path, std::string_view head, std::uint64_t kept) : file_(path, kept) {
-  if (kept == 0) file_.write(head);
+const std::vector<TableFormat>& table_formats() {
+  static const std::vector<TableFormat> formats = {
+      {kTrajectoryFile, "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz", "a frame and grain that is there", "all scenes",
+       [](const Scene& /*scene*/) { return true; }},
+      {kEnergiesFile, "time_s,kinetic_J,potential_J,total_J,contacts", "a frame", "all scenes",
+       [](const Scene& /*scene*/) { return true; }},
+      {kStateFile,
+       "time_s,deepest_contact_m,deepest_contact_of_all_steps_m,kinetic_height_m,largest_kinetic_energy_J,energy_lost_J,energy_"
+       "gained_J,bodies_leaked",
+       "a frame", "all scenes", [](const Scene& /*scene*/) { return true; }},
+      {kDischargeFile, "time_s,discharged_kg,discharged_grains", "a frame", "hoppers",
+       [](const Scene& scene) { return std::holds_alternative<Hopper>(scene.container); }},
+      {kCompressionFile,
+       "time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain",
+       "a frame after the start", "compressions", [](const Scene& scene) { return scene.compression.has_value(); }},
+      {kPartsFile, "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s",
+       "a frame and part that moves", "scenes with parts that move",
+       [](const Scene& scene) { return std::ranges::any_of(scene.parts, &Part::moves); }},
+      {kGrainsFile, "body,grain,scale,sieve_size_m,mass_kg", "a grain", "scenes with grains of many sizes",
+       [](const Scene& scene) { return scene.has_sizes(); }},
+      {kFeedersFile, "time_s,feeder,grain,grains,kg", "a frame, feeder and kind that it feeds", "scenes with feeders",
+       [](const Scene& scene) { return !scene.feeders.empty(); }},
+      {kSinksFile, "time_s,sink,grain,grains,kg", "a frame, sink and kind of the scene", "scenes with sinks",
+       [](const Scene& scene) { return !scene.sinks.empty(); }},
+  };
+  return formats;
 }
 
-Trajectory::Trajectory(const std::filesystem::path& path, std::uint64_t kept)
-    : Table(path, "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz\n", kept) {}
+Table::Table(const std::filesystem::path& path, std::string_view name, const FileState& kept) : file_(path, kept) {
+  if (kept.bytes == 0) file_.write(std::string(columns_of(name)) + '\n');
+}
+
+Trajectory::Trajectory(const std::filesystem::path& path, const FileState& kept) : Table(path, kTrajectoryFile, kept) {}
 
 void Trajectory::write(double time, const World& world) {
   const std::string start = shortest(time) + ',';
@@ -37,19 +68,14 @@ void Trajectory::write(double time, const World& world) {
   append(frame);
 }
 
-Energies::Energies(const std::filesystem::path& path, std::uint64_t kept)
-    : Table(path, "time_s,kinetic_J,potential_J,total_J,contacts\n", kept) {}
+Energies::Energies(const std::filesystem::path& path, const FileState& kept) : Table(path, kEnergiesFile, kept) {}
 
 void Energies::write(double time, const Energy& energy, std::size_t contacts) {
   append(line_of(
       {shortest(time), shortest(energy.kinetic), shortest(energy.potential), shortest(energy.total()), std::to_string(contacts)}));
 }
 
-StateFile::StateFile(const std::filesystem::path& path, std::uint64_t kept)
-    : Table(path,
-            "time_s,deepest_contact_m,deepest_contact_of_all_steps_m,kinetic_height_m,largest_kinetic_energy_J,energy_lost_J,"
-            "energy_gained_J,bodies_leaked\n",
-            kept) {}
+StateFile::StateFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kStateFile, kept) {}
 
 void StateFile::write(double time, const State& state) {
   append(line_of({shortest(time), shortest(state.deepest_contact), shortest(state.deepest_contact_of_all_steps),
@@ -57,24 +83,20 @@ void StateFile::write(double time, const State& state) {
                   shortest(state.energy_lost), shortest(state.energy_gained), std::to_string(state.leaked)}));
 }
 
-DischargeFile::DischargeFile(const std::filesystem::path& path, std::uint64_t kept)
-    : Table(path, "time_s,discharged_kg,discharged_grains\n", kept) {}
+DischargeFile::DischargeFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kDischargeFile, kept) {}
 
 void DischargeFile::write(double time, double mass, std::size_t count) {
   append(line_of({shortest(time), shortest(mass), std::to_string(count)}));
 }
 
-CompressionFile::CompressionFile(const std::filesystem::path& path, std::uint64_t kept)
-    : Table(path, "time_s,cell_side_m,volume_fraction,volume_fraction_at_contact,mean_overlap,target_overlap,contacts_per_grain\n",
-            kept) {}
+CompressionFile::CompressionFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kCompressionFile, kept) {}
 
 void CompressionFile::write(double time, const Packing& packing) {
   append(line_of({shortest(time), shortest(packing.side), shortest(packing.volume_fraction), shortest(packing.at_contact),
                   shortest(packing.overlap.relative), shortest(packing.target_overlap), shortest(packing.contacts_per_grain)}));
 }
 
-FeedersFile::FeedersFile(const std::filesystem::path& path, std::uint64_t kept)
-    : Table(path, "time_s,feeder,grain,grains,kg\n", kept) {}
+FeedersFile::FeedersFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kFeedersFile, kept) {}
 
 void FeedersFile::write(double time, const Population& population) {
   std::string frame;
@@ -88,7 +110,7 @@ void FeedersFile::write(double time, const Population& population) {
   append(frame);
 }
 
-SinksFile::SinksFile(const std::filesystem::path& path, std::uint64_t kept) : Table(path, "time_s,sink,grain,grains,kg\n", kept) {}
+SinksFile::SinksFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kSinksFile, kept) {}
 
 void SinksFile::write(double time, const Population& population, const Scene& scene) {
   std::string frame;
@@ -102,9 +124,7 @@ void SinksFile::write(double time, const Population& population, const Scene& sc
   append(frame);
 }
 
-PartsFile::PartsFile(const std::filesystem::path& path, std::uint64_t kept)
-    : Table(path, "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n",
-            kept) {}
+PartsFile::PartsFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kPartsFile, kept) {}
 
 void PartsFile::write(double time, const PartBodies& parts) {
   std::string frame;
@@ -122,8 +142,8 @@ void PartsFile::write(double time, const PartBodies& parts) {
   append(frame);
 }
 
-GrainsFile::GrainsFile(const std::filesystem::path& path, std::uint64_t kept, std::size_t written)
-    : Table(path, "body,grain,scale,sieve_size_m,mass_kg\n", kept), written_(written) {}
+GrainsFile::GrainsFile(const std::filesystem::path& path, const FileState& kept, std::size_t written)
+    : Table(path, kGrainsFile, kept), written_(written) {}
 
 void GrainsFile::write(const World& world) {
   std::string lines;

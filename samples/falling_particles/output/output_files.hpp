@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "measure/energy.hpp"
 #include "output/write_file.hpp"
@@ -28,16 +29,28 @@ inline constexpr std::string_view kSinksFile = "sinks.csv";
 inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,  kStateFile,       kSummaryFile, kFeedersFile,
                                             kSinksFile,      kDischargeFile, kCompressionFile, kPartsFile,   kGrainsFile};
 
+/// A table of a run but for those of its measurements.
+struct TableFormat {
+  std::string_view name;     ///< of its file
+  std::string_view columns;  ///< its first line
+  std::string_view lines;    ///< what there is a line of
+  std::string_view of;       ///< the scenes that have it
+  bool (*is_written)(const Scene& scene);
+};
+
+/// All of them, in the order in which they are listed for users.
+const std::vector<TableFormat>& table_formats();
+
 /// A table that grows line by line.
 class Table {
  public:
   void close() { file_.close(); }
-  std::uint64_t size() const { return file_.size(); }  ///< bytes
+  FileState state() const { return file_.state(); }
   void sync() { file_.sync(); }
 
  protected:
-  /// Begins with the line `head`, or goes on after the first `kept` bytes of a table that is there.
-  Table(const std::filesystem::path& path, std::string_view head, std::uint64_t kept);
+  /// Begins with the columns of the table `name`, or goes on after the bytes of `kept`, with which a table that is there begins.
+  Table(const std::filesystem::path& path, std::string_view name, const FileState& kept);
   ~Table() = default;
   void append(std::string_view lines) { file_.write(lines); }
 
@@ -50,14 +63,14 @@ class Table {
 /// killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
 class Trajectory : public Table {
  public:
-  explicit Trajectory(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit Trajectory(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const World& world);
 };
 
 /// energies.csv has a line per frame.
 class Energies : public Table {
  public:
-  explicit Energies(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit Energies(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const Energy& energy, std::size_t contacts);
 };
 
@@ -75,35 +88,35 @@ struct State {
 /// state.csv has a line per frame.
 class StateFile : public Table {
  public:
-  explicit StateFile(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit StateFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const State& state);
 };
 
 /// discharge.csv, of a hopper, has a line per frame.
 class DischargeFile : public Table {
  public:
-  explicit DischargeFile(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit DischargeFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, double mass, std::size_t count);  ///< s; kg and number of the grains that have passed the outlet so far
 };
 
 /// compression.csv, of a compression, has a line per frame after the start, where no contact has been measured yet.
 class CompressionFile : public Table {
  public:
-  explicit CompressionFile(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit CompressionFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const Packing& packing);
 };
 
 /// feeders.csv has a line per frame, feeder and kind that it feeds: what it has fed so far.
 class FeedersFile : public Table {
  public:
-  explicit FeedersFile(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit FeedersFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const Population& population);
 };
 
 /// sinks.csv has a line per frame, sink and kind of the scene: what it has taken so far.
 class SinksFile : public Table {
  public:
-  explicit SinksFile(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit SinksFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const Population& population, const Scene& scene);
 };
 
@@ -111,7 +124,7 @@ class SinksFile : public Table {
 /// before, without that of a conveyor's surface.
 class PartsFile : public Table {
  public:
-  explicit PartsFile(const std::filesystem::path& path, std::uint64_t kept = 0);
+  explicit PartsFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const PartBodies& parts);
 };
 
@@ -119,7 +132,7 @@ class PartsFile : public Table {
 class GrainsFile : public Table {
  public:
   /// `written`: the number of grains that it has already.
-  explicit GrainsFile(const std::filesystem::path& path, std::uint64_t kept = 0, std::size_t written = 0);
+  explicit GrainsFile(const std::filesystem::path& path, const FileState& kept = {}, std::size_t written = 0);
   /// Writes the grains that have come since the last call.
   void write(const World& world);
   std::size_t written() const { return written_; }

@@ -9,6 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,6 +20,7 @@
 
 #include "checkpoint/files.hpp"
 #include "measurements/measuring.hpp"
+#include "output/vtk_series.hpp"
 #include "output/write_file.hpp"
 #include "output_files.hpp"
 #include "picture.hpp"
@@ -34,17 +37,42 @@ constexpr std::string_view kMarkText =
     "The run that writes here has not ended. If it was killed, these are its results up to then; the next run of the scene with\n"
     "the same output folder removes them, or goes on from the checkpoint, if there is one, with --resume.\n";
 
-bool is_output_file(const fs::directory_entry& entry) {
-  const std::string name = entry.path().filename().string();
+bool is_output_name(const std::string& name) {
   const auto holds = [&](const auto& names) { return std::ranges::find(names, name) != names.end(); };
   const auto writes = [&](const PictureFormat& format) { return holds(format.files) || holds(format.rendered); };
   return holds(kOutputFiles) || name == kMeasurementFolder || std::ranges::any_of(picture_formats(), writes);
 }
 
-/// Whether a run has written it: results, or what its folder holds until it has ended.
-bool is_file_of_run(const fs::directory_entry& entry) {
-  const std::string name = entry.path().filename().string();
-  return name == kMarkFile || std::ranges::find(kCheckpointFiles, name) != kCheckpointFiles.end() || is_output_file(entry);
+/// Whether a run has written a file of a folder within that of its results: a table of a measurement, with its plot, or a frame.
+bool is_file_of_inner_folder(const fs::directory_entry& entry) {
+  const fs::path& path = entry.path();
+  if (entry.is_directory()) return false;
+  if (path.extension() == ".svg") return fs::exists(fs::path(path).replace_extension(".csv"));
+  return path.extension() == (path.parent_path().filename() == kMeasurementFolder ? ".csv" : ".vtp");
+}
+
+/// The first thing in a folder that no run has written: neither results nor what is there until it has ended.
+std::optional<fs::path> find_foreign(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path name = entry.path().filename();
+    const bool is_of_unfinished = name == kMarkFile || std::ranges::find(kCheckpointFiles, name) != kCheckpointFiles.end();
+    if (!is_of_unfinished && !is_output_name(name.string())) return name;
+    if (!fs::is_directory(entry.symlink_status())) continue;
+    if (name != kMeasurementFolder && name != VtkSeries::kFramesFolder) return name;
+    for (const fs::directory_entry& inner : fs::directory_iterator(entry)) {
+      if (!is_file_of_inner_folder(inner)) return name / inner.path().filename();
+    }
+  }
+  return std::nullopt;
+}
+
+/// The same, where an error may not be thrown.
+bool has_foreign(const fs::path& folder) noexcept {
+  try {
+    return find_foreign(folder).has_value();
+  } catch (const fs::filesystem_error&) {
+    return true;  // what cannot be looked at stays
+  }
 }
 
 /// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run, and it is not
@@ -54,11 +82,9 @@ void refuse_foreign(const fs::path& target) {
   if (!fs::is_directory(fs::symlink_status(target))) {
     throw InputError("output \"" + target.string() + "\" exists and is not a folder; allowed: a new folder or an earlier run's");
   }
-  for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
-    if (!is_file_of_run(entry)) {
-      throw InputError("output folder \"" + target.string() + "\" holds " + entry.path().filename().string() +
-                       ", which no run writes; allowed: a new folder or an earlier run's (see --out)");
-    }
+  if (const std::optional<fs::path> foreign = find_foreign(target)) {
+    throw InputError("output folder \"" + target.string() + "\" holds " + foreign->string() +
+                     ", which no run writes; allowed: a new folder or an earlier run's (see --out)");
   }
   if (access(target.c_str(), W_OK) != 0) {
     throw fs::filesystem_error("", target, std::error_code(errno, std::generic_category()));
@@ -82,14 +108,9 @@ bool is_taken_away(int mark) {
   return fstat(mark, &status) == 0 && status.st_nlink == 0;
 }
 
-/// Whether the folder holds our mark and, besides, only files that a run writes, or nothing: the mark is the first file to come and
-/// the last to go.
-bool is_unfinished_run(const fs::path& folder) {
-  if (!fs::is_directory(fs::symlink_status(folder))) return false;
-  if (fs::is_empty(folder)) return true;
-  return fs::is_regular_file(fs::symlink_status(folder / kMarkFile)) &&
-         std::ranges::all_of(fs::directory_iterator(folder), is_file_of_run);
-}
+bool has_mark(const fs::path& folder) { return fs::is_regular_file(fs::symlink_status(folder / kMarkFile)); }
+
+bool has_checkpoint(const fs::path& folder) { return fs::exists(fs::symlink_status(folder / kCheckpointFile)); }
 
 /// Removes the folder of an unfinished run so that, if this is killed, the next run removes the rest. It may do so meanwhile: what
 /// is gone is no error.
@@ -102,13 +123,15 @@ void remove_unfinished(const fs::path& folder, std::error_code& error) {
   if (error == std::errc::no_such_file_or_directory) error.clear();
 }
 
-/// The folders of runs beside `target` that were killed, or are on their way.
+/// The folders beside `target` that are named as those of its runs that were killed, or are on their way.
 std::vector<fs::path> unfinished_runs(const fs::path& target) {
   std::vector<fs::path> folders;
   if (!fs::is_directory(target.parent_path())) return folders;
+  const std::string prefix = unfinished_prefix(target);
   for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path())) {
-    const bool is_named_so = entry.path().filename().string().starts_with(unfinished_prefix(target));
-    if (is_named_so && is_unfinished_run(entry.path())) folders.push_back(entry.path());
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix) || name.size() == prefix.size() || !fs::is_directory(entry)) continue;
+    if (name.find_first_not_of("0123456789", prefix.size()) == std::string::npos) folders.push_back(entry.path());
   }
   return folders;
 }
@@ -120,16 +143,28 @@ void mark_finished(const fs::path& folder) {
   fs::remove(folder / kMarkFile, ignored);
 }
 
-/// Removes the folders that killed runs have left beside `target`.
+/// The same for one that a killed run has left, unless it holds anything of the user's.
+void remove_leftover(const fs::path& folder) {
+  if (const std::optional<fs::path> foreign = find_foreign(folder)) {
+    std::fprintf(stderr, "\"%s\" of an earlier run stays: it holds %s, which no run writes\n", folder.c_str(), foreign->c_str());
+    return;
+  }
+  std::error_code ignored;
+  remove_unfinished(folder, ignored);
+}
+
+/// Removes the folders that killed runs have left beside `target`. The mark is the first file to come and the last to go: without
+/// it a folder is somebody's copy, or empty.
 void remove_leftovers(const fs::path& target) {
   for (const fs::path& folder : unfinished_runs(target)) {
+    if (fs::is_symlink(folder) || (!has_mark(folder) && !fs::is_empty(folder))) continue;
     std::error_code ignored;
     const int mark = open_mark(folder, 0);
     if (mark < 0) {
       fs::remove(folder, ignored);  // if it is empty
       continue;
     }
-    if (lock(mark)) remove_unfinished(folder, ignored);  // otherwise its run is alive
+    if (lock(mark)) remove_leftover(folder);  // otherwise its run is alive
     close(mark);
   }
 }
@@ -184,14 +219,20 @@ void OutputFolder::create_staging() {
   }
 }
 
-/// Takes over the folder with the latest checkpoint.
+/// Takes over the folder with the latest checkpoint, whatever else is in it.
 void OutputFolder::take_over() {
-  const auto has_none = [](const fs::path& folder) { return !fs::exists(folder / kCheckpointFile); };
   std::vector<fs::path> folders = unfinished_runs(target_);
-  std::erase_if(folders, has_none);
+  std::erase_if(folders, std::not_fn(has_checkpoint));
   if (folders.empty()) return;
   const auto written = [](const fs::path& folder) { return fs::last_write_time(folder / kCheckpointFile); };
   const fs::path folder = *std::ranges::max_element(folders, {}, written);
+  if (fs::is_symlink(folder)) {
+    throw InputError("output folder \"" + folder.string() + "\" has a checkpoint and is a link; allowed: the folder itself");
+  }
+  if (!has_mark(folder)) {
+    throw InputError("output folder \"" + folder.string() + "\" has a checkpoint but no file " + std::string(kMarkFile) +
+                     ", which a run that writes there locks; allowed: an empty file of that name, if no run does");
+  }
   mark_ = open_mark(folder, 0);
   if (mark_ < 0) throw fs::filesystem_error("", folder, std::error_code(errno, std::generic_category()));
   if (!lock(mark_) && errno == EWOULDBLOCK) {
@@ -206,7 +247,7 @@ OutputFolder::~OutputFolder() { discard(); }
 
 void OutputFolder::discard() {
   std::error_code error;
-  if (!staging_.empty() && !is_kept_) {
+  if (!staging_.empty() && !is_kept_ && !has_foreign(staging_)) {
     remove_unfinished(staging_, error);
     // Folders above that this object has created are removed too, unless somebody else has put anything into them.
     fs::path folder = target_.parent_path();

@@ -10,12 +10,14 @@ namespace falling_particles {
 /// The folder of a run's results, all or nothing: files are written into a folder beside it, NAME.unfinished-1 (or -2, if another
 /// run of the scene is on its way, and so on), that takes the final name in commit(); without commit() it vanishes, and results
 /// of an earlier run stay as they were. A run that is killed leaves its unfinished folder behind for inspection; the next one
-/// with the same name removes it, unless that one is to go on from its checkpoint (checkpoint/checkpoints.hpp).
+/// with the same name removes it, unless that one is to go on from its checkpoint (checkpoint/checkpoints.hpp). A folder that
+/// holds anything that no run writes is never removed.
 class OutputFolder {
  public:
   /// Throws InputError when `parent`/`name` exists and holds anything but an earlier run's files, or cannot be created or replaced;
   /// std::runtime_error when the disk is full. If `resumes`, what a run with checkpoints has left is taken over, if there is
-  /// anything, and stays whatever happens; InputError when that run has not ended.
+  /// anything, with whatever else is in its folder, and stays whatever happens; InputError when that run has not ended, or when
+  /// nothing can tell.
   OutputFolder(const std::filesystem::path& parent, const std::string& name, bool resumes = false);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;

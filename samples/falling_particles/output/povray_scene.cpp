@@ -156,7 +156,8 @@ void PovrayScene::finish(const std::string& /*summary*/) {
 
 std::vector<Rendering> PovrayScene::renderings() const {
   const std::string scene = path_.filename().string();
-  return {{"still.png", {"povray", "+I" + scene, "+O-", "+FN", "+W900", "+H560", "+A0.2", "-D"}, "", "povray"}};
+  // One thread: with more of them the pixels depend on which thread came first.
+  return {{"still.png", {"povray", "+I" + scene, "+O-", "+FN", "+W900", "+H560", "+A0.2", "-D", "+WT1"}, "", "povray"}};
 }
 
 }  // namespace falling_particles

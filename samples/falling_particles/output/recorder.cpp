@@ -33,7 +33,7 @@ Recorder::Recorder(const OutputFolder& folder, const Scene& scene, const Simulat
 Recorder::Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, const RecorderState& saved)
     : Recorder(folder, scene, simulation, saved, true) {
   if (!log_) return;
-  replay_frames(folder.file(std::string(kFrameLogFile)), log_->size(), [this](const Frame& frame) {
+  replay_frames(folder.file(std::string(kFrameLogFile)), log_->state().bytes, [this](const Frame& frame) {
     for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
   });
 }
@@ -47,27 +47,24 @@ Recorder::Recorder(const OutputFolder& folder, const Scene& scene, const Simulat
   add(trajectory_, kTrajectoryFile);
   add(energies_, kEnergiesFile);
   add(states_, kStateFile);
-  if (simulation.watches.discharge) add(discharge_, kDischargeFile);
-  if (simulation.watches.compressor) add(compression_, kCompressionFile);
-  if (scene.has_sizes()) {
-    const std::string name(kGrainsFile);
-    grains_.emplace(folder.file(name), kept_.bytes[name], kept_.grains_written);
-    tables_.emplace_back(name, &*grains_);
-  }
-  if (std::ranges::any_of(scene.parts, &Part::moves)) add(parts_, kPartsFile);
-  if (!scene.feeders.empty()) add(feeders_, kFeedersFile);
-  if (!scene.sinks.empty()) add(sinks_, kSinksFile);
+  add(discharge_, kDischargeFile);
+  add(compression_, kCompressionFile);
+  add(grains_, kGrainsFile, kept_.grains_written);
+  add(parts_, kPartsFile);
+  add(feeders_, kFeedersFile);
+  add(sinks_, kSinksFile);
   for (const std::string& name : scene.pictures) {
     const PictureFormat& format = *find_picture_format(name);
     pictures_.push_back(format.make(folder, format, contents_));
   }
   const std::string log(kFrameLogFile);
-  if (logs_frames && !pictures_.empty()) log_.emplace(folder.file(log), kept_.bytes[log]);
+  if (logs_frames && !pictures_.empty()) log_.emplace(folder.file(log), kept_.files[log]);
 }
 
-template <typename File>
-void Recorder::add(std::optional<File>& file, std::string_view name) {
-  file.emplace(folder_.file(std::string(name)), kept_.bytes[std::string(name)]);
+template <typename File, typename... Counts>
+void Recorder::add(std::optional<File>& file, std::string_view name, Counts... written) {
+  if (!std::ranges::find(table_formats(), name, &TableFormat::name)->is_written(scene_)) return;
+  file.emplace(folder_.file(std::string(name)), kept_.files[std::string(name)], written...);
   tables_.emplace_back(name, &*file);
 }
 
@@ -109,11 +106,11 @@ std::vector<Rendering> Recorder::renderings() const {
 RecorderState Recorder::save() {
   for (const auto& [name, table] : tables_) {
     table->sync();
-    kept_.bytes[name] = table->size();
+    kept_.files[name] = table->state();
   }
   if (log_) {
     log_->sync();
-    kept_.bytes[std::string(kFrameLogFile)] = log_->size();
+    kept_.files[std::string(kFrameLogFile)] = log_->state();
   }
   if (grains_) kept_.grains_written = grains_->written();
   return kept_;

@@ -20,13 +20,13 @@ namespace falling_particles {
 
 /// What a recorder needs to go on.
 struct RecorderState {
-  std::map<std::string, std::uint64_t> bytes;  ///< of the tables and the frame log, by name
-  std::uint64_t grains_written = 0;            ///< into grains.csv
-  double top = 0;                              ///< m, top_of() the start
+  std::map<std::string, FileState> files;  ///< the tables and the frame log, by name
+  std::uint64_t grains_written = 0;        ///< into grains.csv
+  double top = 0;                          ///< m, top_of() the start
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(bytes, grains_written, top);
+    archive(files, grains_written, top);
   }
 };
 
@@ -53,8 +53,9 @@ class Recorder {
  private:
   Recorder(const OutputFolder& folder, const Scene& scene, const Simulation& simulation, const RecorderState& saved,
            bool logs_frames);
-  template <typename File>
-  void add(std::optional<File>& file, std::string_view name);
+  /// Adds the table, if the scene has it. `written`: what it is to know of its lines that are there.
+  template <typename File, typename... Counts>
+  void add(std::optional<File>& file, std::string_view name, Counts... written);
 
   const OutputFolder& folder_;
   const Scene& scene_;

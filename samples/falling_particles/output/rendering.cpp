@@ -25,6 +25,25 @@ std::string complaint_of(const std::string& messages) {
   return last_error.empty() ? last : last_error;
 }
 
+/// A PNG without the chunks that tell when and by which program it was made, so that the same picture is the same bytes; what is no
+/// PNG, or is torn, as it is.
+std::string without_date(const std::string& file) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  constexpr std::size_t kFrame = 12;  // bytes of a chunk besides its content: its length, its name, its checksum
+  if (!file.starts_with(kSignature)) return file;
+  std::string kept(kSignature);
+  for (std::size_t at = kSignature.size(); at < file.size();) {
+    if (file.size() - at < kFrame) return file;
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8U | static_cast<unsigned char>(file[at + i]);
+    if (file.size() - at - kFrame < length) return file;
+    const std::string_view name = std::string_view(file).substr(at + 4, 4);
+    if (name != "tIME" && name != "tEXt") kept.append(file, at, kFrame + length);
+    at += kFrame + length;
+  }
+  return kept;
+}
+
 void tell_failure(const Rendering& rendering, const ProgramEnd& end) {
   const std::string complaint = end.has_succeeded ? "it wrote nothing" : complaint_of(end.messages);
   std::fprintf(stderr, "Not drawn: %s; %s failed: %s\n", rendering.file.c_str(), rendering.command.front().c_str(),
@@ -50,7 +69,7 @@ void render(const std::vector<Rendering>& renderings, const std::filesystem::pat
     } else if (!end.has_succeeded || end.output.empty()) {
       tell_failure(rendering, end);
     } else {
-      write_file(folder / rendering.file, end.output);
+      write_file(folder / rendering.file, without_date(end.output));
     }
   }
   for (const auto& [program, files] : missing) {

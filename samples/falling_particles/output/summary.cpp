@@ -14,6 +14,7 @@ namespace {
 /// Lines of the form key = value, with the values of all lines in one column and the comments in another.
 class Lines {
  public:
+  explicit Lines(Times times) : times_(times) {}
   void section(const char* name) { text_ += (text_.empty() ? "[" : "\n[") + std::string(name) + "]\n"; }
   void add(const char* key, const std::string& value, const char* comment = "") {
     text_ += padded(key, 32) + "= " + (*comment == '\0' ? value : padded(value, 12) + "# " + comment) + '\n';
@@ -27,6 +28,10 @@ class Lines {
     if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float needs one, whatever the value
     add(key, number, comment);
   }
+  /// Seconds, or a share of them.
+  void add_time(const char* key, double value, const char* comment = "") {
+    if (times_ == Times::Told) add(key, value, comment);
+  }
   const std::string& text() const { return text_; }
 
  private:
@@ -34,6 +39,7 @@ class Lines {
     text.resize(std::max(text.size() + 1, width), ' ');
     return text;
   }
+  Times times_;
   std::string text_;
 };
 
@@ -207,18 +213,18 @@ void add_costs(Lines& lines, const Summary& s) {
   const double narrow = c.narrow_phase_seconds();
   const double solver = c.solver.seconds();
   lines.section("cost");
-  lines.add("real", total, "s, steps and output");
-  lines.add("real_per_step", total / s.steps, "s");
-  lines.add("share_broad_phase", c.broad_phase.seconds() / total, "bounding boxes, the sweep along them, and walls");
-  lines.add("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
-  lines.add("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
-  lines.add("share_solver", solver / total, "dWorldQuickStep");
-  lines.add("share_output", (total - c.collision.seconds() - c.contact_setup.seconds() - solver) / total, "the rest");
+  lines.add_time("real", total, "s, steps and output");
+  lines.add_time("real_per_step", total / s.steps, "s");
+  lines.add_time("share_broad_phase", c.broad_phase.seconds() / total, "bounding boxes, the sweep along them, and walls");
+  lines.add_time("share_narrow_phase", narrow / total, "contacts of the pairs, on all threads");
+  lines.add_time("share_contact_setup", c.contact_setup.seconds() / total, "contact joints made and removed");
+  lines.add_time("share_solver", solver / total, "dWorldQuickStep");
+  lines.add_time("share_output", (total - c.collision.seconds() - c.contact_setup.seconds() - solver) / total, "the rest");
   if (s.checkpoints.number > 0) {
     lines.add("checkpoints", s.checkpoints.number, "written");
-    lines.add("checkpoint_seconds", s.checkpoints.watch.seconds(), "s, besides real: to write them and to go on from them");
+    lines.add_time("checkpoint_seconds", s.checkpoints.watch.seconds(), "s, besides real: to write them and to go on from them");
   }
-  lines.add("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
+  lines.add_time("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 
 /// Adds the cost of each effect that the scene names; rigid contact itself comes first. Seconds are those of its own passes and,
@@ -229,8 +235,8 @@ void add_effect_costs(Lines& lines, const Summary& s) {
   for (const supernormal::effects::Cost& cost : s.effects) {
     const std::string section = std::string("effect.") + cost.name + ".";
     const auto add = [&](const char* key, auto value, const char* comment) { lines.add((section + key).c_str(), value, comment); };
-    add("seconds", cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(),
-        "s, in its passes and its rows' share of the solver");
+    lines.add_time((section + "seconds").c_str(), cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(),
+                   "s, in its passes and its rows' share of the solver");
     if (cost.rows > 0) add("rows", cost.rows, "constraint rows added");
     if (cost.contacts > 0) add("contacts", cost.contacts, "touched");
     if (cost.coarse > 0) add("coarse", cost.coarse, "contacts of fewer than ten steps: a shorter step would be better");
@@ -242,17 +248,18 @@ void add_measurement_costs(Lines& lines, const Summary& s) {
   for (const MeasurementCost& cost : s.measurements) {
     const std::string section = "measurement." + cost.name + ".";
     const auto add = [&](const char* key, auto value, const char* comment) { lines.add((section + key).c_str(), value, comment); };
-    add("seconds", cost.seconds, "s");
+    lines.add_time((section + "seconds").c_str(), cost.seconds, "s");
     add("samples", cost.state.samples, "");
     add("lines", cost.state.lines, "of its table");
   }
-  if (!s.measurements.empty()) lines.add("measured_contacts_seconds", s.seconds_of_contacts, "s, shared: contacts put together");
+  if (!s.measurements.empty())
+    lines.add_time("measured_contacts_seconds", s.seconds_of_contacts, "s, shared: contacts put together");
 }
 
 }  // namespace
 
-std::string to_toml(const Summary& summary) {
-  Lines lines;
+std::string to_toml(const Summary& summary, Times times) {
+  Lines lines(times);
   add_run(lines, summary);
   add_sizes(lines, summary.sizes);
   add_queries(lines, summary);

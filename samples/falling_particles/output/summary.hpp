@@ -60,7 +60,10 @@ struct Summary {
   CheckpointCost checkpoints = {};
 };
 
-/// Writes TOML with units and definitions in comments. The [cost] section depends on the machine, the others do not.
-std::string to_toml(const Summary& summary);
+/// What the run took, which depends on the machine and on when it was stopped: the only part of a summary that does.
+enum class Times { Told, LeftOut };
+
+/// Writes TOML with units and definitions in comments.
+std::string to_toml(const Summary& summary, Times times);
 
 }  // namespace falling_particles

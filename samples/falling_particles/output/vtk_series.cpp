@@ -13,8 +13,6 @@
 namespace falling_particles {
 namespace {
 
-constexpr std::string_view kFramesFolder = "vtk";
-
 /// An array with a value for each of `count` points, which numbers(k) gives as a std::array.
 template <typename Numbers>
 std::string array(std::string_view name, std::string_view type, std::size_t count, const Numbers& numbers) {

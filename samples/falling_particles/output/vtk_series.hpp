@@ -21,6 +21,8 @@ namespace falling_particles {
 /// is the index of the grain that a point belongs to.
 class VtkSeries final : public Picture {
  public:
+  static constexpr std::string_view kFramesFolder = "vtk";  ///< within that of the results
+
   VtkSeries(const OutputFolder& folder, const Contents& contents);
   void add(const Frame& frame) override;
   void finish(const std::string& summary) override;

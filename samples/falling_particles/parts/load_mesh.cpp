@@ -6,11 +6,15 @@
 #include <map>
 #include <stdexcept>
 
+#include "checkpoint/read_file.hpp"
+
 #ifdef FALLING_PARTICLES_ASSIMP
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <utility>
 #endif
 
 namespace falling_particles {
@@ -23,6 +27,20 @@ std::array<float, 3> scaled(const aiVector3D& vertex, double unit) {
   const auto metres = [unit](double x) { return static_cast<float>(unit * x); };
   return {metres(vertex.x), metres(vertex.y), metres(vertex.z)};
 }
+
+/// Opens the mesh alone: a file may name others, such as the materials of an OBJ (mtllib), which are none of its triangles, and of
+/// which messages would quote lines.
+class OneFile : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string path) : path_(std::move(path)) {}
+  bool Exists(const char* file) const override { return file == path_ && DefaultIOSystem::Exists(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return file == path_ ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string path_;
+};
 
 /// Adds the triangles of a mesh, but for those that have shrunk to a line.
 void append(const aiMesh& added, double unit, std::map<std::array<float, 3>, unsigned int>& index_of, Mesh& mesh) {
@@ -45,8 +63,12 @@ void append(const aiMesh& added, double unit, std::map<std::array<float, 3>, uns
 bool can_load_meshes() { return true; }
 
 Mesh load_mesh(const std::string& path, double unit) {
+  if (const std::string other = what_is_no_file(path); !other.empty()) {
+    throw std::runtime_error('"' + path + "\" is " + other + ", and no file");
+  }
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("there is no file \"" + path + "\"");
   Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(path));  // which the importer deletes
   // The two formats have no transformations, so that nodes need not be looked at.
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw std::runtime_error("\"" + path + "\" cannot be read: " + importer.GetErrorString());

@@ -123,6 +123,20 @@ class Reader {
 
 }  // namespace
 
+std::string scene_parameters(const fx::Description& effect) {
+  const std::string name = effect.name;
+  if (name == "surface_layer") return "relative_depth (0, 0.1], of the smallest half-axis of all grains";
+  std::string text = effect.parameters;
+  if (name == "friction") text += "; walls (0, 100], of grains on walls, as among grains without it";
+  if (name == "rolling_resistance") text += ", 0 without it; walls [0, 1e3] m, rolling on walls, as among grains without it";
+  if (name == "restitution") text += ", 0 without it; walls (0, 1], of grains on walls, as among grains without it";
+  if (name == "compliance") text += ", 0 without it";
+  if (name == "hertz") text += ", 1 without it";
+  if (name == "damping") text += ", 0 without it";
+  if (name == "auto_disable") text += "; time 0 and samples 10 without them";
+  return text;
+}
+
 std::vector<std::string> effect_sections() {
   std::vector<std::string> names;
   for (const fx::Description& description : fx::descriptions()) names.emplace_back(description.name);

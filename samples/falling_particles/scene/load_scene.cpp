@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "catalogue.hpp"
+#include "checkpoint/read_file.hpp"
 #include "input_error.hpp"
 #include "load_container.hpp"
 #include "load_effects.hpp"
@@ -31,7 +32,9 @@ constexpr std::int64_t kMostSteps = 1'000'000'000;
 std::vector<CatalogueEntry> read_catalogue(const TomlTable& root, const std::string& scene_path) {
   const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
   const std::string allowed = "; allowed: a grain catalogue, its path relative to the scene file";
-  if (std::filesystem::is_directory(path)) root.fail("catalogue", "catalogue: \"" + path.string() + "\" is a folder" + allowed);
+  if (const std::string other = what_is_no_file(path); !other.empty()) {
+    root.fail("catalogue", "catalogue: \"" + path.string() + "\" is " + other + allowed);
+  }
   if (!std::filesystem::is_regular_file(path)) {
     root.fail("catalogue", "catalogue: there is no file \"" + path.string() + "\"" + allowed);
   }

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <utility>
 
+#include "checkpoint/read_file.hpp"
 #include "input_error.hpp"
 #include "nearest_word.hpp"
+#include "toml_depth.hpp"
 #include "toml_override.hpp"
 
 namespace falling_particles {
@@ -230,11 +231,18 @@ std::vector<std::string> TomlTable::names() const {
 }
 
 TomlFile::TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments) {
-  if (std::filesystem::is_directory(path)) throw InputError("cannot read " + what + " " + in_quotes(path) + ": it is a directory");
+  if (const std::string other = what_is_no_file(path); !other.empty()) {
+    throw InputError("cannot read " + what + " " + in_quotes(path) + ": it is " + other + "; allowed: a file");
+  }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError("cannot read " + what + " " + in_quotes(path) + ": " + std::strerror(errno));
   std::ostringstream content;
   content << stream.rdbuf();
+  if (const std::optional<unsigned> line = find_deep_toml(content.str())) {
+    throw InputError(path, *line,
+                     "keys, arrays or tables are nested in more than " + std::to_string(kMostTomlLevels) +
+                         " levels; allowed: up to " + std::to_string(kMostTomlLevels));
+  }
   try {
     auto root = std::make_shared<toml::table>(toml::parse(content.str(), path));
     set_values(*root, assignments);

@@ -8,6 +8,7 @@
 
 #include "input_error.hpp"
 #include "nearest_word.hpp"
+#include "toml_depth.hpp"
 #include "toml_input.hpp"
 
 namespace falling_particles {
@@ -18,6 +19,8 @@ struct Step {
   std::string word;
   bool chooses_entry;
 };
+
+constexpr std::size_t kLongestEcho = 60;  // characters of an option in a message about its length
 
 /// One KEY=VALUE, with the place that its path has come to.
 class Assignment {
@@ -41,6 +44,11 @@ class Assignment {
     }
     if (!rest.starts_with('=')) fail_form();
     value_ = rest.substr(1);
+    if (path_.size() > kMostTomlLevels || find_deep_toml(value_)) {
+      option_ = option_.substr(0, kLongestEcho) + "…";
+      fail("keys, arrays or tables are nested in more than " + std::to_string(kMostTomlLevels) + " levels; allowed: up to " +
+           std::to_string(kMostTomlLevels));
+    }
   }
 
   void apply_to(toml::table& root) {

@@ -22,6 +22,7 @@
 #include "output/summary.hpp"
 #include "output/write_file.hpp"
 #include "progress.hpp"
+#include "scene/input_error.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
 
@@ -214,9 +215,9 @@ Summary Run::summarize() {
 
 RunEnd Run::finish() {
   const Summary summary = summarize();
-  const std::string text = to_toml(summary);
+  const std::string text = to_toml(summary, Times::Told);
   write_file(folder_.file(std::string(kSummaryFile)), text);
-  recorder_->finish_pictures(text);
+  recorder_->finish_pictures(to_toml(summary, Times::LeftOut));
   folder_.commit();
   std::fputs(text.c_str(), stdout);
   const int steps = scene_.time.steps();
@@ -237,7 +238,10 @@ constexpr const char* kStopNote =
 RunEnd run_in(OutputFolder& folder, Checkpoints& checkpoints, const Scene& scene, const RunOptions& options) {
   if (checkpoints.are_on()) catch_stop_requests(kStopNote);
   Run run(scene, folder, checkpoints, options);
-  if (folder.is_resumed() && !options.quiet) std::fprintf(stderr, "Goes on after step %d of %d\n", run.step(), scene.time.steps());
+  if (options.resume && !options.quiet) {
+    std::fprintf(stderr, folder.is_resumed() ? "Goes on after step %d of %d\n" : "No checkpoint: starts at step %d of %d\n",
+                 run.step(), scene.time.steps());
+  }
   if (run.advance()) return run.finish();
   std::fprintf(stderr, "Stopped after step %d of %d: --resume goes on from there.\n", run.step(), scene.time.steps());
   return {true, false, folder.path(), {}};
@@ -250,6 +254,8 @@ RunEnd run(const Scene& scene, const RunOptions& options) {
   Checkpoints checkpoints(folder, scene, options.checkpoint_every);
   try {
     return run_in(folder, checkpoints, scene, options);
+  } catch (const InputError&) {
+    throw;  // what the last checkpoint needs is damaged: there is no way on
   } catch (const std::exception&) {
     const std::filesystem::path unfinished = folder.file("");  // none where the run was whole and could not go to its place
     if (checkpoints.last() && !unfinished.empty()) {

@@ -77,6 +77,44 @@ TEST_CASE("checkpoint: a run that has saved nothing leaves nothing, and one with
   CHECK_FALSE(fs::exists(box.unfinished("checkpoint")));
 }
 
+TEST_CASE("checkpoint: a run is gone on with whatever else is in its folder, which goes with it") {
+  for (const char* foreign : {"energies.svg~", ".energies.csv.swp", "measurements/heights.png", "thesis/chapter.txt"}) {
+    CAPTURE(foreign);
+    const SceneInFolder box;
+    {
+      OutputFolder folder(box.out(), "box");
+      Checkpoints(folder, box.scene(), 10).write("state");
+    }
+    fs::create_directories(box.unfinished(foreign).parent_path());
+    write_file(box.unfinished(foreign), "a user's");
+    OutputFolder folder(box.out(), "box", true);
+    CHECK(folder.is_resumed());
+    CHECK(Checkpoints(folder, box.scene(), 10).last() == std::string("state"));
+    folder.commit();
+    CHECK(read_file(box.out() / "box" / foreign) == "a user's");
+    CHECK_THROWS_WITH_AS(OutputFolder(box.out(), "box", true), doctest::Contains("which no run writes"), InputError);
+    CHECK(read_file(box.out() / "box" / foreign) == "a user's");
+  }
+}
+
+TEST_CASE("checkpoint: a folder that no run can lock is refused by name, and not taken for none") {
+  const SceneInFolder box;
+  {
+    OutputFolder folder(box.out(), "box");
+    Checkpoints(folder, box.scene(), 10).write("state");
+  }
+  fs::remove(box.unfinished("UNFINISHED"));
+  CHECK_THROWS_WITH_AS(OutputFolder(box.out(), "box", true),
+                       doctest::Contains("box.unfinished-1\" has a checkpoint but no file UNFINISHED"), InputError);
+  write_file(box.unfinished("UNFINISHED"), "");
+  CHECK(OutputFolder(box.out(), "box", true).is_resumed());
+  const fs::path folder = box.unfinished("").parent_path();
+  fs::rename(folder, box.out() / "elsewhere");
+  fs::create_directory_symlink("elsewhere", folder);
+  CHECK_THROWS_WITH_AS(OutputFolder(box.out(), "box", true), doctest::Contains("box.unfinished-1\" has a checkpoint and is a link"),
+                       InputError);
+}
+
 TEST_CASE("checkpoint: where there is no space for a new one the last one stays") {
   const SceneInFolder box;
   {
@@ -128,22 +166,43 @@ TEST_CASE("checkpoint: bodies have the time to fall asleep between two") {
 TEST_CASE("checkpoint: a table goes on after the bytes that are kept") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "discharge.csv";
-  std::uint64_t kept = 0;
+  FileState kept;
   {
     DischargeFile table(path);
     table.write(0.1, 1, 2);
-    kept = table.size();
+    kept = table.state();
     table.write(0.2, 3, 4);
   }
   {
     DischargeFile table(path, kept);
     table.write(0.3, 5, 6);
     table.sync();
-    CHECK(table.size() == read_file(path).size());
+    CHECK(table.state().bytes == read_file(path).size());
   }
   CHECK(read_file(path) == "time_s,discharged_kg,discharged_grains\n0.1,1,2\n0.3,5,6\n");
-  CHECK_THROWS_WITH_AS(DischargeFile(path, 1000), doctest::Contains("has 55 bytes, and had 1000"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(DischargeFile(path, FileState{1000, {}}), doctest::Contains("has 55 bytes, and had 1000"), InputError);
   CHECK(read_file(path).size() == 55);
+}
+
+TEST_CASE("checkpoint: a table that was changed or removed since is refused and stays") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "discharge.csv";
+  FileState kept;
+  {
+    DischargeFile table(path);
+    table.write(0.1, 1, 2);
+    kept = table.state();
+    table.write(0.2, 3, 4);
+  }
+  std::string changed = read_file(path);
+  changed[kept.bytes - 2] = '7';
+  write_file(path, changed);
+  CHECK_THROWS_WITH_AS(DischargeFile(path, kept), doctest::Contains("discharge.csv\" was changed since it was last saved"),
+                       InputError);
+  CHECK(read_file(path) == changed);
+  fs::remove(path);
+  CHECK_THROWS_WITH_AS(DischargeFile(path, kept), doctest::Contains("discharge.csv\" is missing; without --resume"), InputError);
+  CHECK_FALSE(fs::exists(path));
 }
 
 TEST_CASE("checkpoint: frames come back bit for bit, up to where the log was saved") {
@@ -161,7 +220,7 @@ TEST_CASE("checkpoint: frames come back bit for bit, up to where the log was sav
     log.add(frame);
     frame.time = 0.2;
     log.add(frame);
-    kept = log.size();
+    kept = log.state().bytes;
     log.add(frame);
   }
   std::vector<Frame> frames;
@@ -177,9 +236,9 @@ TEST_CASE("checkpoint: frames come back bit for bit, up to where the log was sav
   CHECK_FALSE(frames[1].contacts[1].force);
   CHECK(frames[1].part_places == frame.part_places);
   const auto ignore = [](const Frame&) {};
-  CHECK_THROWS_WITH_AS(replay_frames(path, kept - 1, ignore), doctest::Contains("ends within a frame"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(replay_frames(path, kept - 1, ignore), doctest::Contains("ends within a frame"), InputError);
   std::string bytes = read_file(path);
   bytes[100] = static_cast<char>(bytes[100] ^ 1);
   write_file(path, bytes);
-  CHECK_THROWS_WITH_AS(replay_frames(path, kept, ignore), doctest::Contains("is damaged"), std::runtime_error);
+  CHECK_THROWS_WITH_AS(replay_frames(path, kept, ignore), doctest::Contains("is damaged"), InputError);
 }

@@ -37,7 +37,7 @@ void check_refused(const std::function<void(Origin&)>& change, const std::string
   Origin here = sample().origin;
   change(here);
   const std::string got = complaint([&here] { refuse_other(sample().origin, here, "out/box/checkpoint"); });
-  CHECK(got == "checkpoint \"out/box/checkpoint\" is of " + text + "; without --resume the run starts anew and removes it");
+  CHECK(got == "checkpoint \"out/box/checkpoint\" is of " + text + kStartAnew);
 }
 
 }  // namespace
@@ -74,11 +74,9 @@ TEST_CASE("checkpoint: a byte that has changed is noticed, wherever it is") {
     CHECK(complaint_about(changed) != "");
   }
   std::string of_later_format = whole;
-  of_later_format[8] = 2;
-  CHECK(
-      complaint_about(of_later_format) ==
-      "checkpoint \"out/box/checkpoint\" has format 2; allowed: 1, that of this program; without --resume the run starts anew and "
-      "removes it");
+  of_later_format[8] = 3;
+  CHECK(complaint_about(of_later_format) ==
+        std::string("checkpoint \"out/box/checkpoint\" has format 3; allowed: 2, that of this program") + kStartAnew);
 }
 
 TEST_CASE("checkpoint: one of another run is refused, and it is told why") {

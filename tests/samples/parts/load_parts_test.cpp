@@ -1,5 +1,6 @@
 // Tests of the [[part]] sections of scene files: what they may say, and what is said of mistakes.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include "complaint.hpp"
 #include "parts/load_mesh.hpp"
@@ -185,6 +186,16 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
   CHECK(mesh.triangles.size() == 4);
   CHECK(bounding_radius(mesh) == doctest::Approx(0.01));
   CHECK(std::get<MeshShape>(load("square.obj", "inch").parts[0].shape).triangles.size() == 2);
+  // An OBJ that names a file of materials is read as without it: lines of the file would be quoted in warnings.
+  folder.write("secret", "newmtl a\nmap_Kd secret\nroot:$6$hash:19000:0:99999:7:::\n");
+  for (const std::string& named :
+       {folder.path().string() + "/secret", std::string("secret"), std::string("../secret"), std::string("pipe.stl")}) {
+    folder.write("named.obj", "mtllib " + named + "\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    REQUIRE(mkfifo((folder.path() / "pipe.stl").c_str(), 0600) == 0);
+    CHECK(std::get<MeshShape>(load("named.obj", "inch").parts[0].shape).triangles.size() == 2);
+    check_says(refusal("pipe.stl", "mm"), {"part.file", "pipe.stl\" is a pipe or a socket, and no file"});
+    std::filesystem::remove(folder.path() / "pipe.stl");
+  }
   check_says(refusal("none.stl", "mm"), {"part.file", "there is no file", "none.stl"});
   check_says(refusal("points.obj", "mm"), {"part.file", "points.obj"});
   check_says(refusal("broken.stl", "mm"), {"part.file", "broken.stl", "cannot be read"});
