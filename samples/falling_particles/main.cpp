@@ -11,6 +11,7 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
+#include "check/doubts.hpp"
 #include "check/forecast.hpp"
 #include "measurements/measurement.hpp"
 #include "output/lammps_input.hpp"
@@ -74,6 +75,7 @@ std::string version() {
 
 void check(const std::string& scene_path, const std::vector<std::string>& overrides) {
   const falling_particles::Scene scene = falling_particles::load_scene(scene_path, overrides);
+  falling_particles::refuse_overlapping_start(scene);
   std::fputs(describe(scene, falling_particles::forecast(scene)).c_str(), stdout);
 }
 
@@ -93,6 +95,10 @@ ExitCode simulate(const Options& options) {
   if (!options.to_lammps.empty()) {
     falling_particles::write_lammps_input(scene, options.to_lammps);
     return Done;
+  }
+  falling_particles::refuse_overlapping_start(scene);
+  for (const std::string& doubt : falling_particles::doubts_about(scene)) {
+    std::fprintf(stderr, "falling_particles: warning: %s\n", doubt.c_str());
   }
   if (options.no_pictures) scene.pictures.clear();
   falling_particles::catch_interrupts();

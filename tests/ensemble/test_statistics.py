@@ -1,11 +1,16 @@
 """Latin hypercubes, Student's t, means with their intervals."""
 
 import math
+import pathlib
+import shutil
+import subprocess
+import tempfile
 import unittest
 
 import sweep_files  # noqa: F401  (the path)
 
 from sweeps.collect import mean_and_interval
+from sweeps.figure import SCRIPT
 from sweeps.latin_hypercube import latin_hypercube
 from sweeps.student import central_probability, t_quantile
 
@@ -61,6 +66,20 @@ class Means(unittest.TestCase):
 
     def test_one_number_has_no_interval(self):
         self.assertEqual(mean_and_interval([2.5], 0.95), (2.5, None, None))
+
+
+@unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is missing")
+class Figure(unittest.TestCase):
+    def draw(self, half_width):
+        with tempfile.TemporaryDirectory() as folder:
+            data = pathlib.Path(folder, "figure.dat")
+            data.write_text(f'"a = 1"\n1 2 0\n2 3 {half_width}\n\n\n"a = 2"\n1 3 0\n2 5 0\n', encoding="ascii")
+            command = ["gnuplot", "-c", str(SCRIPT), str(data), "x", "y", "linear", "95"]
+            return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+    def test_it_speaks_of_intervals_only_where_there_are_some(self):
+        self.assertIn("95 % intervals of the mean", self.draw(0.5))
+        self.assertNotIn("intervals", self.draw(0))
 
 
 if __name__ == "__main__":

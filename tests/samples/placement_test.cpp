@@ -2,12 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "relative.hpp"
 #include "scenes.hpp"
+#include "simulation/lattice.hpp"
 #include "simulation/random.hpp"
 
 using namespace falling_particles;
@@ -36,6 +38,26 @@ TEST_CASE("grains start apart from one another and from the walls") {
     }
   }
   CHECK(counts == std::array<int, 2>{300, 2});
+}
+
+TEST_CASE("small grains among large ones start in cells of their own size, and touch nothing") {
+  const Grain boulder{"boulder", {0.1, 0.1, 0.1}, 2, 2, 0, 2500, "test"};
+  const Scene scene = scene_of(Box{{0.41, 0.41}}, {{boulder, 1}, {lentil(), 2000}});
+  Random random(1);
+  const std::vector<Placement> placements = place(scene, random);
+  REQUIRE(placements.size() == 2001);
+  // A cell of the boulder holds 4096 lentils, in cells of a sixteenth of its edges.
+  CHECK(filled_lattice(scene).top() == supernormal::test::relative(0.001 + 0.204).epsilon(1e-12));
+  const auto radius = [&](const Placement& p) { return scene.grains[p.kind].grain.bounding_radius(); };
+  for (const Placement& p : placements) {
+    const auto [x, y, z] = p.position;
+    CHECK(std::min({x, y, z, 0.41 - x, 0.41 - y, 0.205 - z}) >= radius(p) - 1e-12);
+    for (const Placement& q : placements) {
+      if (&q == &p) break;
+      const bool is_apart = std::hypot(x - q.position[0], y - q.position[1], z - q.position[2]) >= radius(p) + radius(q) - 1e-12;
+      if (!is_apart) FAIL_CHECK("two grains overlap");
+    }
+  }
 }
 
 TEST_CASE("the seed decides where they start") {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "check/doubts.hpp"
 #include "check/forecast.hpp"
 #include "container/container.hpp"
 #include "scene/interval.hpp"
@@ -87,6 +88,11 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   std::string grains = std::to_string(scene.bodies()) + " at the start: " + kinds_of(scene);
   if (!scene.feeders.empty()) grains += "; up to " + std::to_string(forecast.most_grains) + " with those of the feeders";
   lines.add("grains", grains);
+  if (const std::optional<Fall> fall = fall_from_start(scene)) {
+    lines.add("start", rounded(fall->height) + " m high: without drag grains fall with up to " + rounded(fall->speed) + " m/s, " +
+                           rounded(fall->way) + " m a step, " + rounded(fall->way / scene.smallest_half_axis()) +
+                           " of the smallest half-axis");
+  }
   for (const Feeder& feeder : scene.feeders) lines.add("feeders", describe(feeder));
   for (const Sink& sink : scene.sinks) lines.add("sinks", sink.name);
   for (const Part& part : scene.parts) lines.add("parts", describe(part));
@@ -115,6 +121,7 @@ std::string describe(const Scene& scene, const Forecast& forecast) {
   lines.add("time", rounded(kMilli * forecast.bed_step()) + " ms a step then, of which the solver " + of_all(forecast.bed.solver) +
                         ", contacts " + of_all(forecast.bed.narrow_phase) + "; at the start " +
                         rounded(kMilli * forecast.start_step) + " ms a step");
+  for (const std::string& doubt : doubts_about(scene)) lines.add("warning", doubt);
   return lines.text();
 }
 

@@ -17,9 +17,8 @@ void Discharge::after_step(double time) {
     return;
   }
   has_passed_.resize(world_.bodies().size(), false);
-  for (std::size_t i = 0; i < has_passed_.size(); ++i) {
-    const Body& body = world_.bodies()[i];
-    if (!body.is_present()) continue;
+  for (const Body& body : world_.present()) {
+    const std::size_t i = world_.index_of(body);
     const Point p = body.position();
     // A grain that comes down beside the outlet has not come through it: that is a leak (leaks.hpp).
     if (has_passed_[i] || !(p[2] < hopper_.clearance) || !hopper_.is_within(p[0], p[1], hopper_.outlet / 2)) continue;

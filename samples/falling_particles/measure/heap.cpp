@@ -74,6 +74,7 @@ Heap measure_heap(const World& world, const Point& centre, double radius) {
   double sum = 0;
   double squares = 0;
   double height = 0;
+  bool has_flank = false;
   for (int sector = 0; sector < kSectors; ++sector) {
     std::vector<double> distances;
     std::vector<double> heights;
@@ -84,7 +85,9 @@ Heap measure_heap(const World& world, const Point& centre, double radius) {
         const double around = 2 * std::numbers::pi * (sector + (i + 0.5) / kRaysPerArc) / kSectors;
         const double x = centre[0] + distance * std::cos(around);
         const double y = centre[1] + distance * std::sin(around);
-        mean += (surface_height(tops, ray.get(), x, y, centre[2]) - centre[2]) / kRaysPerArc;
+        const double above = surface_height(tops, ray.get(), x, y, centre[2]) - centre[2];
+        has_flank = has_flank || above > 0;
+        mean += above / kRaysPerArc;
       }
       distances.push_back(distance);
       heights.push_back(mean);
@@ -97,7 +100,7 @@ Heap measure_heap(const World& world, const Point& centre, double radius) {
   }
   const double mean = sum / kSectors;
   const double variance = std::max(0.0, squares / kSectors - mean * mean) / (kSectors - 1);
-  return {mean, std::sqrt(variance), height, grains};
+  return {mean, std::sqrt(variance), height, grains, has_flank};
 }
 
 }  // namespace falling_particles

@@ -18,6 +18,7 @@ struct Heap {
   double standard_error;  ///< degrees, from the scatter of the sectors
   double height;          ///< m, at the axis, of the straight flank above the base
   std::size_t grains;     ///< number of grains whose centre is above the base
+  bool has_flank;         ///< whether a grain lies where the flank is measured; without one there is no angle and no height
 };
 
 /// Measures the heap on a horizontal, round base: vertical rays find the surface, and the mean height on each of a sector's arcs

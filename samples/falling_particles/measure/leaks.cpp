@@ -32,9 +32,9 @@ LeakWatch::LeakWatch(const World& world, const Scene& scene)
 
 void LeakWatch::after_step(double time) {
   has_leaked_.resize(world_.bodies().size(), false);
-  for (std::size_t i = 0; i < has_leaked_.size(); ++i) {
-    const Body& body = world_.bodies()[i];
-    if (has_leaked_[i] || !body.is_present() || is_inside(scene_, body.position())) continue;
+  for (const Body& body : world_.present()) {
+    const std::size_t i = world_.index_of(body);
+    if (has_leaked_[i] || is_inside(scene_, body.position())) continue;
     has_leaked_[i] = true;
     ++count_;
     if (!first_) first_ = leak_of(body, i, time);

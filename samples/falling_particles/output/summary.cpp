@@ -201,6 +201,10 @@ void add_packing(Lines& lines, const Packing& packing) {
 
 void add_heap(Lines& lines, const Heap& heap) {
   lines.section("heap");
+  if (!heap.has_flank) {
+    lines.add("heap_grains", static_cast<unsigned long long>(heap.grains), "on the dish, none where the flank is measured");
+    return;
+  }
   lines.add("angle_of_repose", heap.angle, "degrees, of the flank from a quarter to 85 % of the dish's radius");
   lines.add("angle_standard_error", heap.standard_error, "degrees, of the mean of twelve sectors");
   lines.add("heap_height", heap.height, "m, of the flank continued to the axis, above the dish");

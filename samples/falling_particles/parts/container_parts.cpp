@@ -52,9 +52,10 @@ std::vector<Part> parts_of(const Drum& drum) {
   const Rotation turn{Vector3::UnitY(), {0, 0, drum.radius()}, drum.rpm};
   PartMotion motion{turn, drum.turns_at};
   if (drum.is_smooth) motion.kind = Conveyor{Vector3::Zero(), turn};
+  const PlaneShape end{drum.outer_radius()};
   return {{"drum", shell_of(drum), {{0, 0, drum.radius()}, Eigen::Quaterniond::Identity()}, {motion}},
-          {"near_end", PlaneShape{}, facing({0, 0, drum.radius()}, -std::numbers::pi / 2), {motion}},
-          {"far_end", PlaneShape{}, facing({0, drum.length, drum.radius()}, std::numbers::pi / 2), {motion}}};
+          {"near_end", end, facing({0, 0, drum.radius()}, -std::numbers::pi / 2), {motion}},
+          {"far_end", end, facing({0, drum.length, drum.radius()}, std::numbers::pi / 2), {motion}}};
 }
 
 std::vector<Part> parts_of(const Tray& tray) {

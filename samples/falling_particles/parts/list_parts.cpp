@@ -36,7 +36,7 @@ std::string list_parts() {
 [part.drive]
   parameters  axis: along which it pushes, and the only way it can go
               force: N, in [-1e9, 1e9]; or pressure: Pa, and area: m^2, that of the part's shape without it
-              mass: kg, in (0, 1e6]; damping: N s/m, in [0, 1e9], 0 without it
+              mass: kg, in [1e-12, 1e6]; damping: N s/m, in [0, 1e9], 0 without it
               from, until: s; it is held before, and only its weight is left after; travel: m, least and most way along axis
 )";
 }

@@ -23,8 +23,13 @@ namespace falling_particles {
 
 namespace {
 
+/// What is not finite is refused at once: it is equal to nothing, and corners are found by their order.
 std::array<float, 3> scaled(const aiVector3D& vertex, double unit) {
-  const auto metres = [unit](double x) { return static_cast<float>(unit * x); };
+  const auto metres = [unit](double x) {
+    const auto length = static_cast<float>(unit * x);
+    if (!std::isfinite(length)) throw std::runtime_error("has a coordinate that is not finite");
+    return length;
+  };
   return {metres(vertex.x), metres(vertex.y), metres(vertex.z)};
 }
 
@@ -74,13 +79,12 @@ Mesh load_mesh(const std::string& path, double unit) {
   if (scene == nullptr) throw std::runtime_error("\"" + path + "\" cannot be read: " + importer.GetErrorString());
   Mesh mesh;
   std::map<std::array<float, 3>, unsigned int> index_of;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], unit, index_of, mesh);
-  if (mesh.triangles.empty()) throw std::runtime_error("\"" + path + "\" has no triangles");
-  for (const auto& vertex : mesh.vertices) {
-    for (const float coordinate : vertex) {
-      if (!std::isfinite(coordinate)) throw std::runtime_error("\"" + path + "\" has a coordinate that is not finite");
-    }
+  try {
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], unit, index_of, mesh);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("\"" + path + "\" " + error.what());
   }
+  if (mesh.triangles.empty()) throw std::runtime_error("\"" + path + "\" has no triangles");
   return mesh;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -67,6 +68,20 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   return body;
 }
 
+/// Triangles that are there with their corners in both orders. Each pushes what is behind it out in front: grains sink in from both
+/// sides until they are halfway through.
+std::size_t count_two_sided(const Mesh& mesh) {
+  const auto from_lowest = [](std::array<unsigned int, 3> corners) {
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    return corners;
+  };
+  std::set<std::array<unsigned int, 3>> seen;
+  for (const auto& triangle : mesh.triangles) seen.insert(from_lowest(triangle));
+  return static_cast<std::size_t>(std::ranges::count_if(seen, [&](const auto& t) {
+    return t[1] < t[2] && seen.contains({t[0], t[2], t[1]});
+  }));
+}
+
 MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
   constexpr std::array<std::pair<const char*, double>, 4> kUnits = {{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}}};
   const std::string unit = table.choice("unit", {"m", "cm", "mm", "inch"});
@@ -88,6 +103,11 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
     table.fail("unit", table.full_name("unit") + " is \"" + unit + "\", with which the mesh reaches " +
                            shortest(bounding_radius(mesh)) + " m from its origin; allowed: up to " + shortest(kLargestLength) +
                            " m");
+  }
+  if (const std::size_t count = count_two_sided(mesh); count > 0) {
+    table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + std::to_string(count) +
+                           " triangles with their corners in both orders, between which grains would sink; allowed: each triangle "
+                           "once, solid behind; a sheet for both sides is a closed mesh or a box with a thickness");
   }
   return mesh;
 }
@@ -169,7 +189,8 @@ std::optional<Drive> read_drive(const TomlTable& part_table, const Part& part) {
   Drive drive{};
   drive.axis = read_direction(*table, "axis");
   read_pressure(*table, part, drive);
-  drive.mass = table->number("mass", Interval::positive(1e6, "kg"));
+  // ODE squares moments of inertia, a thousand times mass times radius squared: far below, they are no numbers.
+  drive.mass = table->number("mass", Interval::closed(1e-12, 1e6, "kg"));
   if (table->has("damping")) drive.damping = table->number("damping", Interval::closed(0, 1e9, "N s/m"));
   const auto [from, until] = read_times(*table);
   drive.from = from;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -83,5 +84,33 @@ PartVelocity mean_velocity(const PartPose& from, const PartPose& to, double dura
 /// position of the part, which is at `now`.
 PartVelocity conveyor_velocity(const PartPose& start, const PartPose& now, std::span<const PartMotion> motions, double from,
                                double until);
+
+/// A rigid velocity gives each point of a part that rotates the tangent of its circle at the start of a step, while the point moves
+/// along a chord. A grain that was carried along tangents would move outwards by (angular velocity)^2 step / 2 times its distance
+/// from the axis, in every second.
+class ChordExcess {
+ public:
+  /// Of a surface that moves with the velocity `rigid` at the position of the part and is, relative to that position, turned by
+  /// `rotation` and displaced by `shift` (m) in `duration` (s).
+  ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const PartVelocity& rigid, double duration);
+
+  /// m/s; what a grain needs besides the rigid velocity. `lever`: m, from the position of the part to the grain's centre;
+  /// `velocity`: m/s, of the grain. A grain that rides along gets the chord of the surface's point at its centre: all its contacts
+  /// ask for the same, since the chords of its own points differ by as much. One that rolls is elsewhere in the middle of the step,
+  /// and gets the velocity of the surface there.
+  Vector3 at(const Vector3& lever, const Vector3& velocity) const;
+
+ private:
+  Eigen::Matrix3d turn_;   // of the step
+  Eigen::Matrix3d chord_;  // 1/s; gradient of the chords' velocities
+  Vector3 chord_at_part_;  // m/s
+  PartVelocity rigid_;
+  double duration_;  // s
+};
+
+/// For the step from `from` to `until` (s), in which the part goes from `now` to `next`, and conveyors move its surface; empty if
+/// neither of them rotates.
+std::optional<ChordExcess> chord_excess(const PartPose& start, const PartPose& now, const PartPose& next,
+                                        std::span<const PartMotion> motions, double from, double until);
 
 }  // namespace falling_particles

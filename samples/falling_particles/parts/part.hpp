@@ -13,7 +13,9 @@
 namespace falling_particles {
 
 /// The half-space below the part's xy-plane.
-struct PlaneShape {};
+struct PlaneShape {
+  double shown_radius = 0;  ///< m, of the disc around the part's position that pictures show; 0: a square as wide as the scene
+};
 
 /// A solid box around the part's position.
 struct BoxShape {

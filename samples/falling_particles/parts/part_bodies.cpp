@@ -129,6 +129,7 @@ void PartBodies::before_step() {
     const std::span<const PartMotion> motions = entry.part->motions;
     entry.next = pose_at(entry.part->start, motions, then);
     entry.velocity = mean_velocity(entry.pose, entry.next, step_);
+    entry.excess = falling_particles::chord_excess(entry.part->start, entry.pose, entry.next, motions, now, then);
     PartVelocity surface = conveyor_velocity(entry.part->start, entry.pose, motions, now, then);
     surface.linear += entry.velocity.linear;
     surface.angular += entry.velocity.angular;
@@ -204,6 +205,13 @@ supernormal::effects::Side PartBodies::side_of(dGeomID geom, supernormal::effect
   const Entry& entry = entries_[found->second];
   const dBodyID body = entry.driven != nullptr && !entry.is_held ? entry.driven : entry.carrier;
   return {entry.material, entry.is_moving ? body : nullptr};
+}
+
+Vector3 PartBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const {
+  const auto found = index_of_.find(geom);
+  if (found == index_of_.end() || !entries_[found->second].excess) return Vector3::Zero();
+  const Entry& entry = entries_[found->second];
+  return entry.excess->at(centre - entry.pose.position, velocity);
 }
 
 PartState PartBodies::state(std::size_t index) const { return {entries_[index].part_pose(), entries_[index].part_velocity()}; }

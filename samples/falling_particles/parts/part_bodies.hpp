@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <optional>
 #include <span>
 #include <supernormal/effects.hpp>
 #include <unordered_map>
@@ -64,6 +65,10 @@ class PartBodies {
   /// The body of the part, 0 while it does not move, and its material; of any other geom its own body.
   supernormal::effects::Side side_of(dGeomID geom, supernormal::effects::Material otherwise) const;
 
+  /// m/s; what a grain at `centre` (m) with this velocity (m/s) needs at its contacts with the part in this step besides the
+  /// velocity of the part's body (ChordExcess); zero for a geom that is no part.
+  Vector3 chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const;
+
   const Part& part(std::size_t index) const { return *entries_[index].part; }
   std::size_t count() const { return entries_.size(); }
   PartState state(std::size_t index) const;
@@ -74,11 +79,12 @@ class PartBodies {
 
  private:
   struct Entry {
-    PartPose pose;               // of the carrier
-    PartPose next;               // of the carrier, after the step
-    PartVelocity velocity = {};  // of the carrier, in this step
-    double position = 0;         // m, of the driven body along its axis
-    double speed = 0;            // m/s
+    PartPose pose;                           // of the carrier
+    PartPose next;                           // of the carrier, after the step
+    PartVelocity velocity = {};              // of the carrier, in this step
+    std::optional<ChordExcess> excess = {};  // in this step
+    double position = 0;                     // m, of the driven body along its axis
+    double speed = 0;                        // m/s
     const Part* part = nullptr;
     dGeomID geom = nullptr;
     dBodyID carrier = nullptr;  // kinematic; null for a part that stands

@@ -12,7 +12,7 @@ namespace falling_particles {
 namespace {
 
 constexpr double kChordError = 0.01;    // of the smallest half-axis
-constexpr unsigned int kSegments = 64;  // of a cylinder
+constexpr unsigned int kSegments = 64;  // of a circle
 constexpr double kSharp = 0.87;         // cosine of 30 degrees between two triangles, above which their edge is not drawn
 
 std::array<float, 3> vertex(const Vector3& v) {
@@ -41,24 +41,27 @@ std::vector<Vector3> rectangle(double x, double y) {
   return {{-x / 2, -y / 2, 0}, {x / 2, -y / 2, 0}, {x / 2, y / 2, 0}, {-x / 2, y / 2, 0}};
 }
 
+std::vector<Vector3> circle(double radius) {
+  std::vector<Vector3> corners;
+  for (unsigned int i = 0; i < kSegments; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSegments;
+    corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  return corners;
+}
+
 struct Mesher {
   double extent;
 
-  Mesh operator()(const PlaneShape& /*plane*/) const {
+  Mesh operator()(const PlaneShape& plane) const {
     Mesh mesh;
-    for (const Vector3& corner : rectangle(extent, extent)) mesh.vertices.push_back(vertex(corner));
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const std::vector<Vector3> outline = plane.shown_radius > 0 ? circle(plane.shown_radius) : rectangle(extent, extent);
+    for (const Vector3& corner : outline) mesh.vertices.push_back(vertex(corner));
+    for (unsigned int i = 2; i < outline.size(); ++i) mesh.triangles.push_back({0, i - 1, i});
     return mesh;
   }
   Mesh operator()(const BoxShape& box) const { return prism(rectangle(box.size.x(), box.size.y()), box.size.z() / 2); }
-  Mesh operator()(const CylinderShape& cylinder) const {
-    std::vector<Vector3> ring;
-    for (unsigned int i = 0; i < kSegments; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kSegments;
-      ring.emplace_back(cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle), 0);
-    }
-    return prism(ring, cylinder.length / 2);
-  }
+  Mesh operator()(const CylinderShape& cylinder) const { return prism(circle(cylinder.radius), cylinder.length / 2); }
   Mesh operator()(const SmoothShape& body) const {
     const supernormal::Superovoid shape(body.half_axes, body.delta, body.epsilon, body.taper_x, body.taper_y);
     const supernormal::Tessellation found = supernormal::tessellate(shape, kChordError * body.half_axes.minCoeff());

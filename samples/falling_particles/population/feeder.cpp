@@ -21,9 +21,14 @@ double smallest_mass(const GrainCount& kind) { return std::pow(kind.smallest_sca
 
 std::string Quantity::in_words() const { return shortest(number) + (of == Of::Mass ? " kg" : " grains"); }
 
-double most_grains(const Feeder& feeder, const Scene& scene) {
+double lightest_grain(const Feeder& feeder, const Scene& scene) {
   double lightest = INFINITY;
   for (const FedKind& fed : feeder.mixture) lightest = std::min(lightest, smallest_mass(scene.grains[fed.kind]));
+  return lightest;
+}
+
+double most_grains(const Feeder& feeder, const Scene& scene) {
+  const double lightest = lightest_grain(feeder, scene);
   const double on = std::max(0.0, std::min(feeder.until, scene.time.duration) - feeder.from);
   double most = most_grains({feeder.rate.number * on, feeder.rate.of}, lightest);
   if (feeder.total) most = std::min(most, most_grains(*feeder.total, lightest));

@@ -64,6 +64,9 @@ struct Feeder {
   double patience = 1;                                     ///< s, for which the region may be too full for the rate
 };
 
+/// kg, of the grains that the feeder may bring.
+double lightest_grain(const Feeder& feeder, const Scene& scene);
+
 /// A number of grains that the feeder cannot reach within the duration of the scene.
 double most_grains(const Feeder& feeder, const Scene& scene);
 

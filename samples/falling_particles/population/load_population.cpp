@@ -87,6 +87,40 @@ std::vector<FedKind> read_mixture(const TomlTable& table, const Scene& scene) {
   return mixture;
 }
 
+/// A total that no grain fits in would feed nothing.
+void check_total(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
+  if (!feeder.total) return;
+  const double number = feeder.total->number;
+  if (feeder.total->of == Quantity::Of::Grains) {
+    if (number >= 1 && number == std::floor(number)) return;
+    table.fail("total_grains",
+               table.full_name("total_grains") + " is " + shortest(number) + "; allowed: a whole number of grains, at least 1");
+  }
+  const double least = lightest_grain(feeder, scene);
+  if (number >= least) return;
+  table.fail("total_kg", table.full_name("total_kg") + " is " + shortest(number) + "; allowed: at least " + rounded(least) +
+                             " kg, the mass of the lightest grain that it may feed");
+}
+
+/// All grains come into the container, or into a sink. The containers are convex, so that the outermost centres tell it.
+void check_inside(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
+  double least = INFINITY;  // m, of a centre from the region's sides
+  for (const FedKind& fed : feeder.mixture) {
+    const GrainCount& kind = scene.grains[fed.kind];
+    least = std::min(least, kind.smallest_scale() * kind.grain.bounding_radius());
+  }
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Point centre = feeder.region.corner;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      centre[axis] += ((corner >> axis) & 1U) != 0 ? feeder.region.size[axis] - least : least;
+    }
+    if (is_inside(scene, centre)) continue;
+    table.fail("corner", "feeder \"" + feeder.name + "\" would feed grains at [" + shortest(centre[0]) + ", " +
+                             shortest(centre[1]) + ", " + shortest(centre[2]) + "] m, which is outside the container (" +
+                             kind_of(scene.container) + ") and every sink; allowed: a region within them");
+  }
+}
+
 /// A grain is within the region in any attitude.
 void check_size(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
   for (const FedKind& fed : feeder.mixture) {
@@ -126,6 +160,7 @@ Feeder read_feeder(const TomlTable& table, const Scene& scene, std::set<std::str
   feeder.rate = read_quantity(table, "grains_per_second", "kg_per_second", "grains/s", "kg/s");
   if (table.has("total_grains") || table.has("total_kg"))
     feeder.total = read_quantity(table, "total_grains", "total_kg", "grains", "kg");
+  check_total(table, feeder, scene);
   std::tie(feeder.from, feeder.until) = read_times(table);
   if (table.has("velocity")) {
     feeder.velocity = to_point(read_vector(table, "velocity", Interval::closed(-kLargestSpeed, kLargestSpeed, "m/s")));
@@ -133,6 +168,7 @@ Feeder read_feeder(const TomlTable& table, const Scene& scene, std::set<std::str
   if (table.has("patience")) feeder.patience = table.number("patience", Interval::closed(0, 3600, "s"));
   check_size(table, feeder, scene);
   check_cell(table, feeder, scene);
+  check_inside(table, feeder, scene);
   return feeder;
 }
 

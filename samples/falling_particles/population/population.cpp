@@ -28,16 +28,16 @@ double Population::before_step(double end) { return take() + feed(end); }
 double Population::take() {
   double energy = 0;
   if (scene_.sinks.empty()) return energy;
-  for (std::size_t i = 0; i < world_.bodies().size(); ++i) {
-    const Body& body = world_.bodies()[i];
-    if (!body.is_present()) continue;
+  std::vector<std::size_t> inside;
+  for (const Body& body : world_.present()) {
     const auto contains = [&](const Sink& sink) { return sink.contains(world_.place_of(body)); };
     const auto sink = std::ranges::find_if(scene_.sinks, contains);
     if (sink == scene_.sinks.end()) continue;
     energy -= energy_of(body, scene_);
     taken_[static_cast<std::size_t>(sink - scene_.sinks.begin())][scene_.kind_of(*body.grain)].add(body.mass.mass);
-    world_.remove(i);
+    inside.push_back(world_.index_of(body));
   }
+  for (const std::size_t index : inside) world_.remove(index);
   return energy;
 }
 

@@ -42,9 +42,19 @@ struct PlacedPart {
   }
 
   /// m, how far the part reaches along an axis of the grain, on both sides.
-  std::pair<double, double> range(int axis) const {
-    const Vector3 e = pose.rotation.row(axis).transpose();
-    return {pose.position[axis] - shape->support(-e), pose.position[axis] + shape->support(e)};
+  std::pair<double, double> range(int axis) const { return ranges[static_cast<std::size_t>(axis)]; }
+  bool is_in_range(int axis, double x) const { return x >= range(axis).first && x <= range(axis).second; }
+
+  std::array<std::pair<double, double>, 3> ranges = find_ranges();
+
+ private:
+  std::array<std::pair<double, double>, 3> find_ranges() const {
+    std::array<std::pair<double, double>, 3> found;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 e = pose.rotation.row(axis).transpose();
+      found[static_cast<std::size_t>(axis)] = {pose.position[axis] - shape->support(-e), pose.position[axis] + shape->support(e)};
+    }
+    return found;
   }
 };
 
@@ -56,6 +66,7 @@ struct Stretch {
 
 /// Where the vertical through x and y is within a part.
 Stretch chord(const PlacedPart& part, double x, double y) {
+  if (!part.is_in_range(0, x) || !part.is_in_range(1, y)) return {};  // a ray would cost a hundred times as much
   const auto [bottom, top] = part.range(2);
   const double margin = top - bottom;
   const Vector3 below(x, y, bottom - margin);
@@ -106,6 +117,8 @@ void subtract_shared(const PlacedPart& part, const std::vector<PlacedPart>& earl
     for (int j = 0; j < kLines; ++j) {
       const double x = box[0].start + (i + 0.5) * dx;
       const double y = box[1].start + (j + 0.5) * dy;
+      const auto is_above = [&](const PlacedPart& other) { return other.is_in_range(0, x) && other.is_in_range(1, y); };
+      if (std::ranges::none_of(earlier, is_above)) continue;
       const Stretch own = chord(part, x, y);
       if (own.length() == 0) continue;
       std::vector<Stretch> others;

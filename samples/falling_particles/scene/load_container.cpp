@@ -103,13 +103,15 @@ void check_width(const TomlTable& table, const Scene& scene) {
 void check_ceiling(const TomlTable& table, const Scene& scene) {
   if (std::isinf(ceiling_of(scene.container))) return;
   Lattice lattice(scene);
-  for (int room = 0; room < scene.bodies(); ++room) {
-    try {
-      lattice.next();
-    } catch (const NoRoom&) {
-      table.fail("kind", "the scene has " + std::to_string(scene.bodies()) + " grains; allowed: up to " + std::to_string(room) +
-                             ", which find room in the container at the start");
+  int room = 0;
+  try {
+    for (const GrainCount& kind : scene.grains) {
+      const double radius = kind.grain.bounding_radius();
+      for (int i = 0; i < kind.count; ++i, ++room) lattice.next(kind.scale(static_cast<std::size_t>(i)) * radius);
     }
+  } catch (const NoRoom&) {
+    table.fail("kind", "the scene has " + std::to_string(scene.bodies()) + " grains; allowed: up to " + std::to_string(room) +
+                           ", which find room in the container at the start");
   }
 }
 
@@ -127,9 +129,7 @@ void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopp
     table.fail("diameter", "container.diameter is " + shortest(hopper.diameter) + "; allowed: at least " + shortest(narrowest) +
                                " m, so that the lattice of the grains' starts has a cell in it");
   }
-  Lattice lattice(scene);
-  for (int i = 0; i < scene.bodies(); ++i) lattice.next();
-  const double missing = lattice.top() - hopper.top();
+  const double missing = filled_lattice(scene).top() - hopper.top();
   if (missing <= 0) return;
   table.fail("cylinder_height", "container.cylinder_height is " + shortest(hopper.cylinder_height) + "; allowed: at least " +
                                     shortest(hopper.cylinder_height + missing) + " m, so that all grains start within the hopper");

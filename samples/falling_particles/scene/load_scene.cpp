@@ -243,8 +243,8 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
   add_part_effects(scene.parts, scene.effects);
   scene.compression = read_compression(root, scene);
-  scene.feeders = load_feeders(root, scene);
   scene.sinks = load_sinks(root, scene);
+  scene.feeders = load_feeders(root, scene);
   scene.measurements = load_measurements(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
   read_output(root, scene);

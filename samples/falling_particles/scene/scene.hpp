@@ -30,7 +30,7 @@ struct GrainCount {
   double largest_scale() const;
 };
 
-/// The start of the grains: on a lattice whose cells hold the largest grain in any attitude.
+/// The start of the grains: on a lattice whose cells hold the largest grain in any orientation, or smaller ones (lattice.hpp).
 struct Drop {
   double height;  ///< m, of the lowest cells above the floor, a hopper's outlet or a terrain's highest peak
   double gap;     ///< free part of a cell, relative to the largest grain; the grains are placed at random within it

@@ -45,6 +45,7 @@ class ContactJoints {
 
   void attach(std::span<const dContactGeom> pair, bool measures);
   Side side_of(dGeomID geom) const;
+  void follow_chords(std::span<dContact> contacts, const Side& side1, const Side& side2) const;
   void measure(dJointID joint, const dContact& contact, bool is_reversed);
 
   const World& world_;

@@ -127,9 +127,7 @@ void PeriodicCell::share_mass(const Body& body, Family& family, unsigned size) {
 }
 
 void PeriodicCell::place_images() {
-  for (std::size_t i = 0; i < families_.size(); ++i) {
-    const Body& body = world_.bodies()[i];
-    if (!body.is_present()) continue;
+  for (const Body& body : world_.present()) {
     const std::array<dReal, 6> aabb = body.aabb();
     const dReal* p = dBodyGetPosition(body.body);
     unsigned sticks_out = 0;
@@ -147,7 +145,7 @@ void PeriodicCell::place_images() {
       if (aabb[2 * axis + 1] - shift > period.upper()) sticks_out |= 1U << axis;
     }
     dBodySetPosition(body.body, inside[0], inside[1], inside[2]);
-    Family& family = families_[i];
+    Family& family = families_[world_.index_of(body)];
     const bool changed = sticks_out != family.shown;
     family.shown = sticks_out;
     for (unsigned mask = 1; mask < kMasks; ++mask) {
@@ -162,10 +160,10 @@ void PeriodicCell::place_images() {
 }
 
 void PeriodicCell::gather() {
-  for (std::size_t i = 0; i < families_.size(); ++i) {
-    const Family& family = families_[i];
+  for (const Body& each : world_.present()) {
+    const Family& family = families_[world_.index_of(each)];
     if (family.size == 1) continue;
-    dBodyID grain = world_.bodies()[i].body;
+    dBodyID grain = each.body;
     std::array<double, 3> position{};
     std::array<double, 3> velocity{};
     std::array<double, 3> spin{};

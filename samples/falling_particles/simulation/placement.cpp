@@ -34,16 +34,17 @@ std::vector<Placement> scatter(const Scene& scene, double side, Random& random) 
 std::vector<Placement> place(const Scene& scene, Random& random) {
   if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) return scatter(scene, periodic->side, random);
   Lattice lattice(scene);
+  std::vector<double> radii;  // m, by kind
+  for (const GrainCount& kind : scene.grains) radii.push_back(kind.grain.bounding_radius());
   std::vector<Placement> placements = shuffled_grains(scene, random);
   for (Placement& placement : placements) {
-    const std::array<std::size_t, 3> index = lattice.next();
     // A grain may stand anywhere in its cell as long as its own bounding sphere is inside.
-    const double own_radius = placement.scale * scene.grains[placement.kind].grain.bounding_radius();
+    const double own_radius = placement.scale * radii[placement.kind];
+    const Lattice::Cell cell = lattice.next(own_radius);
     placement.position = lattice.corner();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double size = lattice.cell()[axis];
-      const double room = std::max(0.0, size - 2 * own_radius);
-      placement.position[axis] += static_cast<double>(index[axis]) * size + own_radius + room * random.uniform();
+      const double room = std::max(0.0, cell.size[axis] - 2 * own_radius);
+      placement.position[axis] += cell.offset[axis] + own_radius + room * random.uniform();
     }
     placement.quaternion = random.rotation();
   }

@@ -211,10 +211,12 @@ void World::remove(std::size_t index) {
   dBodyDestroy(entry.body);
   entry.geom = nullptr;
   entry.body = nullptr;
+  present_.erase(std::ranges::lower_bound(present_, index));
 }
 
 void World::add_body(const Placement& placement) {
   const Grain& grain = scene_.grains[placement.kind].grain;
+  present_.push_back(bodies_.size());
   // bodies_ is reserved: entries stay where they are, and geoms point to them.
   Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), nullptr, &grain, {}, placement.scale});
   entry.geom = attach_geoms(sweep_->id(), grain, entry.scale, entry.body, &entry);

@@ -46,34 +46,32 @@ struct Body {
   }
 };
 
-/// Those of a list of bodies that are there.
+/// Those of a list of bodies that are there, in its order. A grain that is gone costs nothing.
 class PresentBodies {
  public:
   class Iterator {
    public:
-    Iterator(const Body* body, const Body* end) : body_(body), end_(end) { skip(); }
-    const Body& operator*() const { return *body_; }
+    Iterator(const Body* bodies, const std::size_t* index) : bodies_(bodies), index_(index) {}
+    const Body& operator*() const { return bodies_[*index_]; }
     Iterator& operator++() {
-      ++body_;
-      skip();
+      ++index_;
       return *this;
     }
-    bool operator==(const Iterator& other) const { return body_ == other.body_; }
+    bool operator==(const Iterator& other) const { return index_ == other.index_; }
 
    private:
-    void skip() {
-      while (body_ != end_ && !body_->is_present()) ++body_;
-    }
-    const Body* body_;
-    const Body* end_;
+    const Body* bodies_;
+    const std::size_t* index_;
   };
 
-  explicit PresentBodies(std::span<const Body> bodies) : bodies_(bodies) {}
-  Iterator begin() const { return {bodies_.data(), bodies_.data() + bodies_.size()}; }
-  Iterator end() const { return {bodies_.data() + bodies_.size(), bodies_.data() + bodies_.size()}; }
+  PresentBodies(const Body* bodies, std::span<const std::size_t> indices) : bodies_(bodies), indices_(indices) {}
+  Iterator begin() const { return {bodies_, indices_.data()}; }
+  Iterator end() const { return {bodies_, indices_.data() + indices_.size()}; }
+  std::size_t size() const { return indices_.size(); }
 
  private:
-  std::span<const Body> bodies_;
+  const Body* bodies_;
+  std::span<const std::size_t> indices_;
 };
 
 /// The body of a geom in a World; null for a wall.
@@ -116,7 +114,7 @@ class World {
   /// All that there have been so far, those that are gone included.
   const std::vector<Body>& bodies() const { return bodies_; }
   /// Those of bodies() that are there.
-  PresentBodies present() const { return PresentBodies(bodies_); }
+  PresentBodies present() const { return {bodies_.data(), present_}; }
   /// Calls visit(geom) for the geoms of all grains that are there, and of their images in a periodic world.
   template <typename Visit>
   void for_each_grain_geom(const Visit& visit) const {
@@ -167,6 +165,7 @@ class World {
   std::unique_ptr<SweepSpace> sweep_;
   std::unique_ptr<supernormal::effects::Effects> effects_;
   std::vector<Body> bodies_;
+  std::vector<std::size_t> present_;  // indices of the bodies that are there, in order
   std::optional<Walls> walls_;
   std::unique_ptr<PeriodicCell> cell_;
   std::unique_ptr<PartBodies> parts_;

@@ -62,8 +62,25 @@ def check_restart(driver):
         yield f"drum on {ranks} ranks: restarted run differs", 0 if same else 1, 0
 
 
+def check_time(driver):
+    """A moving wall is where the time says, whatever becomes of LAMMPS' step and of its counter of steps."""
+
+    def farthest(tables, before=0.0):
+        touching = [row for table in tables for row in table if row["f_wall[7]"] > 0]
+        assert len(touching) >= 4
+        return max(abs(row["v_is"] - row["v_right"] - before) for row in touching)
+
+    for change in ("none", "timestep", "counter", "adaptive"):
+        tables = driver.run("moving_wall", 1, change=change, out=f"{change}.restart")
+        yield f"moving wall, {change}: distance from its place, m", farthest(tables), 1e-12
+    tables = driver.run("moving_wall_again", 1, **{"from": "none.restart"})
+    # LAMMPS' own time starts again at 0, after 8000 steps of 1e-5 s at 0.1 m/s.
+    yield "moving wall, restart with another step: distance from its place, m", farthest(tables, 0.008), 1e-12
+
+
 def check(driver):
     """Yields the name, the value and the limit of each comparison."""
     yield from check_weight(driver)
+    yield from check_time(driver)
     yield from check_drum(driver)
     yield from check_restart(driver)

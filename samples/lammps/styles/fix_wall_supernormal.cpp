@@ -1,5 +1,6 @@
 #include "styles/fix_wall_supernormal.hpp"
 
+#include <cstring>
 #include <exception>
 #include <string>
 
@@ -14,7 +15,7 @@ namespace granular {
 using namespace LAMMPS_NS;
 
 FixWallSupernormal::FixWallSupernormal(LAMMPS* lammps, int count, char** words)
-    : Fix(lammps, count, words), first_step_(lammps->update->ntimestep) {
+    : Fix(lammps, count, words), first_counter_(lammps->update->ntimestep) {
   try {
     command_ = read_wall_command(Words({words + 3, words + count}, lammps));
   } catch (const std::exception& refusal) {
@@ -42,14 +43,23 @@ int FixWallSupernormal::setmask() { return FixConst::POST_FORCE; }
 
 void FixWallSupernormal::init() { bodies_ = &PairSupernormal::require(lmp, "fix wall/supernormal").bodies(); }
 
+// A run goes on where the wall is. The snapshots of a `rerun` follow from no step: there the counter tells the time.
+void FixWallSupernormal::setup(int vflag) {
+  const bool is_run = update->ntimestep == update->firststep && update->laststep - update->firststep == update->nsteps;
+  if (!is_run) clock_ = Clock({0, static_cast<double>(update->ntimestep - first_counter_), update->dt});
+  post_force(vflag);
+}
+
 Body FixWallSupernormal::wall_body(double step) const {
   using namespace falling_particles;
   const PartPose start{command_.anchor, Eigen::Quaterniond::Identity()};
-  const double time = static_cast<double>(update->ntimestep - first_step_) * update->dt, before = time - step;
+  const double time = clock_.now(), before = time - step, after = time + step;
   const PartPose now = pose_at(start, command_.motions, time);
-  // The mean velocity of the last step is what positions, and so springs, have changed by.
-  const PartVelocity moved = mean_velocity(pose_at(start, command_.motions, before), now, step);
-  const PartVelocity belt = conveyor_velocity(start, now, command_.motions, before, time);
+  // Springs grow by the velocity of this moment, which is the particles' too. The mean of the steps before and after it adds up to
+  // the wall's displacement and, unlike that of one of them, has no component away from the axis of a rotation.
+  const PartVelocity moved =
+      mean_velocity(pose_at(start, command_.motions, before), pose_at(start, command_.motions, after), after - before);
+  const PartVelocity belt = conveyor_velocity(start, now, command_.motions, before, after);
   Body body;
   body.pose = {now.position, now.rotation.toRotationMatrix()};
   body.velocity = moved.linear + belt.linear;
@@ -59,8 +69,9 @@ Body FixWallSupernormal::wall_body(double step) const {
 
 void FixWallSupernormal::post_force(int /*vflag*/) {
   sums_.fill(0);
-  const Body wall = wall_body(update->dt);
   const double step = update->setupflag != 0 ? 0 : update->dt;
+  if (step > 0) clock_.advance(step);
+  const Body wall = wall_body(update->dt);
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     const WallForce found =
@@ -124,12 +135,16 @@ int FixWallSupernormal::maxsize_restart() { return 2 + WallHistory::kMost * Cont
 
 void FixWallSupernormal::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  const auto step = static_cast<double>(first_step_);
-  const int bytes = sizeof(step);
+  const Clock::State state = clock_.state();
+  const int bytes = sizeof(state);
   fwrite(&bytes, sizeof(bytes), 1, file);
-  fwrite(&step, sizeof(step), 1, file);
+  fwrite(&state, sizeof(state), 1, file);
 }
 
-void FixWallSupernormal::restart(char* buffer) { first_step_ = static_cast<bigint>(*reinterpret_cast<const double*>(buffer)); }
+void FixWallSupernormal::restart(char* buffer) {
+  Clock::State state;
+  std::memcpy(&state, buffer, sizeof(state));
+  clock_ = Clock(state);
+}
 
 }  // namespace granular

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fix.h"
+#include "kernel/clock.hpp"
 #include "kernel/walls/wall_contacts.hpp"
 #include "styles/body_table.hpp"
 #include "styles/wall_command.hpp"
@@ -20,7 +21,7 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
 
   int setmask() override;
   void init() override;
-  void setup(int vflag) override { post_force(vflag); }
+  void setup(int vflag) override;
   void post_force(int vflag) override;
   double compute_scalar() override { return total(0); }
   double compute_vector(int index) override { return total(index + 1); }
@@ -47,7 +48,8 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
 
   WallCommand command_;
   BodyTable* bodies_ = nullptr;
-  LAMMPS_NS::bigint first_step_;  // when the motions start
+  Clock clock_;                      // of the motions, since the fix was made
+  LAMMPS_NS::bigint first_counter_;  // LAMMPS' counter of steps when the fix was made
   std::vector<WallHistory> histories_;
   std::vector<WallContact> scratch_;
   std::array<double, kSums> sums_{}, totals_{};  // of this rank, of all

@@ -167,6 +167,10 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
   folder.write("grains.toml", kCatalogueText);
   folder.write("t.stl", kTetrahedron);
   folder.write("broken.stl", "");
+  folder.write("nan.stl", replaced(kTetrahedron, "endfacet\nendsolid t",
+                                   "endfacet\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\n"
+                                   "vertex 1 nan 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t"));
+  folder.write("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 2 1 3\n");
   folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   folder.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const auto load = [&](const std::string& file, const std::string& unit) {
@@ -199,6 +203,8 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
   check_says(refusal("none.stl", "mm"), {"part.file", "there is no file", "none.stl"});
   check_says(refusal("points.obj", "mm"), {"part.file", "points.obj"});
   check_says(refusal("broken.stl", "mm"), {"part.file", "broken.stl", "cannot be read"});
+  check_says(refusal("nan.stl", "mm"), {"part.file", "nan.stl\" has a coordinate that is not finite"});
+  check_says(refusal("twice.obj", "m"), {"part.file: \"twice.obj\" has 1 triangles with their corners in both orders"});
   check_says(refusal("t.step", "mm"), {"part.file is \"t.step\"", ".stl or .obj"});
   check_says(refusal("t.stl", "ft"), {"part.unit is \"ft\"", "inch"});
 }

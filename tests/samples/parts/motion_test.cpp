@@ -61,6 +61,32 @@ TEST_CASE("a displacement carries the axis of a rotation, and an earlier rotatio
   CHECK((end.rotation * Vector3::UnitY() - Vector3::UnitZ()).norm() < 1e-15);
 }
 
+TEST_CASE("a grain that rides on a part gets the velocity of its chord, and one that stands that of the wall where it is") {
+  const PartPose start{{0.3, 0.2, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(2.5, Vector3(1, 2, 3).normalized()))};
+  const std::vector<PartMotion> motions = busy();
+  for (const double step : {1e-5, 1e-3, 0.05}) {
+    for (const double time : {0.1, 0.8, 3.0}) {
+      CAPTURE(step);
+      CAPTURE(time);
+      const PartPose now = pose_at(start, motions, time);
+      const PartPose next = pose_at(start, motions, time + step);
+      const PartVelocity rigid = mean_velocity(now, next, step);
+      const auto excess = chord_excess(start, now, next, motions, time, time + step);
+      REQUIRE(excess);
+      const Vector3 point(0.5, -0.4, 0.3);  // of the part
+      const Vector3 lever = now(point) - now.position;
+      const Vector3 chord = (next(point) - now(point)) / step;
+      const Vector3 ridden = now.rotation * next.rotation.conjugate() * chord;  // what the last step has left, if motions last
+      CHECK((rigid.linear + rigid.angular.cross(lever) + excess->at(lever, ridden) - chord).norm() < 1e-15 / step + 1e-13);
+      const double turned = step * rigid.angular.norm();
+      CHECK(excess->at(lever, Vector3::Zero()).norm() <
+            1e-15 / step + 0.2 * turned * turned * chord.norm() + turned * rigid.linear.norm());
+    }
+  }
+  const std::vector<PartMotion> straight = {{Translation{{0.1, 0, 0.2}}}, {Vibration{{0, 0, 0.01}, 25, 0.3}}};
+  CHECK(!chord_excess(start, pose_at(start, straight, 0.1), pose_at(start, straight, 0.2), straight, 0.1, 0.2));
+}
+
 TEST_CASE("the mean velocity of a step leads from pose to pose") {
   const PartPose start{{0.3, 0.2, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(2.5, Vector3(1, 2, 3).normalized()))};
   const std::vector<PartMotion> motions = busy();

@@ -3,9 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <vector>
+
+#include "parts/container_parts.hpp"
 
 using namespace falling_particles;
 
@@ -66,5 +70,16 @@ TEST_CASE("the picture of a part that stands is where it stands, and that of a p
   for (const auto& vertex : picture.mesh.vertices) {
     CHECK(std::abs(vertex[0]) < 1e-7F);
     CHECK(std::abs(vertex[2] - 2) == doctest::Approx(0.2).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the ends of a drum are shown as discs as wide as the drum") {
+  const Drum drum{.diameter = 0.2, .length = 0.1, .segments = 24, .rpm = 10, .is_smooth = false, .turns_at = 0};
+  const std::vector<Part> parts = parts_in(drum);
+  for (const std::size_t end : {1U, 2U}) {
+    const ContainerPart picture = picture_of(parts[end], 0.7);
+    double radius = 0;
+    for (const auto& [x, y, z] : picture.mesh.vertices) radius = std::max(radius, Vector3(x, y, z).norm());
+    CHECK(radius == doctest::Approx(drum.outer_radius()).epsilon(1e-6));
   }
 }

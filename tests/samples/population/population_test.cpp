@@ -284,6 +284,12 @@ size = [0.05, 0.06, 0.01]
   CHECK(!scene.sinks[0].contains({0.01, 0.01, 0.015}));
   const std::vector<Mistake> mistakes = {
       {"grains_per_second = 100\n", "", {"feeder.grains_per_second and feeder.kg_per_second are missing", "one of them"}},
+      {"total_kg = 0.5", "total_grains = 0.5", {"feeder.total_grains is 0.5; allowed: a whole number of grains, at least 1"}},
+      {"total_kg = 0.5", "total_grains = 2.5", {"feeder.total_grains is 2.5; allowed: a whole number"}},
+      {"total_kg = 0.5", "total_kg = 1e-6", {"feeder.total_kg is 1e-06; allowed: at least 0.000136 kg", "lightest grain"}},
+      {"size = [0.03, 0.04, 0.03]",
+       "size = [0.13, 0.04, 0.03]",
+       {"feeder \"spout\" would feed grains at [", "outside the container (box)"}},
       {"total_kg = 0.5", "total_kg = 0.5\ntotal_grains = 5", {"are both given", "one of them"}},
       {"grains_per_second = 100", "grains_per_second = -1", {"feeder.grains_per_second is -1;", "grains/s"}},
       {"grains_per_second = 100\ntotal_kg = 0.5",

@@ -267,7 +267,8 @@ class Page {
       if (markNames.includes(name as MarkName)) this.toggle(name as MarkName, true);
     }
     if (parameters.has("container")) this.showContainer(parameters.get("container") !== "0");
-    if (parameters.has("t")) this.player.seek(Number(parameters.get("t")));
+    const time = Number(parameters.get("t") || NaN);
+    if (Number.isFinite(time)) this.player.seek(time);
     const body = Number(parameters.get("pick") ?? -1);
     if (body >= 0 && body < this.run.bodies) this.pick(body);
     const [azimuth, elevation, zoom = 1] = (parameters.get("camera") ?? "").split(",").map(Number);

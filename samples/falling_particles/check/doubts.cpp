@@ -1,0 +1,221 @@
+#include "check/doubts.hpp"
+
+#include <supernormal/supernormal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+
+#include "parts/part_mesh.hpp"
+#include "scene/input_error.hpp"
+#include "scene/interval.hpp"
+#include "simulation/lattice.hpp"
+#include "simulation/world.hpp"
+
+namespace falling_particles {
+namespace {
+
+struct SurfacePoint {
+  Vector3 position;  // m
+  Vector3 normal;
+};
+
+/// The corners of the triangles that show a part, where it starts.
+std::vector<SurfacePoint> surface_of(const Part& part, double extent) {
+  const Mesh mesh = picture_of(part, extent).mesh;
+  const auto corner = [&](unsigned int index) {
+    const auto& [x, y, z] = mesh.vertices[index];
+    return part.moves() ? part.start(Vector3(x, y, z)) : Vector3(x, y, z);
+  };
+  std::vector<SurfacePoint> points;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3 normal = (corner(b) - corner(a)).cross(corner(c) - corner(a)).normalized();
+    for (const unsigned int index : {a, b, c}) points.push_back({corner(index), normal});
+  }
+  return points;
+}
+
+/// m/s, largest at any time.
+double normal_speed(const PartMotion& motion, const SurfacePoint& point, bool turns) {
+  const auto along = [&](const Vector3& velocity) { return turns ? velocity.norm() : std::abs(point.normal.dot(velocity)); };
+  if (const auto* translation = std::get_if<Translation>(&motion.kind)) return along(translation->velocity);
+  if (const auto* vibration = std::get_if<Vibration>(&motion.kind)) {
+    return along(2 * std::numbers::pi * vibration->frequency * vibration->amplitude);
+  }
+  if (const auto* rotation = std::get_if<Rotation>(&motion.kind)) {
+    const Vector3 spin = 2 * std::numbers::pi / 60 * rotation->rpm * rotation->axis;
+    return std::abs(point.normal.dot(spin.cross(point.position - rotation->point)));
+  }
+  return 0;  // a conveyor stands
+}
+
+/// m, the way of a driven part in its first step, from rest and against nothing.
+double first_way_of(const Drive& drive, double step) {
+  return step * step * std::abs(drive.force) / (drive.mass + step * drive.damping);
+}
+
+std::string in_half_axes(double way, const Scene& scene) {
+  return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + shortest(scene.smallest_half_axis()) + " m)";
+}
+
+std::string moves_too_far(const std::string& who, double way, const Scene& scene) {
+  return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
+}
+
+/// How many grains of the start are above the back of each part that is a mesh, with nothing in between.
+std::map<std::size_t, std::size_t> count_above_backs(const World& world, const Vector3& down) {
+  std::map<std::size_t, std::size_t> counts;
+  const std::vector<dGeomID>& parts = world.parts()->geoms();
+  std::vector<dGeomID> solids = world.walls().geoms();
+  solids.insert(solids.end(), parts.begin(), parts.end());
+  const std::unique_ptr<dxGeom, decltype(&dGeomDestroy)> ray(dCreateRay(nullptr, kLargestLength), dGeomDestroy);
+  dGeomRaySetClosestHit(ray.get(), 1);
+  for (const Body& body : world.present()) {
+    const Point p = body.position();
+    dGeomRaySet(ray.get(), p[0], p[1], p[2], down.x(), down.y(), down.z());
+    dContactGeom nearest{};
+    nearest.depth = INFINITY;
+    for (const dGeomID solid : solids) {
+      dContactGeom hit;
+      if (dCollide(solid, ray.get(), 1, &hit, sizeof hit) > 0 && hit.depth < nearest.depth) nearest = hit;
+    }
+    const auto found = std::ranges::find(parts, nearest.g1);
+    if (found == parts.end()) continue;
+    const Part& part = world.parts()->part(static_cast<std::size_t>(found - parts.begin()));
+    const auto* mesh = std::get_if<MeshShape>(&part.shape);
+    if (mesh == nullptr || nearest.side1 < 0) continue;
+    const auto& [a, b, c] = mesh->triangles[static_cast<std::size_t>(nearest.side1)];
+    const auto corner = [&](unsigned int i) { return Vector3(mesh->vertices[i][0], mesh->vertices[i][1], mesh->vertices[i][2]); };
+    const Vector3 normal = part.start.rotation * (corner(b) - corner(a)).cross(corner(c) - corner(a));
+    if (normal.dot(down) > 0) ++counts[static_cast<std::size_t>(found - parts.begin())];
+  }
+  return counts;
+}
+
+/// At most a thousand grains of the start, as they start.
+World world_at_start(const Scene& scene, bool all) {
+  Random random(scene.seed);
+  std::vector<Placement> placements = place(scene, random);
+  constexpr std::size_t kEnough = 1000;
+  if (!all && placements.size() > kEnough) placements.resize(kEnough);  // they are in random order
+  return {scene, placements};
+}
+
+void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
+  const std::optional<Fall> fall = fall_from_start(scene);
+  if (!fall || fall->way <= scene.smallest_half_axis()) return;
+  doubts.push_back("the start is " + rounded(fall->height) + " m high, and " +
+                   moves_too_far("without drag its last grains fall with " + rounded(fall->speed) + " m/s,", fall->way, scene) +
+                   "a container with a larger plan, feeders, or time.step up to " +
+                   rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
+}
+
+void add_parts(const Scene& scene, std::vector<std::string>& doubts) {
+  const double size = scene.smallest_half_axis();
+  for (const Part& part : scene.parts) {
+    const double way = normal_way_of(part, scene);
+    if (way > size) {
+      doubts.push_back(moves_too_far("part \"" + part.name + "\" moves", way, scene) + "time.step up to " +
+                       rounded(scene.time.step * size / way) + " s would do");
+    }
+    if (!part.drive) continue;
+    const double first = first_way_of(*part.drive, scene.time.step);
+    if (first > size) {
+      doubts.push_back(moves_too_far("part \"" + part.name + "\" is driven", first, scene) + "part.drive.mass from " +
+                       rounded(part.drive->mass * first / size) + " kg on would do");
+    }
+  }
+}
+
+void add_backs(const Scene& scene, std::vector<std::string>& doubts) {
+  const auto is_mesh = [](const Part& part) { return std::holds_alternative<MeshShape>(part.shape); };
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || scene.bodies() == 0 || std::ranges::none_of(scene.parts, is_mesh)) return;
+  const World world = world_at_start(scene, false);
+  const Vector3 down = gravity->acceleration.normalized();
+  for (const auto& [part, count] : count_above_backs(world, down)) {
+    doubts.push_back("part \"" + scene.parts[part].name + "\": " + std::to_string(count) + " of " +
+                     std::to_string(world.present().size()) +
+                     " grains start above the back of a triangle, which does not hold them: a triangle is solid behind, and holds "
+                     "what sees its corners anticlockwise; turn its corners around");
+  }
+}
+
+void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
+  for (const Feeder& feeder : scene.feeders) {
+    const double speed = std::hypot(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
+    const double way = speed * scene.time.step;
+    if (way > scene.smallest_half_axis()) {
+      doubts.push_back(moves_too_far("grains of feeder \"" + feeder.name + "\" move", way, scene) + "time.step up to " +
+                       rounded(scene.smallest_half_axis() / speed) + " s would do");
+    }
+    const double on = std::min(feeder.until, scene.time.duration) - feeder.from;
+    const double least = feeder.rate.of == Quantity::Of::Mass ? lightest_grain(feeder, scene) : 1;
+    if (!(feeder.rate.number * on >= least)) {
+      doubts.push_back("feeder \"" + feeder.name + "\" feeds nothing: no grain is due until it ends, or the run; a rate above " +
+                       feeder.rate.in_words() + "/s, or a longer time would do");
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Fall> fall_from_start(const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || scene.bodies() == 0 || std::holds_alternative<Periodic>(scene.container)) return std::nullopt;
+  const double height = filled_lattice(scene).top() - lowest_start(scene.container);
+  const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
+  return Fall{height, speed, speed * scene.time.step};
+}
+
+double normal_way_of(const Part& part, const Scene& scene) {
+  const auto turns = [](const PartMotion& motion) { return std::holds_alternative<Rotation>(motion.kind); };
+  if (part.motions.empty()) return 0;
+  const bool any_turns = std::ranges::any_of(part.motions, turns);
+  const Rectangle plan = plan_of(scene.container);
+  double farthest = 0;
+  for (const SurfacePoint& point : surface_of(part, std::hypot(plan.width[0], plan.width[1]))) {
+    double speed = 0;
+    for (const PartMotion& motion : part.motions) speed += normal_speed(motion, point, any_turns);
+    farthest = std::max(farthest, scene.time.step * speed);
+  }
+  return farthest;
+}
+
+std::vector<std::string> doubts_about(const Scene& scene) {
+  std::vector<std::string> doubts;
+  add_fall(scene, doubts);
+  add_parts(scene, doubts);
+  add_feeders(scene, doubts);
+  add_backs(scene, doubts);
+  return doubts;
+}
+
+void refuse_overlapping_start(const Scene& scene) {
+  if (scene.parts.empty() || scene.bodies() == 0) return;
+  const World world = world_at_start(scene, true);
+  std::vector<std::pair<dGeomID, dGeomID>> pairs;
+  world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
+    static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
+  });
+  const std::vector<dGeomID>& parts = world.parts()->geoms();
+  for (const auto& [grain, wall] : pairs) {
+    const auto found = std::ranges::find(parts, wall);
+    if (found == parts.end()) continue;
+    snProximity proximity;
+    if (snGeomProximity(grain, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
+    const Body& body = *body_of(grain);
+    constexpr double kRounding = 1e-6;  // of the smallest half-axis
+    if (!(proximity.gap < -kRounding * body.smallest_half_axis())) continue;
+    const auto [x, y, z] = body.position();
+    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(body)) + " (" + body.grain->name +
+                     ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
+                     " m deep in part \"" + scene.parts[static_cast<std::size_t>(found - parts.begin())].name +
+                     "\"; allowed: parts that leave the start of the grains free");
+  }
+}
+
+}  // namespace falling_particles
