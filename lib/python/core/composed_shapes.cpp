@@ -10,6 +10,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "interpreter_lock.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/linear_image.hpp"
 #include "supernormal/shapes/minkowski_sum.hpp"
@@ -52,14 +53,20 @@ class PythonFunction {
  public:
   PythonFunction(const char* name, py::function function)
       : name_(name), function_(new py::function(std::move(function)), [](py::function* last) {
-          const py::gil_scoped_acquire lock;
+          const HoldingTheLock lock;
           delete last;
         }) {}
 
   /// Calls it with a unit vector (3,), and reads `count` numbers of the result, in the order of the array.
   template <std::size_t kCount>
   std::array<double, kCount> call(const Vector3& n) const {
-    const py::gil_scoped_acquire lock;
+    const HoldingTheLock lock;
+    return outlive_the_interpreter([&] { return call_locked<kCount>(n); });
+  }
+
+ private:
+  template <std::size_t kCount>
+  std::array<double, kCount> call_locked(const Vector3& n) const {
     py::array_t<double> direction(py::ssize_t{3});
     std::copy(n.data(), n.data() + 3, direction.mutable_data());
     const py::object result = (*function_)(direction);
@@ -75,7 +82,6 @@ class PythonFunction {
     return out;
   }
 
- private:
   const char* name_;
   std::shared_ptr<py::function> function_;
 };

@@ -9,6 +9,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
+#include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
 #include "shapes/validation.hpp"
 #include "supernormal/proximity/plane.hpp"
@@ -29,7 +30,7 @@ Proximity require_answer(const Proximity& result) {
 Proximity proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
                     const std::optional<Vector3>& first_normal) {
   const Vector3 first = first_normal ? require_direction({"first_normal"}, *first_normal) : Vector3::UnitX();
-  const py::gil_scoped_release unlocked;
+  const WithoutTheLock unlocked;
   return require_answer(find_proximity(shape1, pose1, shape2, pose2, settings, first_normal ? &first : nullptr));
 }
 

@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
+#include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
 #include "shapes/validation.hpp"
 #include "supernormal/raycast/ray.hpp"
@@ -20,7 +21,7 @@ RayHit ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, cons
                const Settings& settings) {
   require_place({"origin"}, origin);
   const Vector3 along = require_direction({"direction"}, direction);
-  const py::gil_scoped_release unlocked;
+  const WithoutTheLock unlocked;
   const RayHit result = find_ray_hit(shape, pose, origin, along, length, settings);
   if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
   return result;
