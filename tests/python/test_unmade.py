@@ -14,7 +14,8 @@ CLASSES = [value for value in (getattr(sn, name) for name in sn.__all__) if insp
 @pytest.mark.parametrize("kind", CLASSES, ids=[kind.__name__ for kind in CLASSES])
 def test_an_object_of_new_alone(kind):
     properties = [name for name in dir(kind) if isinstance(inspect.getattr_static(kind, name), property)]
-    for use in [repr, *(operator.attrgetter(name) for name in properties)]:
+    uses = [operator.attrgetter(name) for name in properties] + ([] if kind is sn.Shape else [repr])
+    for use in uses:
         with pytest.raises(TypeError, match=re.escape("before its __init__() was called")):
             use(kind.__new__(kind))
 

@@ -164,7 +164,7 @@ class _Geom(_pyode.GeomObject, metaclass=_Made):  # type: ignore[misc]  # PyODE 
 
 def _to_mass(parameters: Tuple[float, Vector, Tuple[float, ...]], off_centre: bool) -> Any:
     mass, centre, inertia = parameters
-    if not off_centre and max(map(abs, centre)) > _CENTRED:
+    if not off_centre and any(abs(x) > _CENTRED for x in centre):
         raise ValueError(
             f"the centre of mass is at {centre} m in the geom's frame, and ode.Body.setMass() ends the program unless it is at the "
             "origin: call setBodyAndMass(body, density), which gives the geom an offset, or getMass(density, offCentre=True)"
