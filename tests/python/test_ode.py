@@ -298,6 +298,25 @@ def test_a_collider_says_why_it_makes_no_contact():
     assert "out of order" in so.lastError()
 
 
+BROKEN = [(float("nan"), 0, 0), (0, float("inf"), 0), (0, 0, 1e200)]
+
+
+@pytest.mark.parametrize("place", BROKEN, ids=str)
+def test_a_pose_that_cannot_be_computed_with(place):
+    geom = so.Superellipsoid(None, (1, 2, 3), 3, 3)
+    others = [so.Ellipsoid(), pyode.GeomSphere(None, 1), pyode.GeomBox(None, (1, 1, 1)), pyode.GeomRay(None, 9), pyode.GeomCapsule(None, 1, 1)]
+    for broken, other in [(geom, other) for other in others] + [(other, geom) for other in others[:3]]:
+        for at in (geom, *others):
+            at.setPosition((0, 0, 0))
+        broken.setPosition(place)
+        with pytest.raises(ValueError):
+            geom.setRounding(-1)  # another message
+        assert pyode.collide(broken, other) == []
+        assert so.lastError().startswith("dCollide: the pose of ") and "position = (" in so.lastError()
+    geom.setPosition((float("nan"), 0, 0))
+    assert pyode.collide(geom, pyode.GeomPlane(None, (0, 0, 1), 0)) == [] and "position = (nan, 0, 0) m" in so.lastError()
+
+
 def test_wrong_types():
     with pytest.raises(TypeError, match="must be a supernormal.Shape"):
         so.Convex(pyode.SimpleSpace())
