@@ -31,6 +31,8 @@ auto outlive_the_interpreter(const Work& work) {
 class HoldingTheLock {
  public:
   HoldingTheLock() {
+    // Where a thread has no state yet, pybind11 makes one in an interpreter that may be gone.
+    if (Py_IsInitialized() == 0) wait_for_the_end_of_the_process();
     outlive_the_interpreter([this] { lock_.emplace(); });
   }
 
@@ -47,6 +49,7 @@ class WithoutTheLock {
   WithoutTheLock(WithoutTheLock&&) = delete;
   WithoutTheLock& operator=(WithoutTheLock&&) = delete;
   ~WithoutTheLock() {
+    if (Py_IsInitialized() == 0) wait_for_the_end_of_the_process();
     outlive_the_interpreter([this] { PyEval_RestoreThread(state_); });
   }
 
