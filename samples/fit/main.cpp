@@ -1,6 +1,7 @@
 // Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or a cloud of points.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -85,23 +86,51 @@ void write_results(const Options& options, const std::vector<fit::FittedBody>& f
 
 std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options& options, bool is_mesh) {
   try {
-    return fit::fit_union(points, options.bodies, settings_of(options, is_mesh));
+    return fit::fit_union(points, options.bodies, settings_of(options, is_mesh), [](int count, int largest) {
+      std::printf("looking for %d of at most %d bodies\n", count, largest);
+      std::fflush(stdout);
+    });
   } catch (const std::invalid_argument& error) {
     throw fit::InputError(options.path + ": " + error.what());
   }
 }
 
+/// The data without the points that the fit left out, which are of no surface. A mesh is fitted by other points than its own.
+fit::Data without_outliers(fit::Data data, const std::vector<fit::FittedBody>& fitted) {
+  if (!data.triangles.empty()) return data;
+  std::vector<bool> is_outlier(data.vertices.points.size(), false);
+  for (const fit::FittedBody& each : fitted) {
+    for (const std::size_t i : each.outliers) is_outlier[i] = true;
+  }
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < is_outlier.size(); ++i) {
+    if (!is_outlier[i]) kept.push_back(i);
+  }
+  data.vertices = fit::selected(data.vertices, kept);
+  return data;
+}
+
+/// Accepts finite numbers above 0: CLI::PositiveNumber takes nan for one.
+const CLI::Validator kPositive(
+    [](std::string& text) {
+      double value = 0;
+      const bool is_positive = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+      return is_positive ? std::string() : text + "; allowed: a number in (0, inf)";
+    },
+    "POSITIVE");
+
 void run(const Options& options) {
   const fit::Data data = fit::read_data(options.path, options.scale);
   const bool is_mesh = !data.triangles.empty();
   std::printf("%s: %zu points, %zu triangles\n", options.path.c_str(), data.vertices.points.size(), data.triangles.size());
+  if (!data.note.empty()) std::printf("%s\n", data.note.c_str());
   const fit::Cloud points = points_of(data, options.uses_vertices);
   const std::vector<fit::FittedBody> fitted = fit_points(points, options, is_mesh);
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
   if (options.is_quick) return;
   std::vector<fit::Body> bodies(fitted.size());
   std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
-  const fit::FitError error = fit::find_error(bodies, data);
+  const fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));
   std::fputs(fit::describe(error).c_str(), stdout);
   write_results(options, fitted, bodies, data, error);
 }
@@ -116,10 +145,8 @@ int run_program(int argc, char** argv) {
   app.add_option("--bodies", options.bodies, "the most bodies that a union may have")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  app.add_option("--scale", options.scale, "metres in a unit of the file")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--scale", options.scale, "metres in a unit of the file")->check(kPositive)->capture_default_str();
+  app.add_option("--density", options.density, "kg/m^3, for the catalogue of grains")->check(kPositive)->capture_default_str();
   app.add_option("--name", options.name, "of the body in what is written; the file's if not given");
   app.add_option("--noise", options.noise,
                  "how points scatter: alike in all directions, or along the surface's normal only; auto: the first of points, the "

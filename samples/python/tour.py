@@ -117,8 +117,7 @@ else:
     pebbles = [supernormal.ode.Superellipsoid(space, (0.02, 0.015, 0.008), 2.3, 2.0) for _ in range(10)]
     for k, pebble in enumerate(pebbles):
         body = ode.Body(world)
-        body.setMass(pebble.getMass(2650))
-        pebble.setBody(body)
+        pebble.setBodyAndMass(body, 2650)
         body.setPosition((0.002 * k, 0, 0.05 + 0.04 * k))
 
     def near(_: object, geom1: Any, geom2: Any) -> None:

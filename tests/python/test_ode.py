@@ -156,14 +156,62 @@ def test_queries_agree_with_the_core():
     assert geom.pointDepth((1, 2, 3.1)) == pytest.approx(-shape.signed_distance((1, 2, 3.1), pose), abs=1e-12)
     lowest = geom.support((0, 0, -1))
     assert lowest[2] == pytest.approx(shape.bounding_box(pose)[0, 2])
-    mass, properties = geom.getMass(1000), shape.mass_properties()
+    mass, properties = geom.getMass(1000, offCentre=True), shape.mass_properties()
     assert mass.mass == pytest.approx(1000 * properties.volume)
     assert mass.c == pytest.approx(tuple(properties.centroid))
     about_origin = np.trace(properties.second_moment) * np.eye(3) - properties.second_moment
     assert np.array(mass.I) == pytest.approx(1000 * about_origin)
-    assert geom.getMassTotal(2).mass == pytest.approx(2)
+    assert geom.getMassTotal(2, offCentre=True).mass == pytest.approx(2)
     points, normals, triangles = geom.tessellate(0.002)
     assert points == pytest.approx(shape.point(normals), abs=1e-12) and triangles.max() == len(points) - 1
+
+
+SHIFTED = sn.CallbackShape(lambda n: n + (0.2, 0, 0))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: so.Superovoid(None, (0.3, 0.2, 0.4), 2.5, 2, 0.2, 0.1),
+        lambda: so.Superovoid(None, (0.3, 0.2, 0.4), 2.5, 2, -0.2, -0.2),
+        lambda: so.Convex(None, SHIFTED),
+        lambda: so.Ellipsoid(None, (3, 2, 1)),
+    ],
+    ids=["Superovoid", "the other way round", "Convex", "Ellipsoid"],
+)
+def test_the_mass_of_a_body_whose_centre_is_anywhere(make):
+    """ode.Body.setMass() ends the interpreter when the centre of mass is not the origin."""
+    geom = make()
+    off_centre = geom.getMass(1000, offCentre=True)
+    centre = np.array(off_centre.c)
+    for set_mass, amount in ((geom.setBodyAndMass, 1000), (geom.setBodyAndMassTotal, off_centre.mass)):
+        body = pyode.Body(pyode.World())
+        body.setPosition((1, 2, 3))
+        body.setQuaternion((0, 1, 0, 0))
+        set_mass(body, amount)
+        assert geom.getBody() is body and body.getMass().mass == pytest.approx(off_centre.mass)
+        assert np.array(geom.getPosition()) == pytest.approx((1, 2, 3) - centre * (1, -1, -1))
+        at_centre = np.array(off_centre.I) - off_centre.mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+        assert np.array(body.getMass().I) == pytest.approx(at_centre, abs=1e-9 * at_centre.max())
+    if not centre.any():
+        pyode.Body(pyode.World()).setMass(geom.getMass(1000))
+        return
+    for refused in (lambda: geom.getMass(1000), lambda: geom.getMassTotal(5)):
+        with pytest.raises(ValueError, match=r"^the centre of mass is at \(.* call setBodyAndMass\(body, density\)"):
+            refused()
+
+
+def test_an_egg_spins_about_its_centre_of_mass():
+    world = pyode.World()
+    egg, body = so.Superovoid(None, (0.2, 0.2, 0.3), 2, 2, 0.3, 0.3), pyode.Body(world)
+    egg.setBodyAndMass(body, 1000)
+    centre = np.array(egg.getMass(1000, offCentre=True).c)
+    body.setAngularVel((2, 0, 0))
+    for _ in range(100):
+        world.step(0.01)
+    assert body.getPosition() == pytest.approx((0, 0, 0), abs=1e-12)
+    turned = np.array(egg.getRotation()).reshape(3, 3) @ centre
+    assert abs(turned[1]) > 0.9 * centre[2] * np.sin(2) and np.array(egg.getPosition()) == pytest.approx(-turned)
 
 
 def test_a_certified_depth():
@@ -248,6 +296,25 @@ def test_a_collider_says_why_it_makes_no_contact():
     calm = False
     assert pyode.collide(geom, so.Ellipsoid()) == []
     assert "out of order" in so.lastError()
+
+
+BROKEN = [(float("nan"), 0, 0), (0, float("inf"), 0), (0, 0, 1e200)]
+
+
+@pytest.mark.parametrize("place", BROKEN, ids=str)
+def test_a_pose_that_cannot_be_computed_with(place):
+    geom = so.Superellipsoid(None, (1, 2, 3), 3, 3)
+    others = [so.Ellipsoid(), pyode.GeomSphere(None, 1), pyode.GeomBox(None, (1, 1, 1)), pyode.GeomRay(None, 9), pyode.GeomCapsule(None, 1, 1)]
+    for broken, other in [(geom, other) for other in others] + [(other, geom) for other in others[:3]]:
+        for at in (geom, *others):
+            at.setPosition((0, 0, 0))
+        broken.setPosition(place)
+        with pytest.raises(ValueError):
+            geom.setRounding(-1)  # another message
+        assert pyode.collide(broken, other) == []
+        assert so.lastError().startswith("dCollide: the pose of ") and "position = (" in so.lastError()
+    geom.setPosition((float("nan"), 0, 0))
+    assert pyode.collide(geom, pyode.GeomPlane(None, (0, 0, 1), 0)) == [] and "position = (nan, 0, 0) m" in so.lastError()
 
 
 def test_wrong_types():

@@ -167,9 +167,9 @@ def test_arrays_of_parameters_make_the_shapes_of_one():
 
 
 def test_other_types_of_numbers():
-    assert repr(sn.Ellipsoid(np.array([1, 2, 3], dtype=np.int16))) == "Ellipsoid(half_axes=(1, 2, 3))"
+    assert repr(sn.Ellipsoid(np.array([1, 2, 3], dtype=np.int16))) == "Ellipsoid(half_axes=(1.0, 2.0, 3.0))"
     strided = np.arange(12, dtype=np.float32).reshape(2, 6)[:, ::2] + 1
-    assert repr(sn.Shapes.ellipsoids(strided)[1]) == "Ellipsoid(half_axes=(7, 9, 11))"
+    assert repr(sn.Shapes.ellipsoids(strided)[1]) == "Ellipsoid(half_axes=(7.0, 9.0, 11.0))"
 
 
 def test_superovoid_limits():

@@ -1,5 +1,6 @@
 // Computes a dMass from the volume integrals of the body.
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "ode/geom/body.hpp"
@@ -12,6 +13,9 @@ namespace supernormal::ode {
 namespace {
 
 constexpr double kMaxRelativeError = 0.01;
+
+// Rounding error of a centre of mass by quadrature, in units of the last place of the largest half-extent; a few are seen.
+constexpr double kCentroidUnits = 64;
 
 void require_usable(const MassProperties& properties) {
   // Faces and edges of a user-defined body have no normals of their own by which quadrature could find them, so their volume may
@@ -27,12 +31,19 @@ void require_usable(const MassProperties& properties) {
   throw std::invalid_argument("the volume of the geom is " + to_text(properties.volume) + " m^3, but must be in (0, inf)");
 }
 
+// dBodySetMass aborts when the centre of mass is 2e-16 m from the origin, whatever the size of the body. One that is the origin to
+// rounding is the origin.
+Vector3 without_rounding(const Vector3& centroid, const Shape& shape) {
+  const double rounding = kCentroidUnits * std::numeric_limits<double>::epsilon() * shape.half_extents().maxCoeff();
+  return centroid.cwiseAbs().maxCoeff() <= rounding ? Vector3(0, 0, 0) : centroid;
+}
+
 // ODE's inertia tensor is about the origin of the frame that the centre of mass is given in, not about that centre
 // (dMassTranslate and dMassCheck show it): tr(S) 1 - S with the second moment S about the origin.
-void set_mass(dMass* mass, const MassProperties& properties, double density) {
+void set_mass(dMass* mass, const Shape& shape, const MassProperties& properties, double density) {
   const Matrix3& S = properties.second_moment;
   const Matrix3 inertia = density * (S.trace() * Matrix3::Identity() - S);
-  const Vector3& c = properties.centroid;
+  const Vector3 c = without_rounding(properties.centroid, shape);
   dMass result;
   dMassSetParameters(&result, to_real(density * properties.volume), to_real(c.x()), to_real(c.y()), to_real(c.z()),
                      to_real(inertia(0, 0)), to_real(inertia(1, 1)), to_real(inertia(2, 2)), to_real(inertia(0, 1)),
@@ -57,9 +68,10 @@ extern "C" int snMassSet(dMass* mass, dReal density, dGeomID geom) {
   return guarded("snMassSet", 0, [&] {
     require_not_null("mass", mass);
     require_positive("density", density, "kg/m^3");
-    const auto properties = require_body(geom).shape().mass_properties();
+    const auto& shape = require_body(geom).shape();
+    const auto properties = shape.mass_properties();
     require_usable(properties);
-    set_mass(mass, properties, density);
+    set_mass(mass, shape, properties, density);
     return 1;
   });
 }
@@ -68,9 +80,10 @@ extern "C" int snMassSetTotal(dMass* mass, dReal total_mass, dGeomID geom) {
   return guarded("snMassSetTotal", 0, [&] {
     require_not_null("mass", mass);
     require_positive("total_mass", total_mass, "kg");
-    const auto properties = require_body(geom).shape().mass_properties();
+    const auto& shape = require_body(geom).shape();
+    const auto properties = shape.mass_properties();
     require_usable(properties);
-    set_mass(mass, properties, total_mass / properties.volume);
+    set_mass(mass, shape, properties, total_mass / properties.volume);
     return 1;
   });
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ode/colliders/collider.hpp"
+#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
@@ -26,7 +27,7 @@ Proximity query(dGeomID ours, dGeomID collider, Goal goal) {
   }
   Proximity result = pair_query(ours, collider, goal).deepest;
   if (result.status == Status::InvalidInput || !std::isfinite(result.gap)) {
-    throw std::invalid_argument("the pose of a geom" + no_answer_because());
+    refuse_pair(ours, collider);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ode/colliders/contact.hpp"
+#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "ode/support/last_error.hpp"
 
@@ -15,7 +16,9 @@ template <PairQuery kQuery>
 int collide_by(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
   return guarded("dCollide", 0, [&] {
     const ContactArray out{ours, collider, flags, contacts, skip};
-    return write_contacts(kQuery(ours, collider, out.room() > 1 ? Goal::Contacts : Goal::OneContact), out);
+    const ContactManifold manifold = kQuery(ours, collider, out.room() > 1 ? Goal::Contacts : Goal::OneContact);
+    if (manifold.deepest.status == Status::InvalidInput) refuse_pair(ours, collider);
+    return write_contacts(manifold, out);
   });
 }
 

@@ -19,6 +19,7 @@
 #include "shape_sequence.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -119,6 +120,7 @@ class Column {
   void set(std::ptrdiff_t i, Number value) { data_[i] = value; }
   void set(std::ptrdiff_t i, const Vector3& value) { std::copy(value.data(), value.data() + 3, data_ + 3 * i); }
   const py::array_t<Number>& array() const { return array_; }
+  void set_all(const py::object& values) { array_ = values.cast<py::array_t<Number>>(); }
 
  private:
   static std::vector<py::ssize_t> dimensions(std::ptrdiff_t count) {
@@ -237,11 +239,30 @@ void bind_column(py::class_<Result>& type, const char* name, ColumnType Result::
       name, [column](const Result& self) { return (self.*column).array(); }, doc);
 }
 
+/// Binds copies and __repr__ of a result of so many `what`, by its columns.
+template <typename Result, typename... Columns>
+void bind_columns(py::class_<Result>& type, const char* what, Columns... columns) {
+  bind_copies(
+      type, [columns...](const Result& self) { return py::make_tuple(self.count, (self.*columns).array()...); },
+      [columns...](const py::tuple& of) {
+        auto made = std::make_unique<Result>(of[0].cast<std::ptrdiff_t>());
+        std::size_t k = 1;
+        ((*made.*columns).set_all(of[k++]), ...);
+        return made;
+      });
+  type.def("__repr__", [what](const py::object& self) {
+    return py::type::of(self).attr("__name__").cast<std::string>() + "(of " + std::to_string(py::len(self)) + " " + what + ")";
+  });
+}
+
 }  // namespace
 
 void bind_batch(py::module_& m) {
   py::class_<Proximities> pairs(m, "Proximities", kProximitiesDoc);
   pairs.def("__len__", [](const Proximities& self) { return self.count; });
+  bind_columns(pairs, "pairs", &Proximities::gap, &Proximities::error, &Proximities::normal, &Proximities::point1,
+               &Proximities::point2, &Proximities::contact, &Proximities::evaluations, &Proximities::status,
+               &Proximities::is_global, &Proximities::global_error);
   bind_column(pairs, "gap", &Proximities::gap, "(N,), m; distance when positive, minus the penetration depth when negative");
   bind_column(pairs, "error", &Proximities::error, "(N,), m; estimate of the error of the gap; a bound where is_global");
   bind_column(pairs, "normal", &Proximities::normal, "(N, 3), unit, from body 1 to body 2");
@@ -257,6 +278,8 @@ void bind_batch(py::module_& m) {
 
   py::class_<RayHits> rays(m, "RayHits", kRayHitsDoc);
   rays.def("__len__", [](const RayHits& self) { return self.count; });
+  bind_columns(rays, "rays", &RayHits::hit, &RayHits::from_inside, &RayHits::distance, &RayHits::point, &RayHits::normal,
+               &RayHits::status);
   bind_column(rays, "hit", &RayHits::hit, "(N,) of bool; whether the ray meets the boundary within its length");
   bind_column(rays, "from_inside", &RayHits::from_inside, "(N,) of bool; whether the origin is inside");
   bind_column(rays, "distance", &RayHits::distance, "(N,), m; along the ray");

@@ -6,15 +6,18 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "interpreter_lock.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/linear_image.hpp"
 #include "supernormal/shapes/minkowski_sum.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -52,14 +55,22 @@ class PythonFunction {
  public:
   PythonFunction(const char* name, py::function function)
       : name_(name), function_(new py::function(std::move(function)), [](py::function* last) {
-          const py::gil_scoped_acquire lock;
+          const HoldingTheLock lock;
           delete last;
         }) {}
+
+  const py::function& function() const { return *function_; }
 
   /// Calls it with a unit vector (3,), and reads `count` numbers of the result, in the order of the array.
   template <std::size_t kCount>
   std::array<double, kCount> call(const Vector3& n) const {
-    const py::gil_scoped_acquire lock;
+    const HoldingTheLock lock;
+    return outlive_the_interpreter([&] { return call_locked<kCount>(n); });
+  }
+
+ private:
+  template <std::size_t kCount>
+  std::array<double, kCount> call_locked(const Vector3& n) const {
     py::array_t<double> direction(py::ssize_t{3});
     std::copy(n.data(), n.data() + 3, direction.mutable_data());
     const py::object result = (*function_)(direction);
@@ -75,26 +86,56 @@ class PythonFunction {
     return out;
   }
 
- private:
   const char* name_;
   std::shared_ptr<py::function> function_;
 };
 
+/// The functions that a CallbackShape is made of.
+struct Functions {
+  PythonFunction point;
+  std::optional<PythonFunction> support, hessian;
+
+  py::tuple arguments() const {
+    const auto or_none = [](const std::optional<PythonFunction>& it) { return it ? py::object(it->function()) : py::none(); };
+    return py::make_tuple(point.function(), or_none(support), or_none(hessian));
+  }
+};
+
+/// Those of all that live. It is read and changed with the interpreter's lock, and stays until the process has ended.
+std::unordered_map<const CallbackShape*, Functions>& functions_of() {
+  static auto* const map = new std::unordered_map<const CallbackShape*, Functions>;
+  return *map;
+}
+
+void delete_callback_shape(const CallbackShape* last) {
+  const HoldingTheLock lock;
+  functions_of().erase(last);
+  delete last;
+}
+
 std::shared_ptr<CallbackShape> make_callback_shape(py::function point, std::optional<py::function> support,
                                                    std::optional<py::function> hessian) {
-  const PythonFunction point_function("point", std::move(point));
-  const auto point_of = [point_function](const Vector3& n) { return vector_at(point_function.call<3>(n).data()); };
+  Functions given{PythonFunction("point", std::move(point)), std::nullopt, std::nullopt};
+  const auto point_of = [function = given.point](const Vector3& n) { return vector_at(function.call<3>(n).data()); };
   CallbackShape::Support support_of = [point_of](const Vector3& n) { return n.dot(point_of(n)); };
   if (support) {
-    support_of = [function = PythonFunction("support", std::move(*support))](const Vector3& n) { return function.call<1>(n)[0]; };
+    given.support.emplace("support", std::move(*support));
+    support_of = [function = *given.support](const Vector3& n) { return function.call<1>(n)[0]; };
   }
   CallbackShape::Hessian hessian_of;
   if (hessian) {
-    hessian_of = [function = PythonFunction("hessian", std::move(*hessian))](const Vector3& n) {
-      return matrix_at(function.call<9>(n).data());
-    };
+    given.hessian.emplace("hessian", std::move(*hessian));
+    hessian_of = [function = *given.hessian](const Vector3& n) { return matrix_at(function.call<9>(n).data()); };
   }
-  return std::make_shared<CallbackShape>(std::move(support_of), point_of, std::move(hessian_of));
+  auto shape = std::make_unique<CallbackShape>(std::move(support_of), point_of, std::move(hessian_of));
+  functions_of().emplace(shape.get(), std::move(given));
+  return {shape.release(), &delete_callback_shape};
+}
+
+/// A shape that another one is made of, and keeps.
+template <typename Whole>
+ShapePointer part_of(const std::shared_ptr<Whole>& whole, const Shape& part) {
+  return {whole, const_cast<Shape*>(&part)};  // NOLINT(cppcoreguidelines-pro-type-const-cast): Python has no const
 }
 
 constexpr const char* kCallbackDoc =
@@ -108,36 +149,92 @@ The functions must be pure. They are called with the interpreter's lock, from wh
 uses one core. They are tried in 26 directions; ValueError, with the direction, the value and what was expected, unless the results
 are finite and belong to a convex body with a size in [1e-30, 1e30] m. What a function raises later ends the query and is raised.)";
 
+/// A property of `Class` by a function of the shared pointer.
+template <typename Class, typename Get>
+auto property_of(const Get& get) {
+  return py::cpp_function([get](const py::object& self) { return get(unwrapped<Class>(self)); });
+}
+
+void bind_polytope(py::module_& m) {
+  py::class_<Polytope, Shape, std::shared_ptr<Polytope>> type(
+      m, "Polytope",
+      "The convex hull of points: a point, a segment, a triangle or a solid. The origin should be near its middle.\n\n"
+      "points: (N, 3), m, N >= 1, within 1e30; ValueError otherwise.");
+  type.def(py::init(&make_polytope), py::arg("points"))
+      .def_property_readonly("points", &points_of, "(N, 3), m; a copy")
+      .def("__repr__", [](const Polytope& self) { return "Polytope(of " + std::to_string(self.points().size()) + " points)"; });
+  // The numbers of an array are no value that == compares; their bytes are one.
+  bind_value(
+      type, [](const std::shared_ptr<Polytope>& self) { return py::make_tuple(points_of(*self).attr("tobytes")()); },
+      [](const py::tuple& of) {
+        const py::array numbers = py::module_::import("numpy").attr("frombuffer")(of[0]);
+        return make_polytope(numbers.attr("reshape")(-1, 3).cast<Doubles>());
+      });
+}
+
+void bind_rounded(py::module_& m) {
+  using Pointer = std::shared_ptr<Rounded>;
+  const auto core = [](const Pointer& self) { return part_of(self, self->core()); };
+  py::class_<Rounded, Shape, Pointer> type(m, "Rounded",
+                                           "A shape swept by a sphere.\n\nradius: m, in [0, 1e30]; ValueError otherwise.");
+  type.def(py::init<ShapePointer, double>(), py::arg("core").none(false), py::arg("radius"))
+      .def_property_readonly("core", property_of<decltype(type)>(core), "Shape: the shape without the rounding")
+      .def_property_readonly("radius", &Rounded::radius, "m");
+  bind_value(
+      type, {"core", "radius"}, [core](const Pointer& self) { return py::make_tuple(core(self), self->radius()); },
+      constructor<Rounded, ShapePointer, double>());
+}
+
+void bind_minkowski_sum(py::module_& m) {
+  using Pointer = std::shared_ptr<MinkowskiSum>;
+  const auto first = [](const Pointer& self) { return part_of(self, self->first()); };
+  const auto second = [](const Pointer& self) { return part_of(self, self->second()); };
+  py::class_<MinkowskiSum, Shape, Pointer> type(m, "MinkowskiSum",
+                                                "All points p + q with p in the first shape and q in the second.");
+  type.def(py::init<ShapePointer, ShapePointer>(), py::arg("first").none(false), py::arg("second").none(false))
+      .def_property_readonly("first", property_of<decltype(type)>(first), "Shape: one of the two")
+      .def_property_readonly("second", property_of<decltype(type)>(second), "Shape: the other");
+  bind_value(
+      type, {"first", "second"}, [first, second](const Pointer& self) { return py::make_tuple(first(self), second(self)); },
+      constructor<MinkowskiSum, ShapePointer, ShapePointer>());
+}
+
+void bind_linear_image(py::module_& m) {
+  using Pointer = std::shared_ptr<LinearImage>;
+  const auto shape = [](const Pointer& self) { return part_of(self, self->shape()); };
+  py::class_<LinearImage, Shape, Pointer> type(
+      m, "LinearImage",
+      "The points matrix @ p of all points p of a shape.\n\n"
+      "matrix: (3, 3), with singular values in [1e-30, 1e30] and a ratio of at most 1e12; ValueError otherwise.");
+  type.def(py::init<ShapePointer, Matrix3>(), py::arg("shape").none(false), py::arg("matrix"))
+      .def_property_readonly("shape", property_of<decltype(type)>(shape), "Shape: the shape whose image this is")
+      .def_property_readonly(
+          "matrix", [](const LinearImage& self) { return self.matrix(); }, "(3, 3)");
+  bind_value(
+      type, {"shape", "matrix"}, [shape](const Pointer& self) { return py::make_tuple(shape(self), plain(self->matrix())); },
+      constructor<LinearImage, ShapePointer, Matrix3>());
+}
+
+void bind_callback_shape(py::module_& m) {
+  py::class_<CallbackShape, Shape, std::shared_ptr<CallbackShape>> type(m, "CallbackShape", kCallbackDoc);
+  type.def(py::init(&make_callback_shape), py::arg("point"), py::arg("support") = py::none(), py::arg("hessian") = py::none());
+  bind_value(
+      type, {"point", "support", "hessian"},
+      [](const std::shared_ptr<CallbackShape>& self) { return functions_of().at(self.get()).arguments(); },
+      [](const py::tuple& of) {
+        using Function = std::optional<py::function>;
+        return make_callback_shape(of[0].cast<py::function>(), of[1].cast<Function>(), of[2].cast<Function>());
+      });
+}
+
 }  // namespace
 
 void bind_composed_shapes(py::module_& m) {
-  py::class_<Polytope, Shape, std::shared_ptr<Polytope>>(
-      m, "Polytope",
-      "The convex hull of points: a point, a segment, a triangle or a solid. The origin should be near its middle.\n\n"
-      "points: (N, 3), m, N >= 1, within 1e30; ValueError otherwise.")
-      .def(py::init(&make_polytope), py::arg("points"))
-      .def_property_readonly("points", &points_of, "(N, 3), m; a copy")
-      .def("__repr__", [](const Polytope& self) { return "Polytope(of " + std::to_string(self.points().size()) + " points)"; });
-  py::class_<Rounded, Shape, std::shared_ptr<Rounded>>(
-      m, "Rounded", "A shape swept by a sphere.\n\nradius: m, in [0, 1e30]; ValueError otherwise.")
-      .def(py::init([](const ShapePointer& core, double radius) { return std::make_shared<Rounded>(core, radius); }),
-           py::arg("core").none(false), py::arg("radius"))
-      .def_property_readonly("radius", &Rounded::radius, "m");
-  py::class_<MinkowskiSum, Shape, std::shared_ptr<MinkowskiSum>>(m, "MinkowskiSum",
-                                                                 "All points p + q with p in the first shape and q in the second.")
-      .def(py::init(
-               [](const ShapePointer& first, const ShapePointer& second) { return std::make_shared<MinkowskiSum>(first, second); }),
-           py::arg("first").none(false), py::arg("second").none(false));
-  py::class_<LinearImage, Shape, std::shared_ptr<LinearImage>>(
-      m, "LinearImage",
-      "The points matrix @ p of all points p of a shape.\n\n"
-      "matrix: (3, 3), with singular values in [1e-30, 1e30] and a ratio of at most 1e12; ValueError otherwise.")
-      .def(py::init([](const ShapePointer& shape, const Matrix3& matrix) { return std::make_shared<LinearImage>(shape, matrix); }),
-           py::arg("shape").none(false), py::arg("matrix"))
-      .def_property_readonly(
-          "matrix", [](const LinearImage& self) { return self.matrix(); }, "(3, 3)");
-  py::class_<CallbackShape, Shape, std::shared_ptr<CallbackShape>>(m, "CallbackShape", kCallbackDoc)
-      .def(py::init(&make_callback_shape), py::arg("point"), py::arg("support") = py::none(), py::arg("hessian") = py::none());
+  bind_polytope(m);
+  bind_rounded(m);
+  bind_minkowski_sum(m);
+  bind_linear_image(m);
+  bind_callback_shape(m);
 }
 
 }  // namespace supernormal::python

@@ -1,13 +1,18 @@
 // Contact manifolds and curvatures.
 #include <pybind11/eigen.h>
+#include <pybind11/stl.h>
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "enums.hpp"
 #include "supernormal/contact/contact_curvature.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -43,6 +48,25 @@ py::tuple contacts(const ContactManifold& self, int room) {
   return py::make_tuple(points, depths);
 }
 
+py::tuple arguments_of(const ContactManifold& self) {
+  py::tuple corners(static_cast<std::size_t>(self.corner_count));
+  for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = py::make_tuple(plain(self.corners[k].point), self.corners[k].depth);
+  return py::make_tuple(self.deepest, corners, self.same_place, self.flatness, self.margin, self.evaluations);
+}
+
+ContactManifold make_manifold(const py::tuple& of) {
+  ContactManifold made(of[0].cast<Proximity>());
+  const auto corners = of[1].cast<std::vector<std::pair<Vector3, double>>>();
+  if (corners.size() > made.corners.size()) throw std::invalid_argument("a manifold has at most 4 corners");
+  for (std::size_t k = 0; k < corners.size(); ++k) made.corners[k] = {corners[k].first, corners[k].second};
+  made.corner_count = static_cast<int>(corners.size());
+  made.same_place = of[2].cast<double>();
+  made.flatness = of[3].cast<double>();
+  made.margin = of[4].cast<double>();
+  made.evaluations = of[5].cast<int>();
+  return made;
+}
+
 constexpr const char* kManifoldDoc =
     R"(The deepest point of an overlap and, where the bodies are flat, the corners of the region on which they rest. Points are in the
 world's frame. It is a continuous function of the poses, and symmetric under swapping the bodies.)";
@@ -75,15 +99,20 @@ The gap grows as (smaller x^2 + larger y^2) / 2 about the contact. normal: (3,),
 }  // namespace
 
 void bind_contact(py::module_& m) {
-  py::class_<ContactManifold>(m, "ContactManifold", kManifoldDoc)
-      .def_property_readonly(
+  py::class_<ContactManifold> type(m, "ContactManifold", kManifoldDoc);
+  type.def_property_readonly(
           "deepest", [](const ContactManifold& self) { return self.deepest; }, "Proximity: the deepest point")
       .def_property_readonly("corner_points", &corner_points, "(K, 3), m, K = 0 or 4; some may be at the same place")
       .def_property_readonly("corner_depths", &corner_depths, "(K,), m; depth of the overlap at the corners, 0 where there is none")
       .def_readonly("margin", &ContactManifold::margin, "m; the bodies are apart by no more than this at a corner")
       .def_readonly("same_place", &ContactManifold::same_place, "m; corners that are nearer to each other are one contact")
       .def_readonly("evaluations", &ContactManifold::evaluations, "boundary points that finding the corners took")
-      .def("contacts", &contacts, py::arg("room") = 8, kContactsDoc);
+      .def("contacts", &contacts, py::arg("room") = 8, kContactsDoc)
+      .def("__repr__", [](const ContactManifold& self) {
+        return "ContactManifold(deepest=" + py::repr(py::cast(self.deepest)).cast<std::string>() + ", of " +
+               std::to_string(self.corner_count) + " corners)";
+      });
+  bind_value(type, &arguments_of, &make_manifold);
   m.def("find_contact_manifold", &find_contact_manifold, kFindManifoldDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"),
         py::arg("pose2"), py::arg("proximity"));
   m.def("find_plane_contact_manifold", &find_plane_contact_manifold, kFindPlaneDoc, py::arg("shape"), py::arg("pose"),

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "interpreter_lock.hpp"
+
 namespace py = pybind11;
 
 namespace supernormal::python {
@@ -85,7 +87,7 @@ class SignalWatch {
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < kBetweenSignals) return;
     last_ = now;
-    const py::gil_scoped_acquire lock;
+    const HoldingTheLock lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
 
@@ -97,7 +99,7 @@ class SignalWatch {
 
 void parallel_for(std::ptrdiff_t count, int threads, const std::function<void(std::ptrdiff_t)>& body) {
   const int used = number_of_threads(count, threads);
-  const py::gil_scoped_release unlocked;
+  const WithoutTheLock unlocked;
   Loop loop(count, used, body);
   {
     std::vector<std::jthread> helpers;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "shapes/validation.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -105,6 +107,12 @@ py::array_t<double> rotations_of(const Poses& self) {
   return out;
 }
 
+py::object are_equal(const Poses& self, const py::object& other) {
+  if (!py::isinstance<Poses>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+  const auto is_same = [](const Pose& a, const Pose& b) { return a.position == b.position && a.rotation == b.rotation; };
+  return py::bool_(std::ranges::equal(self.poses, other.cast<const Poses&>().poses, is_same));
+}
+
 constexpr const char* kPoseDoc = R"(The position and attitude of a body: x_world = rotation @ x_body + position.
 
 position: (3,), m, each coordinate within 1e150.
@@ -122,26 +130,32 @@ Pose; a message names the entry.)";
 }  // namespace
 
 void bind_poses(py::module_& m) {
-  py::class_<Pose>(m, "Pose", kPoseDoc)
-      .def(py::init(&make_pose), py::arg("position") = Vector3(0, 0, 0), py::arg("rotation") = py::none(),
+  py::class_<Pose> pose(m, "Pose", kPoseDoc);
+  pose.def(py::init(&make_pose), py::arg("position") = Vector3(0, 0, 0), py::arg("rotation") = py::none(),
            py::arg("quaternion") = py::none())
       .def_property_readonly(
           "position", [](const Pose& self) { return self.position; }, "(3,), m")
       .def_property_readonly(
-          "rotation", [](const Pose& self) { return self.rotation; }, "(3, 3)")
-      .def("__repr__", [](const Pose& self) {
-        std::array<double, 9> rows{};
-        write_matrix(self.rotation, rows.data());
-        return "Pose(position=" + vector_text(self.position.data(), 3) + ", rotation=" + vector_text(rows.data(), 9) + " by rows)";
-      });
-  py::class_<Poses, std::shared_ptr<Poses>>(m, "Poses", kPosesDoc)
-      .def(py::init(&make_poses), py::arg("position"), py::arg("rotation") = py::none(), py::arg("quaternion") = py::none())
+          "rotation", [](const Pose& self) { return self.rotation; }, "(3, 3)");
+  bind_value(
+      pose, {"position", "rotation"}, [](const Pose& self) { return py::make_tuple(plain(self.position), plain(self.rotation)); },
+      [](const py::tuple& of) { return make_pose(of[0].cast<Vector3>(), of[1].cast<Matrix3>(), std::nullopt); });
+  py::class_<Poses, std::shared_ptr<Poses>> poses(m, "Poses", kPosesDoc);
+  poses.def(py::init(&make_poses), py::arg("position"), py::arg("rotation") = py::none(), py::arg("quaternion") = py::none())
       .def_property_readonly("position", &positions_of, "(N, 3), m; a copy")
       .def_property_readonly("rotation", &rotations_of, "(N, 3, 3); a copy")
       .def("__len__", [](const Poses& self) { return self.poses.size(); })
-      .def("__getitem__", [](const Poses& self, std::size_t i) {
-        if (i >= self.poses.size()) throw py::index_error("poses has " + std::to_string(self.poses.size()) + " entries");
-        return self.poses[i];
+      .def("__getitem__",
+           [](const Poses& self, std::size_t i) {
+             if (i >= self.poses.size()) throw py::index_error("poses has " + std::to_string(self.poses.size()) + " entries");
+             return self.poses[i];
+           })
+      .def("__eq__", &are_equal, py::arg("other"))
+      .def("__repr__", [](const Poses& self) { return "Poses(of " + std::to_string(self.poses.size()) + " bodies)"; });
+  bind_copies(
+      poses, [](const std::shared_ptr<Poses>& self) { return py::make_tuple(positions_of(*self), rotations_of(*self)); },
+      [](const py::tuple& of) {
+        return std::make_shared<Poses>(make_poses(of[0].cast<Doubles>(), of[1].cast<Doubles>(), std::nullopt));
       });
 }
 

@@ -9,10 +9,12 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
+#include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
 #include "shapes/validation.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -29,7 +31,7 @@ Proximity require_answer(const Proximity& result) {
 Proximity proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Settings& settings,
                     const std::optional<Vector3>& first_normal) {
   const Vector3 first = first_normal ? require_direction({"first_normal"}, *first_normal) : Vector3::UnitX();
-  const py::gil_scoped_release unlocked;
+  const WithoutTheLock unlocked;
   return require_answer(find_proximity(shape1, pose1, shape2, pose2, settings, first_normal ? &first : nullptr));
 }
 
@@ -64,8 +66,8 @@ otherwise.)";
 }  // namespace
 
 void bind_settings(py::module_& m) {
-  py::class_<Settings>(m, "Settings", kSettingsDoc)
-      .def(py::init([](Solver solver, double tolerance, int max_evaluations, bool stop_when_apart, bool certify_depth) {
+  py::class_<Settings> type(m, "Settings", kSettingsDoc);
+  type.def(py::init([](Solver solver, double tolerance, int max_evaluations, bool stop_when_apart, bool certify_depth) {
              return Settings{solver, tolerance, max_evaluations, stop_when_apart, certify_depth};
            }),
            py::kw_only(), py::arg("solver") = Solver::Hybrid, py::arg("tolerance") = Settings().tolerance,
@@ -82,11 +84,18 @@ void bind_settings(py::module_& m) {
                ", stop_when_apart=" + (self.stop_when_apart ? "True" : "False") +
                ", certify_depth=" + (self.certify_depth ? "True" : "False") + ")";
       });
+  const auto arguments_of = [](const Settings& self) {
+    return py::make_tuple(self.solver, self.tolerance, self.max_evaluations, self.stop_when_apart, self.certify_depth);
+  };
+  bind_equality(type, arguments_of);
+  bind_copies(type, arguments_of, [](const py::tuple& of) {
+    return Settings{of[0].cast<Solver>(), of[1].cast<double>(), of[2].cast<int>(), of[3].cast<bool>(), of[4].cast<bool>()};
+  });
 }
 
 void bind_proximity(py::module_& m) {
-  py::class_<Proximity>(m, "Proximity", kProximityDoc)
-      .def_readonly("gap", &Proximity::gap, "m; distance when positive, minus the penetration depth when negative")
+  py::class_<Proximity> type(m, "Proximity", kProximityDoc);
+  type.def_readonly("gap", &Proximity::gap, "m; distance when positive, minus the penetration depth when negative")
       .def_readonly("error", &Proximity::error,
                     "m; estimate of what is left to the local maximum of the gap; a bound where is_global")
       .def_property_readonly(
@@ -106,6 +115,17 @@ void bind_proximity(py::module_& m) {
         return "Proximity(gap=" + to_text(self.gap) + ", error=" + to_text(self.error) +
                ", normal=" + vector_text(self.normal.data(), 3) + ", status=" + status_name(self.status) +
                ", is_global=" + (self.is_global ? "True" : "False") + ")";
+      });
+  bind_value(
+      type,
+      [](const Proximity& self) {
+        return py::make_tuple(self.gap, self.error, plain(self.normal), plain(self.point1), plain(self.point2), plain(self.contact),
+                              self.evaluations, self.status, self.is_global, self.global_error);
+      },
+      [](const py::tuple& of) {
+        return Proximity{of[0].cast<double>(),  of[1].cast<double>(),  of[2].cast<Vector3>(), of[3].cast<Vector3>(),
+                         of[4].cast<Vector3>(), of[5].cast<Vector3>(), of[6].cast<int>(),     of[7].cast<Status>(),
+                         of[8].cast<bool>(),    of[9].cast<double>()};
       });
   m.def("find_proximity", &proximity, kFindDoc, py::arg("shape1"), py::arg("pose1"), py::arg("shape2"), py::arg("pose2"),
         py::arg("settings") = Settings(), py::arg("first_normal") = py::none());

@@ -7,9 +7,11 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "enums.hpp"
+#include "interpreter_lock.hpp"
 #include "parallel_for.hpp"
 #include "shapes/validation.hpp"
 #include "supernormal/raycast/ray.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -20,7 +22,7 @@ RayHit ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, cons
                const Settings& settings) {
   require_place({"origin"}, origin);
   const Vector3 along = require_direction({"direction"}, direction);
-  const py::gil_scoped_release unlocked;
+  const WithoutTheLock unlocked;
   const RayHit result = find_ray_hit(shape, pose, origin, along, length, settings);
   if (result.status == Status::InvalidInput) throw std::invalid_argument(kNotFinite);
   return result;
@@ -38,8 +40,8 @@ range, or when the shape delivers a number that is not finite.)";
 }  // namespace
 
 void bind_raycast(py::module_& m) {
-  py::class_<RayHit>(m, "RayHit", kHitDoc)
-      .def_readonly("hit", &RayHit::hit, "Whether the ray meets the boundary within its length.")
+  py::class_<RayHit> type(m, "RayHit", kHitDoc);
+  type.def_readonly("hit", &RayHit::hit, "Whether the ray meets the boundary within its length.")
       .def_readonly("from_inside", &RayHit::from_inside, "Whether the origin is inside, and the hit is where the ray leaves.")
       .def_readonly("distance", &RayHit::distance, "m; along the ray")
       .def_readonly("distance_error", &RayHit::distance_error, "m; estimate")
@@ -54,6 +56,17 @@ void bind_raycast(py::module_& m) {
         if (!self.hit) return std::string("RayHit(hit=False)");
         return "RayHit(hit=True, distance=" + to_text(self.distance) + ", point=" + vector_text(self.point.data(), 3) +
                ", normal=" + vector_text(self.normal.data(), 3) + ")";
+      });
+  bind_value(
+      type,
+      [](const RayHit& self) {
+        return py::make_tuple(self.hit, self.from_inside, self.distance, self.distance_error, self.boundary_error,
+                              plain(self.point), plain(self.normal), self.evaluations, self.status);
+      },
+      [](const py::tuple& of) {
+        return RayHit{of[0].cast<bool>(),    of[1].cast<bool>(),   of[2].cast<double>(),
+                      of[3].cast<double>(),  of[4].cast<double>(), of[5].cast<Vector3>(),
+                      of[6].cast<Vector3>(), of[7].cast<int>(),    of[8].cast<Status>()};
       });
   m.def("find_ray_hit", &ray_hit, kRayDoc, py::arg("shape"), py::arg("pose"), py::arg("origin"), py::arg("direction"),
         py::arg("length") = std::numeric_limits<double>::infinity(), py::arg("settings") = Settings());

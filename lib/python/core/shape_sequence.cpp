@@ -12,6 +12,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 
@@ -103,8 +104,9 @@ std::shared_ptr<ShapeSequence> make_shape_sequence(const char* name, const py::s
 }
 
 void bind_shape_sequence(py::module_& m) {
-  py::class_<ShapeSequence, std::shared_ptr<ShapeSequence>>(m, "Shapes", kDoc)
-      .def(py::init([](const py::sequence& shapes) { return make_shape_sequence("shapes", shapes); }), py::arg("shapes"))
+  using Pointer = std::shared_ptr<ShapeSequence>;
+  py::class_<ShapeSequence, Pointer> type(m, "Shapes", kDoc);
+  type.def(py::init([](const py::sequence& shapes) { return make_shape_sequence("shapes", shapes); }), py::arg("shapes"))
       .def_static("spheres", &make_spheres, py::arg("radius"), "radius: (N,), m, in [0, 1e30]")
       .def_static("ellipsoids", &make_ellipsoids, py::arg("half_axes"), "half_axes: (N, 3), m, in [1e-30, 1e30]")
       .def_static("superellipsoids", &make_superellipsoids, py::arg("half_axes"), py::arg("delta"), py::arg("epsilon"),
@@ -114,10 +116,20 @@ void bind_shape_sequence(py::module_& m) {
                   "half_axes: (N, 3), m, in [1e-30, 1e30]; the others: (N,) or a number; exponents in [1.01, 1000]; tapers such "
                   "that the body is convex, see Superovoid")
       .def("__len__", &ShapeSequence::size)
-      .def("__getitem__", [](const ShapeSequence& self, std::size_t i) {
-        if (i >= self.size()) throw py::index_error("shapes has " + std::to_string(self.size()) + " entries");
-        return self.share(i);
-      });
+      .def("__getitem__",
+           [](const ShapeSequence& self, std::size_t i) {
+             if (i >= self.size()) throw py::index_error("shapes has " + std::to_string(self.size()) + " entries");
+             return self.share(i);
+           })
+      .def("__repr__", [](const ShapeSequence& self) { return "Shapes(of " + std::to_string(self.size()) + " bodies)"; });
+  bind_value(
+      type,
+      [](const Pointer& self) {
+        py::tuple shapes(self->size());
+        for (std::size_t i = 0; i < self->size(); ++i) shapes[i] = self->share(i);
+        return shapes;
+      },
+      [](const py::tuple& of) { return make_shape_sequence("shapes", of); });
 }
 
 }  // namespace supernormal::python

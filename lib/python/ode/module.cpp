@@ -118,6 +118,16 @@ auto support_point(Number g, const Vector3& direction) {
   return std::tuple(found[0], found[1], found[2]);
 }
 
+/// Whether nothing has been done with a new geom: all that a program can set is as dCreate… leaves it.
+bool is_untouched(Number g) {
+  const dReal* const p = dGeomGetPosition(geom(g));
+  const dReal* const R = dGeomGetRotation(geom(g));
+  const bool is_placed = p[0] != 0 || p[1] != 0 || p[2] != 0 || R[0] != 1 || R[5] != 1 || R[10] != 1;
+  const bool is_filtered =
+      ~dGeomGetCategoryBits(geom(g)) != 0 || ~dGeomGetCollideBits(geom(g)) != 0 || dGeomIsEnabled(geom(g)) == 0;
+  return !is_placed && !is_filtered && dGeomGetBody(geom(g)) == nullptr && dGeomGetSpace(geom(g)) == nullptr;
+}
+
 /// (mass, centre, (I11, I22, I33, I12, I13, I23)), in the order of ode.Mass.setParameters().
 auto mass(Number g, double amount, bool is_total) {
   dMass m;
@@ -168,6 +178,8 @@ void bind_geoms(py::module_& m) {
   m.def("create_superellipsoid", &create_superellipsoid);
   m.def("create_superovoid", &create_superovoid);
   m.def("create_convex", &create_convex);
+  m.def("destroy", [](Number g) { dGeomDestroy(geom(g)); });
+  m.def("is_untouched", &is_untouched);
   m.def("set_superellipsoid", &set_superellipsoid);
   m.def("get_superellipsoid", &get_superellipsoid);
   m.def("set_superovoid", &set_superovoid);

@@ -5,6 +5,11 @@ bodies are apart and negative when they overlap. Bad input raises ValueError wit
 `supernormal.ode` has the same bodies as geoms of PyODE.
 """
 
+try:
+    import numpy as _numpy  # noqa: F401  # without it the next import fails and does not say why
+except ImportError as _missing:
+    raise ImportError("supernormal takes NumPy (Debian: python3-numpy)", name="numpy") from _missing
+
 from ._core import (
     Box,
     CallbackShape,

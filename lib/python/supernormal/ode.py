@@ -6,8 +6,7 @@
     space = ode.HashSpace()
     pebble = supernormal.ode.Superellipsoid(space, (0.02, 0.015, 0.008), 2.3, 2.0)
     body = ode.Body(world)
-    body.setMass(pebble.getMass(2650))
-    pebble.setBody(body)
+    pebble.setBodyAndMass(body, 2650)
 
 The geoms derive from ode.GeomObject: setBody, getPosition, setCategoryBits ..., Space.collide, ode.collide and ContactJoint treat them
 as PyODE's own. Names follow PyODE; lengths are in metres or in whatever unit the world uses. What the C interface refuses raises
@@ -18,14 +17,20 @@ contacts, and lastError() says why.
 
 from __future__ import annotations
 
+import sys
 from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
-import ode as _pyode
 
-from . import _ode
 from ._core import Shape, Solver
+
+try:
+    import ode as _pyode
+except ImportError as _missing:
+    raise ImportError("supernormal.ode takes PyODE (Debian: python3-pyode)", name="ode") from _missing
+
+from . import _ode  # finds ODE's library, which PyODE has loaded
 
 __all__ = [
     "Convex",
@@ -54,15 +59,47 @@ def _find_slots() -> Tuple[int, int]:
 _SLOTS = _find_slots()
 
 
-class _Geom(_pyode.GeomObject):  # type: ignore[misc]  # PyODE has no stubs
+# ode.Body.setMass() ends the program when the centre of mass is farther than this from the origin, m: ODE's dEpsilon.
+_CENTRED = sys.float_info.epsilon
+
+
+class _Made(type(_pyode.GeomObject)):  # type: ignore[misc]  # PyODE has no stubs
+    """Refuses a geom whose __init__ has not called that of its class: PyODE ends the program when it is used."""
+
+    def __call__(cls, *arguments: Any, **keywords: Any) -> Any:
+        geom = super().__call__(*arguments, **keywords)
+        if not geom._is_made():
+            raise TypeError(f"{cls.__name__}.__init__() must call super().__init__(), which makes the geom")
+        return geom
+
+
+class _Geom(_pyode.GeomObject, metaclass=_Made):  # type: ignore[misc]  # PyODE has no stubs
     """What the geoms of this module have beside the methods of ode.GeomObject."""
 
+    def __new__(cls, *arguments: Any, **keywords: Any) -> Any:
+        # Until __init__ makes the geom, another one stands for it: PyODE ends the program when a geom is none.
+        geom = super().__new__(cls)
+        _ode.adopt(geom, _SLOTS, _ode.create_ellipsoid(0, (1.0, 1.0, 1.0)), None)
+        return geom
+
     def _adopt(self, number: int, space: Any) -> None:
+        """Takes the new geom `number`, which is in `space`, for the one that stands for it."""
+        if self._is_made() or not _ode.is_untouched(self._id()):
+            _ode.destroy(number)
+            when = "again" if self._is_made() else "after other methods of the geom; call it first"
+            raise TypeError(f"{type(self).__name__}: __init__() is called {when}")
+        _ode.destroy(self._id())
         _ode.adopt(self, _SLOTS, number, space)
         _pyode._geom_c2py_lut[number] = self
 
+    def _is_made(self) -> bool:
+        return _pyode._geom_c2py_lut.get(self._id()) is self
+
     def _id(self) -> int:
         return _ode.number_of(self, _SLOTS)
+
+    def _describe(self, **parameters: Any) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in parameters.items())})"
 
     def placeable(self) -> bool:
         """True: the geom has a position and may have a body."""
@@ -84,13 +121,38 @@ class _Geom(_pyode.GeomObject):  # type: ignore[misc]  # PyODE has no stubs
         """The boundary point (world frame, m) whose outward normal is `direction` (world frame, any length but 0)."""
         return _ode.support_point(self._id(), direction)
 
-    def getMass(self, density: float) -> Any:
-        """The ode.Mass of the homogeneous body, in the geom's frame; density in kg/m^3, in (0, inf)."""
-        return _to_mass(_ode.mass(self._id(), density, False))
+    def getMass(self, density: float, offCentre: bool = False) -> Any:
+        """The ode.Mass of the homogeneous body, in the geom's frame; density in kg/m^3, in (0, inf).
 
-    def getMassTotal(self, mass: float) -> Any:
-        """The ode.Mass of the homogeneous body with this mass, in the geom's frame; in kg, in (0, inf)."""
-        return _to_mass(_ode.mass(self._id(), mass, True))
+        Raises ValueError when the centre of mass is not the geom's origin, as a Superovoid's is not: ode.Body.setMass() ends the
+        program with such a mass. setBodyAndMass() takes it all the same. offCentre=True returns it, for translate() and add().
+        """
+        return _to_mass(_ode.mass(self._id(), density, False), offCentre)
+
+    def getMassTotal(self, mass: float, offCentre: bool = False) -> Any:
+        """The ode.Mass of the homogeneous body with this mass, in kg, in (0, inf); otherwise as getMass()."""
+        return _to_mass(_ode.mass(self._id(), mass, True), offCentre)
+
+    def setBodyAndMass(self, body: Any, density: float) -> None:
+        """Attaches the geom with its centre of mass in the body's origin, and gives the body the geom's mass.
+
+        ODE has a body's centre of mass in its origin, so that the geom of a Superovoid gets an offset. density: kg/m^3, in (0, inf).
+        """
+        self._set_body(body, self.getMass(density, offCentre=True))
+
+    def setBodyAndMassTotal(self, body: Any, mass: float) -> None:
+        """setBodyAndMass() with the mass of the body, in kg, in (0, inf)."""
+        self._set_body(body, self.getMassTotal(mass, offCentre=True))
+
+    def _set_body(self, body: Any, mass: Any) -> None:
+        to_origin = tuple(-x for x in mass.c)
+        mass.translate(to_origin)
+        self.setBody(body)
+        if any(to_origin):
+            self.setOffsetPosition(to_origin)
+        else:
+            self.clearOffset()
+        body.setMass(mass)
 
     def tessellate(self, chordError: float) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.uint32]]:
         """A closed mesh to draw: points (N, 3), m, normals (N, 3), triangles (M, 3), in the geom's frame.
@@ -100,8 +162,13 @@ class _Geom(_pyode.GeomObject):  # type: ignore[misc]  # PyODE has no stubs
         return _ode.tessellate(self._id(), chordError)
 
 
-def _to_mass(parameters: Tuple[float, Vector, Tuple[float, ...]]) -> Any:
+def _to_mass(parameters: Tuple[float, Vector, Tuple[float, ...]], off_centre: bool) -> Any:
     mass, centre, inertia = parameters
+    if not off_centre and any(abs(x) > _CENTRED for x in centre):
+        raise ValueError(
+            f"the centre of mass is at {centre} m in the geom's frame, and ode.Body.setMass() ends the program unless it is at the "
+            "origin: call setBodyAndMass(body, density), which gives the geom an offset, or getMass(density, offCentre=True)"
+        )
     result = _pyode.Mass()
     result.setParameters(mass, *centre, *inertia)
     return result
@@ -116,6 +183,9 @@ class Ellipsoid(_Geom):
 
     def __init__(self, space: Any = None, halfAxes: Sequence[float] = (1.0, 1.0, 1.0)) -> None:
         self._adopt(_ode.create_ellipsoid(_space_number(space), halfAxes), space)
+
+    def __repr__(self) -> str:
+        return self._describe(halfAxes=self.getHalfAxes())
 
     def getHalfAxes(self) -> Vector:
         """The half-axes, m."""
@@ -137,6 +207,9 @@ class Superellipsoid(_Geom):
     ) -> None:
         self._adopt(_ode.create_superellipsoid(_space_number(space), halfAxes, delta, epsilon), space)
 
+    def __repr__(self) -> str:
+        return self._describe(**dict(zip(("halfAxes", "delta", "epsilon"), self.getParams())))
+
     def getParams(self) -> Tuple[Vector, float, float]:
         """The half-axes, m, and the exponents: (halfAxes, delta, epsilon)."""
         return _ode.get_superellipsoid(self._id())
@@ -149,7 +222,7 @@ class Superellipsoid(_Geom):
 class Superovoid(_Geom):
     """A superellipsoid whose section grows or shrinks linearly along z; see supernormal.Superovoid.
 
-    Its centre of mass is not its origin: getMass() says where it is, and setOffsetPosition() is for that, as ever in ODE.
+    Its centre of mass is not its origin, where ODE wants that of a body: setBodyAndMass() gives the geom the offset.
     """
 
     def __init__(
@@ -162,6 +235,9 @@ class Superovoid(_Geom):
         taperY: float = 0.0,
     ) -> None:
         self._adopt(_ode.create_superovoid(_space_number(space), halfAxes, delta, epsilon, taperX, taperY), space)
+
+    def __repr__(self) -> str:
+        return self._describe(**dict(zip(("halfAxes", "delta", "epsilon", "taperX", "taperY"), self.getParams())))
 
     def getParams(self) -> Tuple[Vector, float, float, float, float]:
         """The half-axes, m, the exponents and the tapers: (halfAxes, delta, epsilon, taperX, taperY)."""
@@ -179,6 +255,10 @@ class Convex(_Geom):
         if shape is None:
             raise TypeError("shape is None, but must be a supernormal.Shape")
         self._adopt(_ode.create_convex(_space_number(space), shape), space)
+        self._shape = shape
+
+    def __repr__(self) -> str:
+        return self._describe(shape=self._shape)
 
 
 class GeomProximity(NamedTuple):

@@ -11,8 +11,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
+#include <sstream>
 #include <utility>
+
+#include "orientation.hpp"
 
 namespace fit {
 namespace {
@@ -25,21 +29,49 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-/// The numbers of a line, at most `values.size()` of them; -1 when something else stands there, or more.
-int parse_numbers(const std::string& line, std::array<double, 6>& values) {
+/// What stands between two numbers: "" for spaces, or the mark, with a space where one follows.
+std::string separator_at(const char*& at) {
+  std::string separator;
+  for (; std::isspace(static_cast<unsigned char>(*at)) != 0 || *at == ',' || *at == ';'; ++at) {
+    const bool is_mark = *at == ',' || *at == ';';
+    if (is_mark) separator += *at;
+    if (!is_mark && !separator.empty() && separator.back() != ' ') separator += ' ';
+  }
+  return separator;
+}
+
+/// The numbers of a line, at most `values.size()` of them; -1 when something else stands there, or more. Throws InputError when
+/// numbers are separated in more than one way: in "1,5 2,5 3,5" the commas are decimal ones.
+int parse_numbers(const std::string& where, const std::string& line, std::array<double, 6>& values) {
   const char* at = line.c_str();
   int count = 0;
-  const auto skip = [&] {
-    while (std::isspace(static_cast<unsigned char>(*at)) != 0 || *at == ',' || *at == ';') ++at;
-  };
-  for (skip(); *at != '\0'; skip()) {
+  std::string first;
+  separator_at(at);
+  while (*at != '\0') {
     char* end = nullptr;
     const double value = std::strtod(at, &end);
     if (end == at || count == 6) return -1;
     values[static_cast<std::size_t>(count++)] = value;
     at = end;
+    const std::string separator = separator_at(at);
+    if (*at == '\0') break;
+    if (count == 1) first = separator;
+    if (separator == first) continue;
+    throw InputError(where + "numbers are separated in more than one way; a decimal comma? Write decimal points");
   }
   return count;
+}
+
+/// The last three numbers of a line as a normal. A colour is none.
+Eigen::Vector3d read_normal(const std::string& where, const std::array<double, 6>& values) {
+  constexpr double kUnit = 1e-2;
+  const Eigen::Vector3d normal(values[3], values[4], values[5]);
+  const double length = normal.norm();
+  if (!std::isfinite(length) || length == 0 || std::abs(length - 1) <= kUnit) return normal;
+  std::ostringstream text;
+  text << where << "the normal (" << values[3] << ", " << values[4] << ", " << values[5] << ") has the length " << length
+       << ", but must have 1 to within " << kUnit << "; is it a colour? Leave it out";
+  throw InputError(text.str());
 }
 
 Data read_text(const std::string& path) {
@@ -50,16 +82,16 @@ Data read_text(const std::string& path) {
   for (int number = 1; std::getline(file, line); ++number) {
     line.erase(std::min(line.find('#'), line.size()));
     std::array<double, 6> values{};
-    const int count = parse_numbers(line, values);
-    if (count == 0) continue;
     const std::string where = path + ":" + std::to_string(number) + ": ";
+    const int count = parse_numbers(where, line, values);
+    if (count == 0) continue;
     if (count != 3 && count != 6) throw InputError(where + "a line holds x y z, or x y z nx ny nz");
     const bool has_normal = count == 6;
     if (!data.vertices.points.empty() && has_normal == data.vertices.normals.empty()) {
       throw InputError(where + "either all points have normals or none");
     }
     data.vertices.points.emplace_back(values[0], values[1], values[2]);
-    if (has_normal) data.vertices.normals.emplace_back(values[3], values[4], values[5]);
+    if (has_normal) data.vertices.normals.push_back(read_normal(where, values));
   }
   return data;
 }
@@ -90,6 +122,30 @@ Data read_by_assimp(const std::string& path) {
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], data);
   if (data.vertices.normals.size() != data.vertices.points.size()) data.vertices.normals.clear();
   return data;
+}
+
+/// Assimp keeps coordinates in single precision: far from the origin, they lose the shape.
+void require_precision(const std::string& path, const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kMostRounding = 1e-4;  // over the extent; 1e-3 moves exponents by several per cent
+  double largest = 0;
+  for (const Eigen::Vector3d& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  const double rounding = largest * double{std::numeric_limits<float>::epsilon()} / 2;
+  const double extent = extent_of(points).size;
+  if (!(rounding > kMostRounding * extent) || extent == 0) return;
+  std::ostringstream text;
+  text << path << ": coordinates are read in single precision: those up to " << largest << " are rounded by " << rounding << ", "
+       << 100 * rounding / extent << " % of the data's extent of " << extent
+       << "; allowed: 0.01 %. Move the data near the origin, or give points as .xyz, which is read in double precision";
+  throw InputError(text.str());
+}
+
+/// Says what orient() did.
+std::string note_of(const Oriented& done, std::size_t triangles) {
+  std::string note;
+  if (done.removed > 0) note = std::to_string(done.removed) + " triangles that repeat others or have no three corners are left out";
+  if (done.turned == 0) return note;
+  return note + (note.empty() ? "" : "; ") + std::to_string(done.turned) + " of " + std::to_string(triangles) +
+         " triangles faced inwards and are turned round";
 }
 
 /// Makes one vertex of those in the same place: an .stl repeats them for every triangle.
@@ -136,7 +192,11 @@ Data read_data(const std::string& path, double scale) {
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
   Data data = is_text ? read_text(path) : read_by_assimp(path);
   check(path, data);
-  if (!data.triangles.empty()) weld(data);
+  if (!is_text) require_precision(path, data.vertices.points);
+  if (!data.triangles.empty()) {
+    weld(data);
+    data.note = note_of(orient(data), data.triangles.size());
+  }
   for (Eigen::Vector3d& x : data.vertices.points) x *= scale;
   return data;
 }

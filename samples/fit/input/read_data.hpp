@@ -15,14 +15,16 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a file holds: triangles, or points alone.
+/// What a file holds: triangles, which face outwards, or points alone.
 struct Data {
   Cloud vertices;                   ///< all points of the file, with the normals that it gives (points only)
   std::vector<Triangle> triangles;  ///< none: a point cloud
+  std::string note;                 ///< what was mended in the file, for the user; "": nothing
 };
 
 /// Reads a mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz: lines of x y z, or x y z nx ny nz, with # for comments), and
-/// multiplies lengths by `scale`. Throws InputError: no such file, unknown extension, nothing in it, a number that is not finite.
+/// multiplies lengths by `scale`. Throws InputError: no such file, unknown extension, nothing in it, a number that is not finite,
+/// decimal commas, normals that are none, coordinates that lose their digits in single precision.
 Data read_data(const std::string& path, double scale);
 
 }  // namespace fit

@@ -1,5 +1,6 @@
 #include "fit_body.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -290,6 +291,17 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
   });
 }
 
+/// Refuses data of extent 1 that lie on a line or in a plane.
+void require_three_dimensions(const Cloud& data) {
+  constexpr double kFlat = 1e-6;  // ten times the rounding of coordinates in single precision
+  Matrix3 scatter = Matrix3::Zero();
+  for (const Vector3& x : data.points) scatter += x * x.transpose() / static_cast<double>(data.points.size());
+  const Vector3 squares = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  if (squares[0] > kFlat * kFlat) return;
+  const char* const where = squares[1] > kFlat * kFlat ? "in a plane" : "on a line";
+  throw std::invalid_argument(std::string("the points lie ") + where + ", to a millionth of their extent, and bound no body");
+}
+
 }  // namespace
 
 std::size_t least_points(Family family) { return static_cast<std::size_t>(parameter_count(family)) + 1; }
@@ -305,6 +317,7 @@ void require_points(const Cloud& cloud, std::size_t least) {
   if (!(extent.size > 1e-12 * extent.centre.norm()) || !std::isfinite(extent.size)) {
     throw std::invalid_argument("the points are all in one place, or too large to be told apart");
   }
+  require_three_dimensions(normalized(cloud, extent));
 }
 
 Candidate search_body(const Cloud& cloud, Family family, const FitSettings& settings) {
@@ -324,7 +337,12 @@ FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent);
   const Candidate best = best_family(thinned(data, 3000), settings);
-  if (!std::isfinite(best.mean_square)) throw std::runtime_error("no body fits: every descent failed");
+  if (!std::isfinite(best.mean_square)) {
+    throw std::runtime_error(
+        cloud.normals.empty()
+            ? "no body fits: every descent failed"
+            : "no body fits: every descent failed or ended with its normals against those of the data, which must point outwards");
+  }
   if (data.points.size() <= kLarge)
     return finish(descend_on_all(in_customary_order(best.body), data, settings, 4), extent, data, settings);
   // Most of the way is done on some of the points. From an estimate whose error falls as theirs does, one step of Newton's is as

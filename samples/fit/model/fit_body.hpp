@@ -41,11 +41,10 @@ struct FittedBody {
 /// The least number of points for a family: one more than the numbers of the body, to have an error bar.
 std::size_t least_points(Family family);
 
-/// std::invalid_argument unless there are `least` points, they are finite, and they are not all in one place.
+/// std::invalid_argument unless there are `least` points, they are finite, and they are not all in one place, line or plane.
 void require_points(const Cloud& cloud, std::size_t least);
 
-/// Fits the points and measures how well. std::invalid_argument when there are too few points, they are not finite, or they are all
-/// in one place.
+/// Fits the points and measures how well. std::invalid_argument as require_points().
 FittedBody fit_body(const Cloud& cloud, const FitSettings& settings = {});
 
 /// Only descends from `start` on all points: for a start that is near.

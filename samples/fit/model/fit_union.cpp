@@ -60,12 +60,16 @@ Assignment assign(const std::vector<Body>& bodies, const Cloud& cloud, Distance 
   return result;
 }
 
-Cloud owned(const Cloud& cloud, const std::vector<int>& owner, std::size_t body) {
+std::vector<std::size_t> indices_of(const std::vector<int>& owner, std::size_t body) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < owner.size(); ++i) {
     if (owner[i] == static_cast<int>(body)) indices.push_back(i);
   }
-  return selected(cloud, indices);
+  return indices;
+}
+
+Cloud owned(const Cloud& cloud, const std::vector<int>& owner, std::size_t body) {
+  return selected(cloud, indices_of(owner, body));
 }
 
 /// Huber's loss, the mean over the points, as a mean square.
@@ -223,7 +227,9 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, con
     const Assignment assignment = assign(bodies, cloud, Distance::Union);
     if (assignment.owner == before) break;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-      fitted[k] = refine_body(bodies[k], owned(cloud, assignment.owner, k), settings);
+      const std::vector<std::size_t> indices = indices_of(assignment.owner, k);
+      fitted[k] = refine_body(bodies[k], selected(cloud, indices), settings);
+      for (std::size_t& outlier : fitted[k].outliers) outlier = indices[outlier];
       bodies[k] = fitted[k].body;
     }
     before = assignment.owner;
@@ -234,7 +240,7 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, con
 
 }  // namespace
 
-std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings) {
+std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings, const Progress& progress) {
   constexpr int kLargestCount = 16;
   if (largest_count < 1 || largest_count > kLargestCount) {
     throw std::invalid_argument("at most " + std::to_string(largest_count) + " bodies; allowed: 1 to " +
@@ -249,6 +255,7 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
   Model best;
   double least = std::numeric_limits<double>::infinity();
   for (int count = 1; count <= largest_count; ++count) {
+    if (progress) progress(count, largest_count);
     const Model of_count = best_of_clusterings(few, count, family);
     if (!(criterion(of_count, few.points.size()) < least)) continue;
     best = of_count;

@@ -1,6 +1,7 @@
 // The union of a few bodies that fits data best.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fit_body.hpp"
@@ -14,6 +15,9 @@ namespace fit {
 ///
 /// Where to start from is found with ellipsoids, from several k-means clusterings; a number of bodies is taken when its Bayesian
 /// information criterion is less than that of fewer. std::invalid_argument as fit_body, and when largest_count is out of its range.
-std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings = {});
+/// `progress` is told the number of bodies that is looked for next, and the largest.
+using Progress = std::function<void(int count, int largest_count)>;
+std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings = {},
+                                  const Progress& progress = {});
 
 }  // namespace fit

@@ -1,6 +1,7 @@
 #include "least_squares.hpp"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <array>
@@ -203,6 +204,8 @@ LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3
     problem.AddResidualBlock(new Distances(start.family, points.subspan(first, count), their_offsets, settings), nullptr,
                              std::vector<double*>(blocks.begin(), blocks.end()));
   }
+  // A step that Ceres cannot evaluate is one that it does not take: nothing that a user is to be warned of.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   ceres::Solver::Summary summary;
   ceres::Solve(options_of(settings), &problem, &summary);
   LeastSquaresResult result;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <numbers>
 #include <vector>
 
 #include "output/toml_string.hpp"
@@ -56,6 +57,23 @@ std::string create_call(const Body& body) {
          ")";
 }
 
+/// The keys of a catalogue that give the shape.
+std::string shape_keys(const Body& body, const std::string& separator) {
+  std::string text = "half_axes = [" + list({body.half_axes.x(), body.half_axes.y(), body.half_axes.z()}) + "]";
+  text += separator + "delta = " + literal(body.delta) + separator + "epsilon = " + literal(body.epsilon);
+  if (body.family == Family::Superovoid) text += separator + "taper = [" + list({body.taper, body.taper}) + "]";
+  return text;
+}
+
+/// Those that give the place in a compound.
+std::string place_keys(const Body& body, const Vector3& origin) {
+  const Vector3 at = body.position - origin;
+  const Eigen::AngleAxisd turn(body.attitude);
+  const Vector3& axis = turn.axis();
+  return "position = [" + list({at.x(), at.y(), at.z()}) + "], axis = [" + list({axis.x(), axis.y(), axis.z()}) +
+         "], angle = " + literal(turn.angle() * 180 / std::numbers::pi);
+}
+
 }  // namespace
 
 std::string identifier(const std::string& text) {
@@ -68,22 +86,25 @@ std::string identifier(const std::string& text) {
 }
 
 std::string toml_lines(std::span<const FittedBody> bodies, const std::string& name, double density, const std::string& source) {
-  std::string text;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Body& body = bodies[i].body;
-    const std::string part = name_of_part(name, bodies.size(), i);
-    if (i > 0) text += "\n";
-    if (body.family == Family::Superovoid) {
-      text += "# " + part + " is a superovoid, which catalogues of grains do not have; in C it is snCreateSuperovoid.\n";
-      continue;
-    }
-    if (body.half_axes.maxCoeff() > 1) text += "# falling_particles takes half-axes up to 1 m: is the unit right (fit --scale)?\n";
-    text += "[" + part + "]\n";
-    text += "half_axes = [" + list({body.half_axes.x(), body.half_axes.y(), body.half_axes.z()}) + "]\n";
-    text += "delta = " + literal(body.delta) + "\nepsilon = " + literal(body.epsilon) + "\n";
-    text += "density = " + literal(density) + "\nsource = " + falling_particles::toml_string(source) + "\n";
+  // A compound's frame has any origin: near the bodies, so that no position is out of a catalogue's range.
+  Vector3 middle = Vector3::Zero();
+  bool is_large = false;
+  for (const FittedBody& each : bodies) {
+    middle += each.body.position / static_cast<double>(bodies.size());
+    is_large = is_large || each.body.half_axes.maxCoeff() > 1;
   }
-  return text;
+  std::string text = is_large ? "# falling_particles takes half-axes up to 1 m: is the unit right (fit --scale)?\n" : "";
+  text += "[" + name + "]\n";
+  if (bodies.size() == 1) {
+    text += shape_keys(bodies.front().body, "\n") + "\n";
+  } else {
+    text += "parts = [\n";
+    for (const FittedBody& each : bodies) {
+      text += "  { " + shape_keys(each.body, ", ") + ", " + place_keys(each.body, middle) + " },\n";
+    }
+    text += "]\n";
+  }
+  return text + "density = " + literal(density) + "\nsource = " + falling_particles::toml_string(source) + "\n";
 }
 
 std::string c_lines(std::span<const FittedBody> bodies, const std::string& name, const std::string& source) {

@@ -24,6 +24,16 @@ void ball_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
   for (std::size_t i = 0; i < 3; ++i) point[i] = dReal(n[i] + kOffset[i]);
 }
 
+// An ellipsoid with half-axes of some 10 km in no special attitude: h(n) = |A n|.
+Vec oblique(const Vec& n) { return {9000 * n[0] + 4000 * n[1], 11000 * n[1] + 3000 * n[2], 7000 * n[2] + 2000 * n[0]}; }
+dReal oblique_support(const void* /*user*/, const dReal n[3]) { return dReal(norm(oblique(to_vec(n)))); }
+void oblique_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
+  const Vec v = oblique(to_vec(n));
+  const double h = norm(v);
+  const Vec r = {9000 * v[0] + 2000 * v[2], 4000 * v[0] + 11000 * v[1], 3000 * v[1] + 7000 * v[2]};
+  for (std::size_t i = 0; i < 3; ++i) point[i] = dReal(r[i] / h);
+}
+
 }  // namespace
 
 TEST_CASE("ellipsoid: the textbook") {
@@ -102,6 +112,19 @@ TEST_CASE("a centre of mass off the origin: what dMassTranslate gives for a sphe
     CHECK(mass.I[i] == relative(reference.I[i]).epsilon(within_rounding(1e-8)));
   }
   CHECK(dMassCheck(&mass) == 1);
+}
+
+TEST_CASE("a centre of mass that is the origin to rounding is the origin, however large the body") {
+  OdeSession session;
+  const dWorldID world = dWorldCreate();
+  const snShape shape = {oblique_support, oblique_point, nullptr, nullptr, nullptr};
+  const Geom geom(snCreateConvex(nullptr, &shape));
+  REQUIRE(dGeomID(geom) != nullptr);
+  dMass mass;
+  REQUIRE(snMassSet(&mass, 1000, geom) == 1);
+  for (const int i : {0, 1, 2}) CHECK(mass.c[i] == 0);
+  dBodySetMass(dBodyCreate(world), &mass);  // ODE asserts it
+  dWorldDestroy(world);
 }
 
 TEST_CASE("ODE accepts the mass of every body that it can hold") {

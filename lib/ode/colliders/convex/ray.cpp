@@ -7,6 +7,7 @@
 
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
+#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"
@@ -56,6 +57,7 @@ int collide_with_ray(dGeomID ours, dGeomID collider, int flags, dContactGeom* co
     const Ray ray(collider);
     if (!(ray.length > 0)) return 0;
     const RayHit hit = find_ray_hit(body.shape(), pose_of(ours), ray.origin, ray.direction, ray.length, body.settings());
+    if (hit.status == Status::InvalidInput) refuse_pair(ours, collider);
     const Proximity contact = as_contact(hit);
     count_query(contact, false);
     return hit.hit ? write_contacts(contact, {ours, collider, flags, contacts, skip}) : 0;

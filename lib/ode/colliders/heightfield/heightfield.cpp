@@ -5,6 +5,7 @@
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/heightfield/heightfield_patch.hpp"
+#include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"
@@ -160,7 +161,8 @@ int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContact
     const Pose frame = pose_of_heightfield(collider);
     const Visitor visitor(require_body(ours), pose_of(ours), frame);
     HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
-    if (!visitor.is_finite() || is_above_all(probe, visitor)) return 0;
+    if (!visitor.is_finite()) refuse_pair(ours, collider);
+    if (is_above_all(probe, visitor)) return 0;
     const ContactArray out{ours, collider, flags, contacts, skip};
     const Found found = find_contacts(probe, visitor);
     std::vector<LocatedManifold>& manifolds = scratch().manifolds;

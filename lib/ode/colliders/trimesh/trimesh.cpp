@@ -6,11 +6,13 @@
 
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
+#include "ode/colliders/no_answer.hpp"
 #include "ode/colliders/trimesh/mesh_candidates.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
+#include "proximity/usable_pose.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 
@@ -42,8 +44,9 @@ struct Visit {
 
   // ODE aborts on a box whose numbers are not finite.
   bool is_usable() const {
-    return pose.position.allFinite() && pose.rotation.allFinite() && box.centre.allFinite() && box.half_lengths.allFinite() &&
-           (box.half_lengths.array() > 0).all();
+    const Pose frame{to_vector(dGeomGetPosition(mesh)), to_rotation(dGeomGetRotation(mesh))};
+    return supernormal::is_usable(pose) && supernormal::is_usable(frame) && box.centre.allFinite() &&
+           box.half_lengths.allFinite() && (box.half_lengths.array() > 0).all();
   }
 
   /// The triangles that are no farther from the body than `distance`.
@@ -124,7 +127,7 @@ ContactManifold query_trimesh(dGeomID ours, dGeomID collider, Goal /*goal*/) {
 int collide_with_trimesh(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
   return guarded("dCollide", 0, [&] {
     const Visit visit(ours, collider);
-    if (!visit.is_usable()) return 0;
+    if (!visit.is_usable()) refuse_pair(ours, collider);
     const ContactArray out{ours, collider, flags, contacts, skip};
     const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
     std::vector<LocatedManifold>& manifolds = scratch().manifolds;

@@ -1,0 +1,32 @@
+#include "ode/colliders/no_answer.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "ode/geom/convert.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "ode/support/require.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+void require_usable_pose(dGeomID geom) {
+  if (dGeomGetClass(geom) == dPlaneClass) return;  // it has no pose
+  const Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
+  if (is_usable(pose)) return;
+  const Vector3& p = pose.position;
+  throw std::invalid_argument("the pose of " + geom_class_name(geom) + " is not finite, or its position is not within " +
+                              to_text(kFarthest) + " m: position = (" + to_text(p.x()) + ", " + to_text(p.y()) + ", " +
+                              to_text(p.z()) + ") m");
+}
+
+}  // namespace
+
+void refuse_pair(dGeomID ours, dGeomID collider) {
+  require_usable_pose(ours);
+  require_usable_pose(collider);
+  throw std::invalid_argument("the numbers that describe " + geom_class_name(collider) +
+                              ", or what a user-defined body returned, are not finite");
+}
+
+}  // namespace supernormal::ode

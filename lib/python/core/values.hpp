@@ -1,0 +1,93 @@
+// Objects that are what they are made of: they are compared, copied, pickled and printed by that.
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supernormal::python {
+
+/// A vector, or a matrix by rows, as tuples, which compare by value.
+inline pybind11::tuple plain(const Eigen::Vector3d& v) { return pybind11::make_tuple(v.x(), v.y(), v.z()); }
+inline pybind11::tuple plain(const Eigen::Matrix3d& M) {
+  const auto row = [&](int i) { return plain(Eigen::Vector3d(M.row(i))); };
+  return pybind11::make_tuple(row(0), row(1), row(2));
+}
+
+/// "Sphere(radius=1.0)", with the name of the object's own class.
+std::string call_text(const pybind11::handle& self, const std::vector<const char*>& names, const pybind11::tuple& arguments);
+
+/// What a program has added to an object of its own subclass; nothing for our classes.
+pybind11::dict attributes_of(const pybind11::handle& self);
+
+/// An object as arguments_of() functions take it: the shared pointer where its class has one, otherwise a reference.
+template <typename Class>
+decltype(auto) unwrapped(const pybind11::handle& self) {
+  using Type = typename Class::type;
+  using Pointer = std::shared_ptr<Type>;
+  if constexpr (std::is_same_v<typename Class::holder_type, Pointer>) {
+    self.cast<const Type&>();  // says what is wrong with an object that has no value
+    return self.cast<Pointer>();
+  } else {
+    return self.cast<const Type&>();
+  }
+}
+
+/// The function that makes a shared Made of a tuple of arguments of these types.
+template <typename Made, typename... Types>
+auto constructor() {
+  return [](const pybind11::tuple& of) {
+    return [&]<std::size_t... k>(std::index_sequence<k...>) { return std::make_shared<Made>(of[k].template cast<Types>()...); }
+    (std::index_sequence_for<Types...>{});
+  };
+}
+
+/// Binds copy.copy(), copy.deepcopy() and pickle. arguments_of(object) returns a tuple of what objects of Python the object is made
+/// of, and make(tuple) an object, or its shared pointer.
+template <typename Class, typename ArgumentsOf, typename Make>
+void bind_copies(Class& type, const ArgumentsOf& arguments_of, const Make& make) {
+  namespace py = pybind11;
+  type.def(py::pickle(
+      [arguments_of](const py::object& self) { return py::make_tuple(arguments_of(unwrapped<Class>(self)), attributes_of(self)); },
+      [make](const py::tuple& state) { return std::pair(make(state[0].cast<py::tuple>()), state[1].cast<py::dict>()); }));
+}
+
+/// Binds ==: objects of the same class are equal when their arguments are.
+template <typename Class, typename ArgumentsOf>
+void bind_equality(Class& type, const ArgumentsOf& arguments_of) {
+  namespace py = pybind11;
+  type.def(
+      "__eq__",
+      [arguments_of](const py::object& self, const py::object& other) -> py::object {
+        if (!py::type::of(self).is(py::type::of(other))) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+        return py::bool_(arguments_of(unwrapped<Class>(self)).equal(arguments_of(unwrapped<Class>(other))));
+      },
+      py::arg("other"));
+}
+
+/// Binds all of these and hash(), for a class whose objects do not change.
+template <typename Class, typename ArgumentsOf, typename Make>
+void bind_value(Class& type, const ArgumentsOf& arguments_of, const Make& make) {
+  namespace py = pybind11;
+  bind_copies(type, arguments_of, make);
+  bind_equality(type, arguments_of);
+  type.def("__hash__", [arguments_of](const py::object& self) {
+    return py::hash(py::make_tuple(py::type::of(self), arguments_of(unwrapped<Class>(self))));
+  });
+}
+
+/// The same, and repr() with the names of the arguments.
+template <typename Class, typename ArgumentsOf, typename Make>
+void bind_value(Class& type, std::initializer_list<const char*> names, const ArgumentsOf& arguments_of, const Make& make) {
+  bind_value(type, arguments_of, make);
+  type.def("__repr__", [arguments_of, names = std::vector<const char*>(names)](const pybind11::object& self) {
+    return call_text(self, names, arguments_of(unwrapped<Class>(self)));
+  });
+}
+
+}  // namespace supernormal::python

@@ -1,0 +1,112 @@
+#include "orientation.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace fit {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+std::size_t remove_repeated(std::vector<Triangle>& triangles) {
+  std::set<Triangle> known;
+  return std::erase_if(triangles, [&](const Triangle& t) {
+    Triangle corners = t;
+    std::ranges::sort(corners);
+    return std::ranges::adjacent_find(corners) != corners.end() || !known.insert(corners).second;
+  });
+}
+
+/// A connected part of a mesh: its triangles, and whether each is to be turned round to be like the first.
+struct Part {
+  std::vector<std::pair<std::size_t, bool>> triangles;
+  Box box;
+  bool is_inside_out = false;  // when they are
+};
+
+bool has_edge(const Triangle& t, std::uint32_t from, std::uint32_t to) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (t[k] == from && t[(k + 1) % 3] == to) return true;
+  }
+  return false;
+}
+
+/// The parts, by the edges that two triangles have in common.
+std::vector<Part> find_parts(const std::vector<Triangle>& triangles) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> on_edge;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) on_edge[std::minmax(triangles[i][k], triangles[i][(k + 1) % 3])].push_back(i);
+  }
+  std::vector<Part> parts;
+  std::vector<bool> is_known(triangles.size(), false);
+  for (std::size_t first = 0; first < triangles.size(); ++first) {
+    if (is_known[first]) continue;
+    is_known[first] = true;
+    auto& found = parts.emplace_back(Part{{{first, false}}, {}}).triangles;
+    for (std::size_t next = 0; next < found.size(); ++next) {
+      const auto [i, is_turned] = found[next];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t from = triangles[i][k], to = triangles[i][(k + 1) % 3];
+        const auto& both = on_edge[std::minmax(from, to)];
+        if (both.size() != 2) continue;
+        const std::size_t other = both[0] == i ? both[1] : both[0];
+        if (is_known[other]) continue;
+        is_known[other] = true;
+        found.emplace_back(other, is_turned != has_edge(triangles[other], from, to));
+      }
+    }
+  }
+  return parts;
+}
+
+/// Measures a part: its box, and the sign of the volume between it and its mean point.
+void measure(Part& part, const Data& data) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [i, is_turned] : part.triangles) {
+    for (const std::uint32_t corner : data.triangles[i]) {
+      part.box.extend(data.vertices.points[corner]);
+      sum += data.vertices.points[corner];
+    }
+  }
+  const Eigen::Vector3d mean = sum / (3 * static_cast<double>(part.triangles.size()));
+  double volume = 0;
+  for (const auto& [i, is_turned] : part.triangles) {
+    const auto corner = [&](std::size_t k) -> Eigen::Vector3d { return data.vertices.points[data.triangles[i][k]] - mean; };
+    volume += (is_turned ? -1 : 1) * corner(0).dot(corner(1).cross(corner(2)));
+  }
+  part.is_inside_out = volume < 0;
+}
+
+/// The largest part that the box of another one lies in; itself if there is none.
+const Part& around(const Part& part, const std::vector<Part>& parts) {
+  const Part* outer = &part;
+  for (const Part& other : parts) {
+    const bool is_larger = other.box.contains(part.box) && other.box.volume() > outer->box.volume();
+    if (is_larger) outer = &other;
+  }
+  return *outer;
+}
+
+}  // namespace
+
+Oriented orient(Data& data) {
+  Oriented done;
+  done.removed = remove_repeated(data.triangles);
+  std::vector<Part> parts = find_parts(data.triangles);
+  for (Part& part : parts) measure(part, data);
+  for (const Part& part : parts) {
+    const bool is_other_way = around(part, parts).is_inside_out;
+    for (const auto& [i, is_turned] : part.triangles) {
+      if (is_turned == is_other_way) continue;
+      std::swap(data.triangles[i][1], data.triangles[i][2]);
+      ++done.turned;
+    }
+  }
+  return done;
+}
+
+}  // namespace fit
