@@ -35,7 +35,7 @@ FittedBody fitted_of(const Body& body) {
   return fitted;
 }
 
-Body make_body(Family family, double delta, double epsilon, double taper = 0) {
+Body make_small_body(Family family, double delta, double epsilon, double taper = 0) {
   return {family, {0.3, -0.2, 0.5}, Eigen::Quaterniond(0.7, 0.3, -0.2, 0.5).normalized(), {0.03, 0.02, 0.01}, delta, epsilon,
           taper};
 }
@@ -97,7 +97,7 @@ TEST_CASE("points are read from .xyz, .obj and .ply alike") {
 
 TEST_CASE("a mesh gives its body back, and volume and inertia agree") {
   const TemporaryFolder folder;
-  const Body body = make_body(Family::Superellipsoid, 3, 2.5);
+  const Body body = make_small_body(Family::Superellipsoid, 3, 2.5);
   const Data data = read_data(folder.write("body.obj", obj_of(body)), 1);
   REQUIRE_FALSE(data.triangles.empty());
   const FittedBody fitted = fit_body(data.vertices, {.family = Family::Superellipsoid, .noise = Noise::AlongNormal});
@@ -114,9 +114,9 @@ TEST_CASE("a mesh gives its body back, and volume and inertia agree") {
 
 TEST_CASE("a catalogue of grains takes the lines of TOML") {
   const TemporaryFolder folder;
-  const std::vector<FittedBody> fitted = {fitted_of(make_body(Family::Superellipsoid, 3, 2.5)),
-                                          fitted_of(make_body(Family::Ellipsoid, 2, 2)),
-                                          fitted_of(make_body(Family::Superovoid, 2, 2, -0.3))};
+  const std::vector<FittedBody> fitted = {fitted_of(make_small_body(Family::Superellipsoid, 3, 2.5)),
+                                          fitted_of(make_small_body(Family::Ellipsoid, 2, 2)),
+                                          fitted_of(make_small_body(Family::Superovoid, 2, 2, -0.3))};
   const auto grains =
       falling_particles::load_catalogue(folder.write("grains.toml", toml_lines(fitted, "thing", 1200, "a \"scan\"")));
   REQUIRE(grains.size() == 2);  // there is no superovoid in a catalogue
@@ -131,9 +131,9 @@ TEST_CASE("a catalogue of grains takes the lines of TOML") {
 
 TEST_CASE("the lines of C compile, and make the bodies") {
   const TemporaryFolder folder;
-  const std::vector<FittedBody> fitted = {fitted_of(make_body(Family::Superellipsoid, 3, 2.5)),
-                                          fitted_of(make_body(Family::Ellipsoid, 2, 2)),
-                                          fitted_of(make_body(Family::Superovoid, 2, 2, -0.3))};
+  const std::vector<FittedBody> fitted = {fitted_of(make_small_body(Family::Superellipsoid, 3, 2.5)),
+                                          fitted_of(make_small_body(Family::Ellipsoid, 2, 2)),
+                                          fitted_of(make_small_body(Family::Superovoid, 2, 2, -0.3))};
   const std::string source =
       folder.write("thing.c",
                    "#include <supernormal/supernormal.h>\nvoid make(dSpaceID space, dGeomID *out);\n"
@@ -175,7 +175,7 @@ TEST_CASE("names fit into C and catalogues") {
 }
 
 TEST_CASE("a picture is an SVG with every view") {
-  const Body body = make_body(Family::Superellipsoid, 3, 2.5);
+  const Body body = make_small_body(Family::Superellipsoid, 3, 2.5);
   const std::string svg = draw(std::vector<Body>{body}, scatter(body, {.points = 100}), 1e-5, "a < b & c");
   CHECK(svg.find("a &lt; b &amp; c") != std::string::npos);
   std::size_t outlines = 0;
