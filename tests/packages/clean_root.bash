@@ -1,0 +1,17 @@
+# copy_clean_root FOLDER: puts a Debian of this machine's release into a folder, with what every machine has on which programs are built,
+# and nothing of ours or of what that depends on. To be sourced; takes root, for debootstrap. The root is made once and kept in
+# build/packages/clean; remove that folder for a new one.
+copy_clean_root() {
+  local clean=$PWD/build/packages/clean release
+  if [[ ! -d $clean ]]; then
+    echo "== a clean root =="
+    rm -rf "$clean.new"
+    mkdir -p "$(dirname "$clean")"
+    release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+    debootstrap --variant=minbase --include=cmake,g++,make,pkg-config "$release" "$clean.new" http://deb.debian.org/debian \
+      >"$clean.log" || { tail "$clean.log" >&2 && exit 1; }
+    mv "$clean.new" "$clean"
+  fi
+  rm -rf "$1"
+  cp -a "$clean" "$1"
+}
