@@ -20,7 +20,7 @@ enum class Status {
   Stalled,          ///< no further ascent in double precision although the error exceeds the tolerance
   EvaluationLimit,  ///< Settings::max_evaluations reached
   Diverged,         ///< an unguarded solver (Newton, fixed point) left the domain: singular system or coincident centres
-  InvalidInput,     ///< a pose or a shape gave a number that is not finite; the result holds no answer
+  InvalidInput,     ///< a pose or a shape gave a number that is not finite, or a rotation is none; the result holds no answer
 };
 
 /// When a solver is to stop. `tolerance` is relative to the smallest half-extent of the two bodies: a solver has converged when

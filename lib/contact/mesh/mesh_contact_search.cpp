@@ -8,6 +8,7 @@
 
 #include "contact/mesh/arc.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
+#include "proximity/usable_pose.hpp"
 
 namespace supernormal {
 namespace {
@@ -24,7 +25,7 @@ std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const P
                                                      const Settings& settings) {
   contacts_.clear();
   evaluations_ = 0;
-  if (triangles.empty() || !pose.position.allFinite() || !pose.rotation.allFinite()) return contacts_;
+  if (triangles.empty() || !is_usable(pose)) return contacts_;
   settings_ = settings;
   settings_.solver = Solver::Hybrid;
   settings_.stop_when_apart = true;
