@@ -169,6 +169,8 @@ Vector3 contact_point(GapFunction& gap, const GapJet& jet, double tolerance, int
                       std::span<const WitnessPair> beside) {
   const double near = std::max(kNear * gap.length_unit(), tolerance);
   Vector3 contact = contact_between(gap, jet);
+  // A sharp body's own point is as near as can be where the other one is round.
+  if (!is_near_both(gap, jet, contact, near)) contact = contact_of_balls(gap, jet);
   if (!is_near_both(gap, jet, contact, near)) contact = common_point(gap, jet, tolerance, near, max_evaluations, beside);
   // Halfway between the tangent planes: points of tilted normals, and vertices beside an edge, are below these.
   return contact + (jet.jet1.h + 0.5 * jet.s - jet.n.dot(contact)) * jet.n;
