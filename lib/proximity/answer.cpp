@@ -45,4 +45,13 @@ Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet&
   return out;
 }
 
+void place_contact(GapFunction& gap, const Settings& settings, const GapJet& jet, Proximity& out,
+                   std::span<const WitnessPair> beside) {
+  if (out.status == Status::InvalidInput) return;
+  const bool is_guess = out.status == Status::Apart || out.status == Status::Diverged;
+  const int max_evaluations = is_guess ? 0 : settings.max_evaluations;
+  out.contact = contact_point(gap, jet, absolute_tolerance(gap, settings), max_evaluations, beside);
+  out.evaluations = gap.evaluations();
+}
+
 }  // namespace supernormal

@@ -1,6 +1,7 @@
 // From the last evaluation of a solver to its answer.
 #pragma once
 
+#include "proximity/contact_point.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -19,5 +20,10 @@ double optimality_gap_bound(const GapJet& jet, double rolling_radius);
 /// answer adds rounding and takes optimality_gap_bound() where that is the better bound. It is known to
 /// be global when the bodies, or what is left of them without the balls that roll inside them, are apart or touching.
 Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status);
+
+/// Sets the contact of an answer `out` at `jet`, and its evaluations, of which contact_point() may make some more. A normal that
+/// proves separation and no more, or nothing, has the point between its witness points.
+void place_contact(GapFunction& gap, const Settings& settings, const GapJet& jet, Proximity& out,
+                   std::span<const WitnessPair> beside = {});
 
 }  // namespace supernormal

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "proximity/local/local_model.hpp"
+#include "proximity/local/piecewise_model.hpp"
 #include "proximity/local/regular_hessian.hpp"
 
 namespace supernormal {
@@ -12,6 +13,17 @@ namespace {
 
 // A radius of curvature beyond this, in units of the pair's length, drowns those across it unless the basis is aligned with it.
 constexpr double kFlat = 1e4;
+
+// Lengths in units of the pair's, or the tolerance where that is more: so far from both bodies the contact counts as a point of
+// both, and so far below the tangent plane points of tilted normals may be.
+constexpr double kNear = 1e-7;
+constexpr double kDeepest = 1e-6;
+
+// A normal is tilted by so many times what the gap may be wrong by, over the way to what is looked for: by less, it might not reach
+// the far side of a face that the normal misses. Where it does not, because the gap is wrong by more, the next tilt is larger by
+// the second factor.
+constexpr double kTilt = 2;
+constexpr double kGrowth = 10;
 
 /// Rounding error of the radii of curvature, m, in a basis that is aligned with the flatter body and not with the other.
 double curvature_rounding(const Symmetric2& A1, const Symmetric2& A2) {
@@ -48,11 +60,98 @@ Vector3 contact_of_flat_bodies(const GapFunction& gap, const GapJet& jet, const 
   return jet.jet1.r + local.plane1.lift(0.5 * across + from_middle) + 0.5 * jet.s * jet.n;
 }
 
+/// The mean of the witness points in the plane, for bodies in which balls of their smallest radii of curvature roll: the balls meet
+/// there.
+Vector3 contact_of_balls(const GapFunction& gap, const GapJet& jet) {
+  const double radius1 = gap.shape1().min_curvature_radius_estimate(), radius2 = gap.shape2().min_curvature_radius_estimate();
+  const double share = radius1 + radius2 > 0 ? radius1 / (radius1 + radius2) : 0.5;
+  return jet.jet1.r + 0.5 * jet.s * jet.n + share * (jet.d - jet.s * jet.n);
+}
+
+/// Whether a point of the tangent plane is outside of the body by no more than `near` (m), whose boundary point is `across` from
+/// there, because the point is near to it or a ball that rolls inside the body is.
+bool is_near(const Shape& shape, double across, double near) {
+  return across <= near || across * across <= 2 * near * shape.min_curvature_radius_estimate();
+}
+
+/// Whether both bodies have the contact to within `near` (m).
+bool is_near_both(const GapFunction& gap, const GapJet& jet, const Vector3& contact, double near) {
+  const Vector3 from1 = contact - jet.jet1.r, from2 = from1 - jet.d;
+  return is_near(gap.shape1(), (from1 - from1.dot(jet.n) * jet.n).norm(), near) &&
+         is_near(gap.shape2(), (from2 - from2.dot(jet.n) * jet.n).norm(), near);
+}
+
+/// Witness pairs of normals beside that of a contact, as they lie in its tangent plane.
+class Patch {
+ public:
+  explicit Patch(const GapJet& jet) : plane_(TangentPlane::at(jet.n)) { add({jet.jet1.r, jet.d}); }
+
+  bool is_full() const { return count_ == kCapacity; }
+
+  void add(const WitnessPair& pair) {
+    pairs_[count_] = pair;
+    pieces_[count_++] = {0, plane_.project(pair.d)};
+  }
+
+  /// The mean of the pairs whose two points are nearest to each other; with this curvature, `u` is the way between these, m.
+  PiecewiseModel::Peak nearest() const { return PiecewiseModel{{pieces_.data(), count_}, {1, 0, 1}}.maximize(); }
+
+  Vector3 middle(const PiecewiseModel::Peak& mean) const {
+    Vector3 middle = Vector3::Zero();
+    for (std::size_t k = 0; k < mean.count; ++k) {
+      const WitnessPair& pair = pairs_[mean.active[k]];
+      middle += mean.weight[k] * (pair.point1 + 0.5 * pair.d);
+    }
+    return middle;
+  }
+
+  const TangentPlane& plane() const { return plane_; }
+
+ private:
+  static constexpr std::size_t kCapacity = 16;
+
+  TangentPlane plane_;
+  std::array<WitnessPair, kCapacity> pairs_;
+  std::array<Piece, kCapacity> pieces_;
+  std::size_t count_ = 0;
+};
+
+/// A point that the two faces have in common, to within `near` (m). A face is the hull of the boundary points of the normals beside
+/// its own: one that is tilted towards where body 2 is looks for the farthest points of body 1 that way, and of body 2 the other
+/// way. So this is GJK in the tangent plane. The mean of points before the tilt and behind it is below the tangent plane by no more
+/// than the tilt times the way to where they meet: `below`.
+Vector3 common_point(GapFunction& gap, const GapJet& jet, double tolerance, double near, int max_evaluations,
+                     std::span<const WitnessPair> beside) {
+  Patch patch(jet);
+  for (const WitnessPair& pair : beside) patch.add(pair);
+  PiecewiseModel::Peak mean = patch.nearest();
+  const double deepest = std::max(kDeepest * gap.length_unit(), tolerance);
+  double below = kTilt * tolerance;
+  GapJet trial;
+  while (!patch.is_full() && gap.evaluations() < max_evaluations) {
+    const double apart = mean.u.norm();
+    if (!(apart > near)) break;
+    const Vector3 way = patch.plane().lift(mean.u / apart);
+    gap.evaluate((jet.n + below / apart * way).normalized(), Order::Point, trial);
+    if (!trial.is_finite()) break;
+    const double reached = trial.d.dot(way);
+    const bool is_progress = reached<apart - near, can_tilt_more = reached> near && below < deepest;
+    if (!is_progress && !can_tilt_more) break;
+    if (is_progress) {
+      patch.add({trial.jet1.r, trial.d});
+      mean = patch.nearest();
+    }
+    // Faces that do not reach one another at this tilt may do so at a larger one.
+    if (can_tilt_more) below = std::min(kGrowth * below, deepest);
+  }
+  return patch.middle(mean);
+}
+
 }  // namespace
 
-Vector3 contact_point(const GapFunction& gap, const GapJet& jet) {
+Vector3 contact_between(const GapFunction& gap, const GapJet& jet) {
+  if (!gap.has_hessian()) return contact_of_balls(gap, jet);
   const Vector3 middle = jet.jet1.r + 0.5 * jet.d;
-  if (!gap.has_hessian()) return middle;
   const Matrix3 H2 = gap.rotation() * jet.jet2.H * gap.rotation().transpose();
   const RegularHessian sum(jet.jet1.H + H2, 0, jet.n, gap.length_unit(), kFlat);
   if (sum.is_regular()) {
@@ -64,6 +163,17 @@ Vector3 contact_point(const GapFunction& gap, const GapJet& jet) {
     return middle + within_reach(gap, Vector3(in_plane - 0.5 * across), 0.5 * across.norm());
   }
   return contact_of_flat_bodies(gap, jet, middle);
+}
+
+Vector3 contact_point(GapFunction& gap, const GapJet& jet, double tolerance, int max_evaluations,
+                      std::span<const WitnessPair> beside) {
+  const double near = std::max(kNear * gap.length_unit(), tolerance);
+  Vector3 contact = contact_between(gap, jet);
+  // A sharp body's own point is as near as can be where the other one is round.
+  if (!is_near_both(gap, jet, contact, near)) contact = contact_of_balls(gap, jet);
+  if (!is_near_both(gap, jet, contact, near)) contact = common_point(gap, jet, tolerance, near, max_evaluations, beside);
+  // Halfway between the tangent planes: points of tilted normals, and vertices beside an edge, are below these.
+  return contact + (jet.jet1.h + 0.5 * jet.s - jet.n.dot(contact)) * jet.n;
 }
 
 }  // namespace supernormal

@@ -4,7 +4,6 @@
 #include "proximity/answer.hpp"
 #include "proximity/bounds/expanding_polytope.hpp"
 #include "proximity/bounds/other_maxima.hpp"
-#include "proximity/contact_point.hpp"
 #include "proximity/local/ascent.hpp"
 #include "proximity/local/certified_newton.hpp"
 #include "proximity/local/first_guess.hpp"
@@ -55,7 +54,8 @@ Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Se
   return out;
 }
 
-/// Ends an ascent of two bodies with kinks: `best` is its last normal, `out` its answer.
+/// Ends an ascent of two bodies with kinks: `best` is its last normal, `out` its answer. The witness points of `best` are then
+/// those of the contact.
 void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& out) {
   const double tolerance = absolute_tolerance(gap, settings);
   MeetingPoint meeting(gap);
@@ -75,7 +75,7 @@ void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& o
   }
   out.point1 = best.jet1.r;
   out.point2 = best.jet1.r + best.d;
-  out.contact = meeting.contact(tolerance, best);
+  meeting.move_witnesses(tolerance, best);
 }
 
 /// Climbs from the start, a normal or what was evaluated there; if the bodies overlap so deeply against their sharpest edges that
@@ -94,9 +94,8 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPl
   }
   if (gap.shape1().has_kinks() && gap.shape2().has_kinks() && status != Status::InvalidInput) {
     meet(gap, settings, best, out);
-  } else {
-    out.contact = contact_point(gap, best);
   }
+  place_contact(gap, settings, best, out);
   if (gap.shape2().has_kinks() && status != Status::InvalidInput) {
     const Vector3 held = ascent.best().n == best.n ? ascent.held_normal() : VertexCache(gap).held_normal(best);
     if ((held - best.n).norm() <= kSameNormal) out.normal = held;
@@ -117,7 +116,7 @@ Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3
   if (end == CertifiedNewton::End::Open) return climb_and_search(gap, settings, cuts, newton.best(), branch);
   const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
   Proximity out = answer(gap, settings, newton.best(), newton.error(), status);
-  out.contact = contact_point(gap, newton.best());
+  place_contact(gap, settings, newton.best(), out, newton.beside());
   return out;
 }
 

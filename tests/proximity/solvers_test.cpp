@@ -2,8 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -11,7 +13,11 @@
 #include "relative.hpp"
 #include "shapes/shape_samples.hpp"
 #include "shapes/without_hessian.hpp"
+#include "supernormal/contact/contact_manifold.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
+#include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 
@@ -34,6 +40,7 @@ Settings with(Solver solver) {
 class NotANumber final : public Shape {
  public:
   void evaluate(const Vector3&, Order, Jet& jet) const override { jet = {kNan, Vector3::Constant(kNan), Matrix3::Constant(kNan)}; }
+  bool has_hessian() const override { return true; }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 };
 
@@ -44,6 +51,7 @@ class KnownBelow final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override {
     (n.z() > limit_ ? static_cast<const Shape&>(nothing_) : ball_).evaluate(n, order, jet);
   }
+  bool has_hessian() const override { return true; }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 
  private:
@@ -225,6 +233,60 @@ TEST_CASE("settings out of range are refused with name, value and range") {
     settings.max_evaluations = limit;
     CHECK(refusal(settings) == "accepted");
   }
+}
+
+TEST_CASE("a matrix that is no rotation is called invalid input by every query, and one in single precision is taken") {
+  const Superellipsoid body(Vector3(1, 0.8, 0.6), 3, 4);
+  const Vector3 z = Vector3::UnitZ();
+  const std::array<MeshTriangle, 1> floor = {{{{Vector3(-9, -9, -0.5), Vector3(9, -9, -0.5), Vector3(0, 9, -0.5)}, 0}}};
+  const auto answers = [&](const Pose& pose) {
+    const bool has_contacts = !MeshContacts().find(body, pose, floor).empty();
+    return std::array<bool, 7>{find_proximity(body, pose, Sphere(1), {}).status != Status::InvalidInput,
+                               find_proximity(Sphere(1), {}, body, pose).status != Status::InvalidInput,
+                               find_plane_proximity(body, pose, z, -0.5).status != Status::InvalidInput,
+                               find_ray_hit(body, pose, 5 * z, -z, 10).status != Status::InvalidInput,
+                               find_ray_proximity(body, pose, 5 * z, -z, 10).status != Status::InvalidInput,
+                               has_contacts,
+                               find_nearest_triangle(body, pose, floor).proximity.status != Status::InvalidInput};
+  };
+  constexpr std::array<bool, 7> kAll = {true, true, true, true, true, true, true};
+  const Matrix3 rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  CHECK(answers({Vector3::Zero(), rotation}) == kAll);
+  CHECK(answers({Vector3::Zero(), rotation.cast<float>().cast<double>()}) == kAll);
+  Matrix3 sheared = rotation;
+  sheared.col(0) += 1e-3 * sheared.col(1);
+  const Matrix3 reflection = rotation * Vector3(1, 1, -1).asDiagonal();
+  for (const Matrix3& none : {Matrix3(1.1 * rotation), Matrix3(1.0001 * rotation), Matrix3(-rotation), reflection, sheared,
+                              Matrix3(Matrix3::Zero()), Matrix3(Matrix3::Constant(1e200))}) {
+    CHECK(answers({Vector3::Zero(), none}) == std::array<bool, 7>{});
+    const Pose pose{Vector3::Zero(), none};
+    CHECK(find_contact_manifold(body, pose, Sphere(1), {}, find_proximity(body, pose, Sphere(1), {})).corner_count == 0);
+    CHECK(find_plane_contact_manifold(body, pose, find_plane_proximity(body, pose, z, -0.5)).corner_count == 0);
+  }
+}
+
+TEST_CASE(
+    "a shape that delivers a support function and boundary points, and says no more, is as good as one that is made of both") {
+  /// An ellipsoid as short as a program can write one.
+  class Newcomer final : public Shape {
+   public:
+    void evaluate(const Vector3& n, Order order, Jet& jet) const override {
+      jet.h = half_axes_.cwiseProduct(n).norm();
+      if (order != Order::Value) jet.r = half_axes_.cwiseAbs2().cwiseProduct(n) / jet.h;
+    }
+
+   private:
+    Vector3 half_axes_{1, 0.8, 0.6};
+  };
+  const Newcomer body;
+  const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(1, 0.8, 0.6));
+  const CallbackShape same = without_hessian(ellipsoid);
+  const Pose pose{Vector3(1.2, 0.9, 0.8), Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix()};
+  const Proximity out = find_proximity(body, {}, Sphere(1), pose), expected = find_proximity(same, {}, Sphere(1), pose);
+  CHECK(out.status == Status::Converged);
+  CHECK(out.gap == expected.gap);
+  CHECK(out.evaluations == expected.evaluations);
+  CHECK(body.mass_properties().volume == relative(ellipsoid->mass_properties().volume).epsilon(1e-8));
 }
 
 TEST_CASE("what is not finite is called invalid input") {

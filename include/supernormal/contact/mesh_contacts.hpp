@@ -56,8 +56,9 @@ class SUPERNORMAL_API MeshContacts {
   /// distance (MTD).
   ///
   /// Inner edges of flat and concave parts have no such normals, so there are no ghost contacts. Proximity::contact is the body's
-  /// point, as with a plane. Of the settings only the tolerance and the limit of evaluations are used: the hybrid solves the
-  /// vertices. The result is valid until the next query; empty when the pose is not finite.
+  /// point, as with a plane, and of a flat side that point of it that is over the feature. Of the settings only the tolerance and
+  /// the limit of evaluations are used: the hybrid solves the vertices. The result is valid until the next query; empty when the
+  /// pose is not finite, or its rotation none (Pose).
   std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                     const Settings& settings = {});
 

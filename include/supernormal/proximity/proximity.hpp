@@ -20,7 +20,7 @@ enum class Status {
   Stalled,          ///< no further ascent in double precision although the error exceeds the tolerance
   EvaluationLimit,  ///< Settings::max_evaluations reached
   Diverged,         ///< an unguarded solver (Newton, fixed point) left the domain: singular system or coincident centres
-  InvalidInput,     ///< a pose or a shape gave a number that is not finite; the result holds no answer
+  InvalidInput,     ///< a pose or a shape gave a number that is not finite, or a rotation is none; the result holds no answer
 };
 
 /// When a solver is to stop. `tolerance` is relative to the smallest half-extent of the two bodies: a solver has converged when
@@ -42,9 +42,11 @@ struct Proximity {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, from body 1 to body 2
   Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
   Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
-  Eigen::Vector3d contact =
-      Eigen::Vector3d::Zero();           ///< m; where a contact force acts: between the two points, nearer to the sharper body's
-  int evaluations = 0;                   ///< evaluations of the gap function
+  /// m; where a contact force acts: halfway between the tangent planes, within the overlap of both bodies, or in the gap between
+  /// them, to 1e-6 of the smallest half-extent (where the tolerance is no larger and the query has converged). It need not be
+  /// between the two points above, which on a flat face may be any.
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
+  int evaluations = 0;                   ///< of the gap function, those for the contact included
   Status status = Status::InvalidInput;  ///< how the query ended
   /// Whether it is proved that no other normal has a larger gap: `gap` is then the largest value of the gap function, to within
   /// `error` or the tolerance, whichever is larger, and for overlapping bodies `-gap` is the minimum translation distance (MTD),

@@ -14,8 +14,8 @@ namespace supernormal {
 /// several local maxima; the hybrid then follows the one that `first_normal` leads to, so that a contact is continuous in time,
 /// and without it looks for the highest. With Settings::certify_depth it finds the highest in either case.
 ///
-/// Returns Status::InvalidInput when a pose or what a shape delivers is not finite, or a position is farther than 1e150 m from
-/// the origin; throws std::invalid_argument when the settings are out of range.
+/// Returns Status::InvalidInput when a pose or what a shape delivers is not finite, a rotation is none (Pose), or a position is
+/// farther than 1e150 m from the origin; throws std::invalid_argument when the settings are out of range.
 SUPERNORMAL_API Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                          const Settings& settings = {}, const Vector3* first_normal = nullptr);
 

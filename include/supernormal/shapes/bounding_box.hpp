@@ -14,7 +14,8 @@ struct BoundingBox {
 
 /// Returns the box between the body's six supporting planes that are perpendicular to the axes: no search, three to six evaluations
 /// of the support function. It is exact to a few units of rounding of the position and the body's extent, by which a broad phase
-/// should enlarge it. Numbers that are not finite in the pose, or of the shape, come out as such.
+/// should enlarge it. Numbers that are not finite in the pose, or of the shape, come out as such, and a
+/// matrix that is no rotation counts as it is.
 SUPERNORMAL_API BoundingBox find_bounding_box(const Shape& shape, const Pose& pose);
 
 }  // namespace supernormal

@@ -12,6 +12,7 @@ class SUPERNORMAL_API Box final : public Shape {
   explicit Box(const Vector3& half_lengths);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
   bool has_kinks() const override { return true; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool is_symmetric() const override { return true; }

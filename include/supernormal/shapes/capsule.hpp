@@ -13,6 +13,7 @@ class SUPERNORMAL_API Capsule final : public Shape {
   Capsule(double radius, double half_length);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
   bool has_kinks() const override { return half_length_ > 0; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool is_symmetric() const override { return true; }

@@ -13,6 +13,7 @@ class SUPERNORMAL_API Cylinder final : public Shape {
   Cylinder(double radius, double half_length);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
   bool has_kinks() const override { return true; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;

@@ -12,6 +12,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   explicit Ellipsoid(const Vector3& half_axes);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
   bool is_round() const override { return true; }
   bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return half_axes_; }

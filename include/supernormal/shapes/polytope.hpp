@@ -16,6 +16,7 @@ class SUPERNORMAL_API Polytope final : public Shape {
   explicit Polytope(std::span<const Vector3> points);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
   bool has_kinks() const override { return points_.size() > 1; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   Vector3 half_extents() const override { return half_extents_; }

@@ -74,15 +74,17 @@ class SUPERNORMAL_API Shape {
   Shape& operator=(Shape&&) = default;
   virtual ~Shape() = default;
 
-  /// Evaluates the support function for the unit normal n, up to `order`; members of a higher order are left unchanged. On a flat
-  /// face the radius of curvature is infinite; H then holds a large finite number.
+  /// Evaluates the support function for the unit normal n, up to `order`; members of a higher order are left unchanged. It must
+  /// deliver h and r. A shape that delivers H too says so with has_hessian(). On a flat face the radius of curvature is infinite; H
+  /// then holds a large finite number.
   virtual void evaluate(const Vector3& n, Order order, Jet& jet) const = 0;
 
   /// This object if it is a superellipsoid, null otherwise: two superellipsoids are evaluated together.
   virtual const Superellipsoid* as_superellipsoid() const { return nullptr; }
 
-  /// Whether evaluate() can deliver Order::Hessian. Otherwise solvers estimate the radii of curvature from boundary points.
-  virtual bool has_hessian() const { return true; }
+  /// Whether evaluate() delivers H for Order::Hessian. Override it where it does: queries then take fewer evaluations. Otherwise
+  /// solvers estimate the radii of curvature from boundary points, and mass_properties() takes differences of these.
+  virtual bool has_hessian() const { return false; }
 
   /// The normal to move to when the boundary point is to move from jet.r by H dn; to first order it is n + dn. Shapes with flat
   /// faces override it, because there the normal is a smooth function of the boundary point but not the other way round. `jet`

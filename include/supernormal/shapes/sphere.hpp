@@ -12,6 +12,7 @@ class SUPERNORMAL_API Sphere final : public Shape {
   explicit Sphere(double radius);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
   bool is_round() const override { return true; }
   bool is_symmetric() const override { return true; }
   Vector3 half_extents() const override { return Vector3::Constant(radius_); }

@@ -25,6 +25,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   Superellipsoid(const Vector3& half_axes, double delta, double epsilon);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
 
   /// A request: a body, a unit normal, and where its jet goes.
   struct EvalRequest {

@@ -33,6 +33,7 @@ class SUPERNORMAL_API Superovoid final : public Shape {
   static double max_taper(double epsilon);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
+  bool has_hessian() const override { return true; }
 
   /// The normal at the moved boundary point where the body is flat (the gradient of the implicit function), as for the
   /// Superellipsoid.

@@ -16,6 +16,8 @@ struct SurfaceContact {
   double separation = 0;  ///< m; the gap of the minimum translation, which differs from `gap` at an open border
   double error = 0;       ///< m
   Vector3 body_point;     ///< m
+  Vector3 place;          ///< m; where a force acts: body_point, or where that may be any point of a flat side, the one of the
+                          ///< body's tangent plane that is over the feature
   Vector3 surface_point;  ///< m; body_point - gap * normal, on the plane or line of the feature
   Vector3 feature_point;  ///< m; the nearest point of the feature itself, which differs from surface_point where the feature ends
                           ///< at a wall

@@ -8,12 +8,16 @@
 
 #include "contact/mesh/arc.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
+#include "proximity/usable_pose.hpp"
 
 namespace supernormal {
 namespace {
 
 // The normal at an edge must be more precise than the gap, and another step of a superlinear iteration is cheap.
 constexpr double kArcTolerance = 1e-2;  // of the tolerance of the gap
+
+// Cosines of angles below 1e-6 rad are 1 to within this.
+constexpr double kAligned = 1e-12;
 
 // The searched box is larger than the body's, so that rounding loses no triangle that touches it.
 constexpr double kBoxMargin = 1e-9;  // of the length unit
@@ -24,7 +28,7 @@ std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const P
                                                      const Settings& settings) {
   contacts_.clear();
   evaluations_ = 0;
-  if (triangles.empty() || !pose.position.allFinite() || !pose.rotation.allFinite()) return contacts_;
+  if (triangles.empty() || !is_usable(pose)) return contacts_;
   settings_ = settings;
   settings_.solver = Solver::Hybrid;
   settings_.stop_when_apart = true;
@@ -73,6 +77,7 @@ SurfaceContact MeshContactSearch::contact_at(int face, const Vector3& normal, do
   contact.gap = gap;
   contact.separation = gap;
   contact.body_point = body_point;
+  contact.place = body_point;
   contact.surface_point = body_point - gap * normal;
   contact.feature_point = contact.surface_point;
   contact.face = face;
@@ -154,6 +159,7 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
   contact.crease = surface_.corner_count() + 3 * f + side;
   contact.surface_point = arc.edge_point + share * edge;
   contact.feature_point = arc.edge_point + std::clamp(share, 0.0, 1.0) * edge;
+  contact.place = contact.feature_point + contact.gap * contact.normal;
   const bool is_beyond_end = (contact.feature_point - contact.surface_point).norm() > surface_.rounding();
   if (is_beyond_end && surface_.find_wall(top.normal, contact.feature_point, contact.surface_point) < 0) {
     find_on_vertex(probe, f, share < 0 ? side : next_corner(side), top.normal);
@@ -244,6 +250,9 @@ void MeshContactSearch::find_way_up(SupportProbe& probe) {
     const Vector3 opposite = found.point2 - found.gap * found.normal;
     if (!is_in_front && !surface_.exits_solid(centre, found.point1) && !surface_.exits_solid(centre, opposite)) continue;
     shortest = contact_at(static_cast<int>(f), face.normal, support.gap, support.deepest);
+    // Where the body lies flat on the face, its deepest point may be beside that.
+    if (!(found.normal.dot(-face.normal) >= 1 - kAligned) || surface_.is_over(face, support.deepest)) continue;
+    shortest->place = found.contact + face.normal.dot(support.deepest - found.contact) * face.normal;
   }
   if (shortest) found_.add(*shortest);
 }
@@ -256,7 +265,7 @@ std::span<const MeshContact> MeshContactSearch::to_world(const Vector3& origin) 
     out.normal = -found.normal;
     out.point1 = origin + found.body_point;
     out.point2 = out.point1 - found.gap * found.normal;
-    out.contact = out.point1;
+    out.contact = origin + found.place;
     out.evaluations = found.evaluations;
     out.status = found.status;
     contacts_.push_back({out, surface_.faces()[at(found.face)].triangle});

@@ -70,6 +70,7 @@ bool MeshContactSearch::add_at_vertex(SupportProbe& probe, int f, int k, const P
   if (!has_complete_neighbourhood(probe, vertex)) return false;
   SurfaceContact contact = contact_at(f, -found.normal, found.gap, found.point1);
   contact.surface_point = contact.feature_point = vertex;
+  contact.place = found.contact - 0.5 * found.gap * found.normal;
   contact.crease = face.corner[at(k)];
   contact.error = found.error;
   contact.evaluations = found.evaluations;

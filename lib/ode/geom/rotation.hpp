@@ -3,9 +3,9 @@
 
 #include <ode/ode.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 
+#include "proximity/usable_pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal::ode {
@@ -15,22 +15,7 @@ namespace supernormal::ode {
 /// one, and queries of bodies as flat as with an exponent of 60 suffer from 1e-11.
 inline constexpr double kRoundedRotation = 1e-14;
 
-/// The sum of the errors of the equations that make a matrix a rotation: the first two columns are unit vectors at right angles,
-/// and the third is their cross product. NaN if an entry is not a number.
-inline double rotation_error(const Matrix3& R) {
-  // The entries are read one by one: they have just been written one by one, and a load of two of them would wait for the stores.
-  const double x0 = R(0, 0), x1 = R(1, 0), x2 = R(2, 0);
-  const double y0 = R(0, 1), y1 = R(1, 1), y2 = R(2, 1);
-  const double z0 = R(0, 2), z1 = R(1, 2), z2 = R(2, 2);
-  const double x_length = std::abs(x0 * x0 + x1 * x1 + x2 * x2 - 1);
-  const double y_length = std::abs(y0 * y0 + y1 * y1 + y2 * y2 - 1);
-  const double angle = std::abs(x0 * y0 + x1 * y1 + x2 * y2);
-  const double skew0 = std::abs(x1 * y2 - x2 * y1 - z0);
-  const double skew1 = std::abs(x2 * y0 - x0 * y2 - z1);
-  const double skew2 = std::abs(x0 * y1 - x1 * y0 - z2);
-  return (x_length + y_length) + (angle + skew0) + (skew1 + skew2);
-}
-
+/// Whether a matrix is a rotation to rounding.
 inline bool is_orthonormal(const Matrix3& R) { return std::islessequal(rotation_error(R), kRoundedRotation); }
 
 /// The rotation nearest to that of a geom that is not one to rounding: the core would otherwise compare numbers known to 1e-7

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "proximity/answer.hpp"
-#include "proximity/contact_point.hpp"
 #include "proximity/solvers.hpp"
 #include "shapes/finite.hpp"
 
@@ -48,10 +47,10 @@ class NormalLine {
 /// The answer after convergence. The search needs no derivatives, but the contact point does: one evaluation more, where there are
 /// any and it is allowed.
 Proximity converged_answer(GapFunction& gap, const Settings& settings, GapJet& jet, double error) {
-  const bool has_contact = gap.has_hessian() && gap.evaluations() < settings.max_evaluations;
-  if (has_contact) gap.evaluate(jet.n, Order::Hessian, jet);
+  const bool knows_contact = !gap.has_hessian() || gap.evaluations() < settings.max_evaluations;
+  if (knows_contact && gap.has_hessian()) gap.evaluate(jet.n, Order::Hessian, jet);
   Proximity out = answer(gap, settings, jet, error, Status::Converged);
-  if (has_contact) out.contact = contact_point(gap, jet);
+  if (knows_contact) place_contact(gap, settings, jet, out);
   return out;
 }
 

@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "proximity/answer.hpp"
-#include "proximity/contact_point.hpp"
 #include "proximity/local/local_model.hpp"
 #include "proximity/solvers.hpp"
 #include "shapes/finite.hpp"
@@ -12,9 +11,9 @@ namespace {
 // The predicted gain is half the slope times the step; twice that allows for the change of the Hessian over the step.
 constexpr double kHessianChange = 2;
 
-Proximity answer_with_contact(const GapFunction& gap, const Settings& settings, const GapJet& jet, double error, Status status) {
+Proximity answer_with_contact(GapFunction& gap, const Settings& settings, const GapJet& jet, double error, Status status) {
   Proximity out = answer(gap, settings, jet, error, status);
-  out.contact = contact_point(gap, jet);
+  place_contact(gap, settings, jet, out);
   return out;
 }
 

@@ -17,9 +17,6 @@ constexpr double kFlattest = 1e8;
 // A normal that is this near to being across another has no useful gnomonic coordinates (cosine).
 constexpr double kGrazing = 1e-6;
 
-// Two tilts find the other sides of the line where a triangle meets it; one more mends what rounding leaves.
-constexpr int kMostTilts = 3;
-
 }  // namespace
 
 CertifiedNewton::CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance)
@@ -134,6 +131,7 @@ bool CertifiedNewton::prove_by_tilts() {
     const double distance = beside.norm();
     const double tilt = tolerance_ / std::max(distance, gap_.length_unit());
     if (!(distance > 0) || !evaluate((n + tilt / distance * beside).normalized())) return false;
+    beside_[beside_count_++] = {next().jet1.r, next().d};
   }
 }
 

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <limits>
+#include <span>
 
 #include "proximity/bounds/cutting_planes.hpp"
+#include "proximity/contact_point.hpp"
 #include "proximity/local/regular_hessian.hpp"
 #include "proximity/solvers.hpp"
 #include "supernormal/proximity/gap_function.hpp"
@@ -50,7 +52,13 @@ class CertifiedNewton {
   /// m; after Proved, what is left to the maximum at most.
   double error() const { return error_; }
 
+  /// The witness pairs of normals beside the highest, at which s is as high to within the tolerance: where the bodies are flat.
+  std::span<const WitnessPair> beside() const { return {beside_.data(), beside_count_}; }
+
  private:
+  // Two tilts find the other sides of the line where a triangle meets it; one more mends what rounding leaves.
+  static constexpr int kMostTilts = 3;
+
   GapJet& next() { return jets_[1 - best_]; }
   bool is_within_reach() const { return best().s + rolling_radius_ > 0; }
   bool is_proved();
@@ -74,6 +82,8 @@ class CertifiedNewton {
   std::array<GapJet, 2> jets_;  // the best and the next, which change places
   std::size_t best_ = 0;
   double error_ = std::numeric_limits<double>::infinity();  // m
+  std::array<WitnessPair, kMostTilts> beside_;
+  std::size_t beside_count_ = 0;
 };
 
 }  // namespace supernormal

@@ -96,15 +96,6 @@ bool MeetingPoint::settle(double tolerance, int max_evaluations, GapJet& jet) {
 
 double MeetingPoint::remaining_gain(const GapJet& jet) const { return std::max(maximum_near(jet).gain, 0.0); }
 
-Vector3 MeetingPoint::contact(double tolerance, const GapJet& jet) const {
-  GapJet meeting = jet;
-  move_witnesses(tolerance, meeting);
-  const Vector3 middle = meeting.jet1.r + 0.5 * meeting.d;
-  return middle + (jet.jet1.h + 0.5 * jet.s - jet.n.dot(middle)) * jet.n;
-}
-
-/// Takes the points at the maximum, if these are nearer to each other across the normal, and not farther below their tangent planes
-/// than `largest_drop` (m).
 void MeetingPoint::move_witnesses(double largest_drop, GapJet& jet) const {
   if (distance_across(jet) <= gap_.rounding()) return;
   const Maximum maximum = maximum_near(jet);

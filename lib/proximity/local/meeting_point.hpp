@@ -27,15 +27,14 @@ class MeetingPoint {
   /// m; how much higher than `jet` the maximum of the pieces near its normal is.
   double remaining_gain(const GapJet& jet) const;
 
-  /// The point where the bodies touch, halfway between their tangent planes, in body 1's frame: in the middle of the witness points
-  /// of `jet`, or of the points that meet within `tolerance` (m) of these planes.
-  Vector3 contact(double tolerance, const GapJet& jet) const;
+  /// Moves the witness points of `jet` to those that meet, if these are nearer to each other across the normal, and not farther
+  /// below their tangent planes than `largest_drop` (m).
+  void move_witnesses(double largest_drop, GapJet& jet) const;
 
  private:
   struct Maximum;
   Maximum maximum_near(const GapJet& jet) const;
   bool climb(GapJet& jet);
-  void move_witnesses(double largest_drop, GapJet& jet) const;
 
   GapFunction& gap_;
 };

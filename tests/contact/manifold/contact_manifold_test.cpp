@@ -275,7 +275,6 @@ TEST_CASE("the deepest point of a face that hangs over is on both bodies") {
     const double largest = local.maxCoeff();
     return largest * std::pow((local / largest).array().pow(body.delta()).sum(), 1 / body.delta());
   };
-  int moved = 0;
   for (int repetition = 0; repetition < 3000; ++repetition) {
     const auto brick = [&](double exponent) {
       return Superellipsoid({uniform(random, 0.1, 1), uniform(random, 0.1, 1), uniform(random, 0.1, 1)}, exponent, exponent);
@@ -291,11 +290,11 @@ TEST_CASE("the deepest point of a face that hangs over is on both bodies") {
     const Proximity proximity = find_proximity(lower, pose1, upper, pose2);
     if (proximity.gap >= 0) continue;
     const ContactManifold manifold = find_contact_manifold(lower, pose1, upper, pose2, proximity);
-    moved += (manifold.deepest.contact - proximity.contact).norm() > 0.01 ? 1 : 0;
-    CHECK(gauge(lower, pose1, manifold.deepest.contact) <= 1.02);
-    CHECK(gauge(upper, pose2, manifold.deepest.contact) <= 1.02);
+    for (const Vector3& contact : {proximity.contact, manifold.deepest.contact}) {
+      CHECK(gauge(lower, pose1, contact) <= 1 + 1e-6);
+      CHECK(gauge(upper, pose2, contact) <= 1 + 1e-6);
+    }
   }
-  CHECK(moved > 30);
 }
 
 TEST_CASE("a capsule on a brick rests on its two ends, across it on the width of the brick") {

@@ -1,0 +1,309 @@
+// Where contacts act: within the overlap of both bodies, whatever these are.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "proximity/contact_point.hpp"
+#include "shapes/without_hessian.hpp"
+#include "supernormal/contact/contact_manifold.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/callback_shape.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/rounded.hpp"
+#include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+/// A kind of body, of any size.
+struct Kind {
+  const char* name;
+  std::shared_ptr<const Shape> (*make)(double size);
+};
+
+std::shared_ptr<const Shape> superellipsoid(const Vector3& half_axes, double delta, double epsilon) {
+  return std::make_shared<Superellipsoid>(half_axes, delta, epsilon);
+}
+
+std::shared_ptr<const Shape> user_with_hessian(const std::shared_ptr<const Shape>& shape) {
+  return std::make_shared<CallbackShape>([=](const Vector3& n) { return shape->support(n); },
+                                         [=](const Vector3& n) { return shape->point(n); },
+                                         [=](const Vector3& n) { return shape->jet(n).H; });
+}
+
+std::shared_ptr<const Shape> user_without_hessian(const std::shared_ptr<const Shape>& shape) {
+  return std::make_shared<CallbackShape>(without_hessian(shape));
+}
+
+/// A double cone.
+std::shared_ptr<const Shape> user_cones(double radius, double height) {
+  const auto point = [=](const Vector3& n) {
+    const double across = std::hypot(n.x(), n.y());
+    if (height * std::abs(n.z()) >= radius * across) return Vector3(0, 0, std::copysign(height, n.z()));
+    return Vector3(n.x() / across * radius, n.y() / across * radius, 0);
+  };
+  return std::make_shared<CallbackShape>([=](const Vector3& n) { return n.dot(point(n)); }, point);
+}
+
+/// An octahedron with its corners cut off.
+std::shared_ptr<const Shape> hull(double size) {
+  struct Solid {
+    std::vector<Vector3> points;
+    Polytope polytope;
+    explicit Solid(std::vector<Vector3> corners) : points(std::move(corners)), polytope(points) {}
+  };
+  std::vector<Vector3> corners;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double end : {-1, 1}) {
+      for (const double x : {-0.3, 0.3}) {
+        for (const double y : {-0.3, 0.3}) {
+          Vector3 corner;
+          corner[axis] = end;
+          corner[(axis + 1) % 3] = x;
+          corner[(axis + 2) % 3] = y;
+          corners.push_back(size * corner.cwiseProduct(Vector3(1, 0.8, 0.6)));
+        }
+      }
+    }
+  }
+  const auto solid = std::make_shared<const Solid>(std::move(corners));
+  return {solid, &solid->polytope};
+}
+
+const std::vector<Kind>& kinds() {
+  using std::make_shared;
+  static const std::vector<Kind> all = {
+      {"ellipsoid", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Ellipsoid>(a * Vector3(0.2, 0.4, 1)); }},
+      {"superellipsoid 4/3", [](double a) { return superellipsoid(a * Vector3(1, 0.7, 0.4), 4, 3); }},
+      {"superellipsoid 8/8", [](double a) { return superellipsoid(a * Vector3(1, 0.7, 0.3), 8, 8); }},
+      {"brick 60/60", [](double a) { return superellipsoid(a * Vector3(1, 1, 0.1), 60, 60); }},
+      {"brick 1000/1000", [](double a) { return superellipsoid(a * Vector3(1, 0.6, 0.4), 1000, 1000); }},
+      {"can 2/60", [](double a) { return superellipsoid(a * Vector3(0.3, 0.3, 1), 2, 60); }},
+      {"plate 5/100", [](double a) { return superellipsoid(a * Vector3(1, 0.5, 0.2), 5, 100); }},
+      {"star 1.2/1.3", [](double a) { return superellipsoid(a * Vector3(1, 0.5, 0.7), 1.2, 1.3); }},
+      {"ovoid",
+       [](double a) -> std::shared_ptr<const Shape> {
+         return make_shared<Superovoid>(a * Vector3(0.5, 0.5, 1), 2, 2.5, 0.3, 0.3);
+       }},
+      {"ovoid 20/20",
+       [](double a) -> std::shared_ptr<const Shape> {
+         return make_shared<Superovoid>(a * Vector3(0.5, 0.7, 1), 20, 20, 0.1, 0.1);
+       }},
+      {"rounded brick",
+       [](double a) -> std::shared_ptr<const Shape> {
+         return make_shared<Rounded>(superellipsoid(a * Vector3(0.9, 0.5, 0.3), 60, 60), 0.1 * a);
+       }},
+      {"rounded box",
+       [](double a) -> std::shared_ptr<const Shape> {
+         return make_shared<Rounded>(make_shared<Box>(a * Vector3(0.9, 0.5, 0.3)), 0.1 * a);
+       }},
+      {"capsule", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Capsule>(0.3 * a, 0.7 * a); }},
+      {"box", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Box>(a * Vector3(1, 0.6, 0.2)); }},
+      {"cylinder", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Cylinder>(0.4 * a, a); }},
+      {"sphere", [](double a) -> std::shared_ptr<const Shape> { return make_shared<Sphere>(a); }},
+      {"hull", hull},
+      {"user brick with Hessian", [](double a) { return user_with_hessian(superellipsoid(a * Vector3(1, 0.7, 0.3), 60, 60)); }},
+      {"user pebble", [](double a) { return user_without_hessian(std::make_shared<Ellipsoid>(a * Vector3(0.2, 0.4, 1))); }},
+      {"user brick", [](double a) { return user_without_hessian(superellipsoid(a * Vector3(1, 0.7, 0.3), 60, 60)); }},
+      {"user slab", [](double a) { return user_without_hessian(std::make_shared<Box>(a * Vector3(1, 1, 0.1))); }},
+      {"user cylinder", [](double a) { return user_without_hessian(std::make_shared<Cylinder>(0.5 * a, a)); }},
+      {"user capsule", [](double a) { return user_without_hessian(std::make_shared<Capsule>(0.3 * a, 0.7 * a)); }},
+      {"user cones", [](double a) { return user_cones(0.5 * a, a); }},
+  };
+  return all;
+}
+
+/// Sizes of the larger body, in those of the smaller one.
+constexpr std::array<double, 5> kRatios = {1, 3, 30, 300, 5000};
+
+/// Gaps that the bodies are placed at, in units of the smallest half-extent.
+constexpr std::array<double, 6> kGaps = {1e-3, 0, -1e-6, -1e-3, -2e-2, -0.2};
+
+/// How the smaller body lies on the larger one.
+enum class Way {
+  FaceOnFace,         ///< exactly
+  LeaningFaceOnFace,  ///< by 1e-12 to 1e-2
+  OnFace,             ///< in any attitude
+  Anywhere,           ///< with a boundary point of each at the same place
+};
+constexpr std::array kWays = {Way::FaceOnFace, Way::LeaningFaceOnFace, Way::OnFace, Way::Anywhere};
+
+/// Rooms for contacts whose places must be within both bodies. With more room there are corners, which may lie on the air beside a
+/// rounded face.
+constexpr std::array kRooms = {1};
+
+struct PlacedPair {
+  std::shared_ptr<const Shape> large, small;
+  Pose pose;    // of the small one; the large one is at rest in the origin
+  double unit;  // m; the smallest half-extent
+
+  Proximity query() const { return find_proximity(*large, {}, *small, pose); }
+};
+
+class Placing {
+ public:
+  explicit Placing(unsigned seed) : engine_(seed) {}
+
+  PlacedPair draw(std::shared_ptr<const Shape> large, std::shared_ptr<const Shape> small, double relative_gap, Way way) {
+    PlacedPair pair{std::move(large), std::move(small), {}, 0};
+    pair.unit = std::min(pair.large->half_extents().minCoeff(), pair.small->half_extents().minCoeff());
+    const Vector3 up = way == Way::Anywhere ? direction() : face_normal();
+    const bool is_face = way == Way::FaceOnFace || way == Way::LeaningFaceOnFace;
+    const Vector3 down = is_face ? face_normal() : direction();
+    const double lean = way == Way::LeaningFaceOnFace ? std::pow(10.0, uniform(-12, -2)) : 0;
+    const Vector3 against = (-up + lean * direction()).normalized();
+    const Eigen::AngleAxisd about(uniform(0, 6.3), up);
+    pair.pose.rotation = (about * Eigen::Quaterniond::FromTwoVectors(down, against)).normalized().toRotationMatrix();
+    // A place on the face, off its middle: the smaller body may hang over its edge.
+    const Vector3 off = uniform(0.1, 0.95) * pair.large->half_extents().cwiseProduct(direction());
+    const Vector3 on_face = pair.large->support(up) * up + off - off.dot(up) * up;
+    const Vector3 low = pair.pose.rotation * pair.small->point(-(pair.pose.rotation.transpose() * up));
+    const double gap = relative_gap * pair.unit;
+    pair.pose.position =
+        way == Way::Anywhere ? Vector3(pair.large->point(up) - low + gap * up) : Vector3(on_face - low.dot(up) * up + gap * up);
+    return pair;
+  }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  // Braces: evaluated in this order.
+  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
+  Vector3 face_normal() {
+    const auto axis = static_cast<Eigen::Index>(uniform(0, 3));
+    return Vector3::Unit(axis) * (uniform(0, 1) < 0.5 ? -1 : 1);
+  }
+
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> gauss_;
+};
+
+/// m; how far the point is outside of the body: no less than this, since every value of the gap function is a lower bound.
+double outside(const Shape& shape, const Pose& pose, const Vector3& point) {
+  return find_proximity(shape, pose, Sphere(0), {point, Matrix3::Identity()}).gap;
+}
+
+/// How far a point is outside of either body beyond the overlap, or beyond halfway in the gap, in units of the smallest
+/// half-extent.
+double excess(const PlacedPair& pair, const Proximity& proximity, const Vector3& point) {
+  const double most_outside = std::max(outside(*pair.large, {}, point), outside(*pair.small, pair.pose, point));
+  return (most_outside - std::max(-proximity.gap, 0.5 * proximity.gap)) / pair.unit;
+}
+
+/// The largest excess of the contacts that a program with so much room gets.
+double largest_excess(const PlacedPair& pair, const Proximity& proximity, int room) {
+  const ContactManifold found = find_contact_manifold(*pair.large, {}, *pair.small, pair.pose, proximity);
+  const ContactManifold manifold = reduced_to(found, room);
+  double largest = -std::numeric_limits<double>::infinity();
+  if (manifold.corner_count == 0 || has_room_for_deepest(room)) largest = excess(pair, proximity, manifold.deepest.contact);
+  for (int k = 0; k < manifold.corner_count; ++k) {
+    largest = std::max(largest, excess(pair, proximity, manifold.corners[static_cast<std::size_t>(k)].point));
+  }
+  return largest;
+}
+
+/// Asks about every pair of kinds, in every way; `check` is called with a pair, its answer and a name.
+template <typename Check>
+void for_all_pairs(unsigned seed, const Check& check) {
+  Placing placing(seed);
+  for (const Kind& one : kinds()) {
+    for (const Kind& other : kinds()) {
+      for (const double ratio : kRatios) {
+        const std::shared_ptr<const Shape> large = one.make(ratio), small = other.make(1);
+        for (const double gap : kGaps) {
+          for (const Way way : kWays) {
+            const PlacedPair pair = placing.draw(large, small, gap, way);
+            check(pair, pair.query(), [&] {
+              return std::string(one.name) + " and " + other.name + ", ratio " + std::to_string(ratio) + ", gap " +
+                     std::to_string(gap) + ", way " + std::to_string(static_cast<int>(way));
+            });
+          }
+        }
+      }
+    }
+  }
+}
+
+// Of the smallest half-extent.
+constexpr double kTolerance = 1e-6;
+
+}  // namespace
+
+TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of both bodies") {
+  int queries = 0, unconverged = 0;
+  for_all_pairs(3, [&](const PlacedPair& pair, const Proximity& out, const auto& name) {
+    ++queries;
+    if (out.status != Status::Converged) {
+      ++unconverged;
+      return;
+    }
+    const double beside = excess(pair, out, out.contact);
+    if (!(beside <= kTolerance)) FAIL_CHECK(name(), ": ", beside, " outside");
+    for (const int room : kRooms) {
+      const double of_manifold = largest_excess(pair, out, room);
+      if (!(of_manifold <= kTolerance)) FAIL_CHECK(name(), ", room ", room, ": ", of_manifold, " outside");
+    }
+  });
+  CHECK(queries == 24 * 24 * 5 * 6 * 4);
+  CHECK(unconverged <= queries / 150);
+}
+
+TEST_CASE("the place of a contact takes no evaluation where bodies are round") {
+  // 60 pairs each of which take as many evaluations as their gap alone: Newton's, or an ascent against faces.
+  Placing placing(5);
+  const std::array<std::shared_ptr<const Shape>, 4> bodies = {
+      std::make_shared<Ellipsoid>(Vector3(0.4, 0.6, 1)), std::make_shared<Sphere>(0.5), superellipsoid(Vector3(1, 0.7, 0.4), 4, 3),
+      std::make_shared<Superovoid>(Vector3(0.5, 0.5, 1), 2, 2.5, 0.3, 0.3)};
+  for (const auto& one : bodies) {
+    for (const auto& other : bodies) {
+      for (int k = 0; k < 60; ++k) {
+        const PlacedPair pair = placing.draw(one, other, -1e-3, Way::Anywhere);
+        const Proximity out = pair.query();
+        GapFunction gap(*one, {}, *other, pair.pose);
+        GapJet jet;
+        gap.evaluate(out.normal, Order::Hessian, jet);
+        contact_point(gap, jet, 1e-9 * gap.length_unit(), 1000);
+        CHECK(gap.evaluations() == 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("a pebble on a slab: the contact is at the pebble, in either order and any frame, and does not jump") {
+  const auto pebble = user_without_hessian(std::make_shared<Ellipsoid>(Vector3(0.05, 0.1, 0.25)));
+  const std::array<std::shared_ptr<const Shape>, 3> slabs = {superellipsoid(Vector3(10, 10, 1), 60, 60),
+                                                             user_without_hessian(std::make_shared<Box>(Vector3(10, 10, 1))),
+                                                             std::make_shared<Box>(Vector3(10, 10, 1))};
+  const Matrix3 rotation = Eigen::AngleAxisd(0.9, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  const Pose frame{Vector3(5, -7, 3), Eigen::AngleAxisd(2.1, Vector3(3, -1, 2).normalized()).toRotationMatrix()};
+  for (const auto& slab : slabs) {
+    for (int step = 0; step < 100; ++step) {
+      // Along a path over the slab, a hundredth of its width a step.
+      const Vector3 low = rotation * pebble->point(-rotation.row(2).transpose());
+      const Vector3 place(-9 + 0.18 * step, 8 - 0.15 * step, 1);
+      const Pose pose{place - low - Vector3(0, 0, 0.001), rotation};
+      const Pose moved{frame.rotation * pose.position + frame.position, frame.rotation * rotation};
+      const Vector3 expected = place - Vector3(0, 0, 0.0005);
+      // A gap to 1e-9 of the size determines the normal, and the point of the pebble, to the root of that.
+      CHECK((find_proximity(*slab, {}, *pebble, pose).contact - expected).norm() <= 5e-5);
+      CHECK((find_proximity(*pebble, pose, *slab, {}).contact - expected).norm() <= 5e-5);
+      const Vector3 in_frame = find_proximity(*pebble, moved, *slab, frame).contact;
+      CHECK((frame.rotation.transpose() * (in_frame - frame.position) - expected).norm() <= 5e-5);
+    }
+  }
+}
