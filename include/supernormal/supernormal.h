@@ -42,10 +42,9 @@ SUPERNORMAL_API const char* snLastError(void);
  * dCollide knows our geoms among themselves and with all of ODE's own: dSphere, dBox, dCapsule, dCylinder, dPlane, dConvex, dRay,
  * dTriMesh and dHeightfield; inside spaces and dGeomTransform as everywhere. With a user class of another program it asks that
  * class. A geom with a length that is not finite, or above 1e30 (but for a dRay), makes no contacts, and snLastError says so.
- * Contacts: the first is the deepest, with the depth of the overlap. Where flat bodies overlap in a wide region, its two to four
- * corners follow, as deep as the bodies overlap there, 0 where they do not; with room for two to four contacts they replace the
- * deepest point. They are what a body rests on (lib/contact/README.md). Round bodies make one contact, and so does everything with
- * room for one.
+ * Contacts: the first is the deepest, with the depth of the overlap. Round bodies make one contact, and so does everything with
+ * room for one. Flat bodies have the two to four corners of the region on which they rest, deepest first, each as deep as the faces
+ * overlap there, or 0 (lib/contact/README.md); with room for two or three, neighbours are united.
  *  - dConvex: only the vertices count, not the planes and polygons that it was made with; after dGeomSetConvex call dGeomMoved.
  *  - dTriMesh: single-sided, what is behind a triangle (seen from there its corners run clockwise) is solid; a contact's
  *    side of the mesh is the number of the triangle. snGeomProximity takes a mesh that is met from behind as two-sided.

@@ -40,7 +40,7 @@ double acceleration(double epsilon) {
   World world;
   world.add_plane(incline);
   world.surface.mu = dInfinity;
-  // There is a line of five contacts that all stick: at 20 iterations quickstep lets it slip by 1e-4 of its speed.
+  // There is a line of contacts that all stick: at 20 iterations quickstep lets it slip by 1e-4 of its speed.
   dWorldSetQuickStepNumIterations(world.id(), 1000);
   const auto a = dReal(0.1);
   const dGeomID geom = snCreateSuperellipsoid(world.space(), a, a, dReal(0.15), 2, dReal(epsilon));

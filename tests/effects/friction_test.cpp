@@ -83,7 +83,7 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
 
 TEST_CASE("no contact ever exceeds the cone") {
   // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. The distribution of a
-  // face's load over five contacts is not determined, and it converges more slowly than with one, whatever the number of
+  // face's load over four contacts is not determined, and it converges more slowly than with one, whatever the number of
   // iterations.
   struct Case {
     double exponent;
@@ -151,7 +151,7 @@ TEST_CASE("anisotropic friction: both axes, and between them the force that diss
     CAPTURE(turn);
     OdeSession session;
     EffectsWorld scene({earth(), grain}, kStep);
-    dWorldSetQuickStepNumIterations(scene.id(), 200);  // the loads of five contacts of one face are redundant
+    dWorldSetQuickStepNumIterations(scene.id(), 200);  // the loads of four contacts of one face are redundant
     scene.world.add_plane();
     const dBodyID puck = add_puck(scene);
     const double axes_angle = 45 * kDegree + turn;

@@ -210,7 +210,7 @@ double largest_excess(const PlacedPair& pair, const Proximity& proximity, int ro
   const ContactManifold found = find_contact_manifold(*pair.large, {}, *pair.small, pair.pose, proximity);
   const ContactManifold manifold = reduced_to(found, room);
   double largest = -std::numeric_limits<double>::infinity();
-  if (manifold.corner_count == 0 || has_room_for_deepest(room)) largest = excess(pair, proximity, manifold.deepest.contact);
+  if (manifold.corner_count == 0) largest = excess(pair, proximity, manifold.deepest.contact);
   for (int k = 0; k < manifold.corner_count; ++k) {
     largest = std::max(largest, excess(pair, proximity, manifold.corners[static_cast<std::size_t>(k)].point));
   }

@@ -68,18 +68,16 @@ struct CornerList {
 class Side {
  public:
   Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below)
-      : apex_(frame.project(polygon.support_point())), axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
+      : axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
+    const Vector2 support_point = frame.project(polygon.support_point());
     // A line gets a width, so that two of them have a region in common.
     const Vector2 thin = kThinnest * polygon.size() * axis_;
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t vertex = sees_it_from_below ? 3 - k : k;
       const Vector2 beside = vertex == 0 || vertex == 3 ? thin : Vector2(-thin);
-      outline_.add(apex_ + frame.plane.project(polygon.vertices()[vertex]) + (polygon.is_long() ? beside : Vector2(0, 0)));
+      outline_.add(support_point + frame.plane.project(polygon.vertices()[vertex]) + (polygon.is_long() ? beside : Vector2(0, 0)));
     }
   }
-
-  /// The support point, which the polygon need not contain.
-  const Vector2& apex() const { return apex_; }
 
   const ConvexPolygon& outline() const { return outline_; }
 
@@ -87,7 +85,6 @@ class Side {
   Vector2 direction() const { return fourth_power(axis_) / (area_ * area_); }
 
  private:
-  Vector2 apex_;
   ConvexPolygon outline_;
   Vector2 axis_;
   double area_;
@@ -104,15 +101,6 @@ std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
 ConvexPolygon common_region(const ConvexPolygon& outline1, const ConvexPolygon& outline2) {
   const bool thinner = outline1.area() < outline2.area();  // an edge of a box has no area
   return thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
-}
-
-/// Moves the deepest point, which is at the origin, into the region that both sides and their support points have in common. For
-/// two faces the query knows the normal, but it knows the place of the support points on them to no digit, and the contact
-/// between these may be beside a body that the other one hangs over.
-Vector2 place_of_deepest(const ConvexPolygon& region, const Side& side1, const Side& side2) {
-  if (region.contains(Vector2::Zero())) return Vector2::Zero();
-  const ConvexPolygon whole = common_region(side1.outline().with(side1.apex()), side2.outline().with(side2.apex()));
-  return whole.size() == 0 || whole.contains(Vector2::Zero()) ? Vector2::Zero() : whole.nearest_to(Vector2::Zero());
 }
 
 /// Finds four corners of a region that is not empty.
@@ -210,7 +198,6 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   const Side side1(polygon1, frame, false);
   const Side side2(polygon2, frame, true);
   const ConvexPolygon region = common_region(side1.outline(), side2.outline());
-  manifold.deepest.contact = frame.lift(place_of_deepest(region, side1, side2));
   if (region.size() > 0) {
     const Vector2 lean = frame.plane.project(polygon1.slope() + polygon2.slope());
     corners_of(region, side1, side2, frame, lean).write(std::min(polygon1.largest_lean(), polygon2.largest_lean()), manifold);

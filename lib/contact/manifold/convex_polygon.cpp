@@ -48,31 +48,6 @@ ConvexPolygon ConvexPolygon::intersected(const ConvexPolygon& other) const {
   return rest;
 }
 
-bool ConvexPolygon::contains(const Vector2& point) const {
-  for (int k = 0; k < size_; ++k) {
-    const Vector2& here = (*this)[k];
-    if (!(cross((*this)[(k + 1) % size_] - here, point - here) >= 0)) return false;
-  }
-  return size_ > 0;
-}
-
-// The point replaces the corners between the edges that are visible from it.
-ConvexPolygon ConvexPolygon::with(const Vector2& point) const {
-  const auto is_seen = [&](int edge) {
-    const Vector2& here = (*this)[edge];
-    return cross((*this)[(edge + 1) % size_] - here, point - here) < 0;
-  };
-  ConvexPolygon hull;
-  bool was_seen = is_seen(size_ - 1);
-  for (int k = 0; k < size_; ++k) {
-    const bool seen = is_seen(k);
-    if (!(was_seen && seen)) hull.add((*this)[k]);
-    if (!was_seen && seen) hull.add(point);
-    was_seen = seen;
-  }
-  return hull;
-}
-
 Vector2 ConvexPolygon::nearest_to(const Vector2& point) const {
   Vector2 nearest = corners_[0];
   double least = HUGE_VAL;

@@ -21,8 +21,8 @@ struct ContactFrame {
 /// A convex polygon, counter-clockwise, or a degenerate one: a segment, a point, nothing.
 class ConvexPolygon {
  public:
-  /// Two quadrangles with a point each meet in a polygon of at most ten corners.
-  static constexpr int kCapacity = 10;
+  /// Two quadrangles meet in a polygon of at most eight corners.
+  static constexpr int kCapacity = 8;
 
   void add(const Vector2& corner) { corners_[static_cast<std::size_t>(size_++)] = corner; }
   int size() const { return size_; }
@@ -33,11 +33,6 @@ class ConvexPolygon {
   /// The intersection of both. A corner of one that is repeated, or inside of its neighbours by rounding, does no harm. This
   /// polygon may be a segment; the other one needs an interior.
   ConvexPolygon intersected(const ConvexPolygon& other) const;
-
-  bool contains(const Vector2& point) const;
-
-  /// The convex hull of this polygon, which needs an interior, and a point.
-  ConvexPolygon with(const Vector2& point) const;
 
   /// The point of the polygon that is nearest to a point outside of it. The polygon must have a corner.
   Vector2 nearest_to(const Vector2& point) const;

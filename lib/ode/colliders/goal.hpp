@@ -8,7 +8,7 @@ namespace supernormal::ode {
 /// The purpose of a query. Colliders need overlaps only: they stop at the first normal that proves separation.
 enum class Goal {
   OneContact,  ///< the deepest point
-  Contacts,    ///< the deepest point and the corners of a wide overlap
+  Contacts,    ///< the contacts of the overlap
   Distance,
   CertifiedDistance,  ///< with a proof that the depth of overlapping bodies is the smallest
 };

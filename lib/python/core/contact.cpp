@@ -37,21 +37,20 @@ py::array_t<double> corner_depths(const ContactManifold& self) {
 /// The contacts that the ODE layer makes of a manifold (lib/ode/colliders/contact.cpp).
 py::tuple contacts(const ContactManifold& self, int room) {
   if (room < 1) throw std::invalid_argument("room = " + std::to_string(room) + " is outside [1, inf)");
-  if (!(self.deepest.gap <= 0))
-    return py::make_tuple(py::array_t<double>({py::ssize_t{0}, py::ssize_t{3}}), py::array_t<double>(0));
-  const ContactManifold reduced = reduced_to(self, room);
-  if (reduced.corner_count > 0) return py::make_tuple(corner_points(reduced), corner_depths(reduced));
-  py::array_t<double> points({py::ssize_t{1}, py::ssize_t{3}});
-  std::copy(self.deepest.contact.data(), self.deepest.contact.data() + 3, points.mutable_data());
-  py::array_t<double> depths(1);
-  *depths.mutable_data() = 0 - self.deepest.gap;
-  return py::make_tuple(points, depths);
+  ContactManifold reduced = reduced_to(self, room);
+  if (!(self.deepest.gap <= 0)) {
+    reduced.corner_count = 0;
+  } else if (reduced.corner_count == 0) {
+    reduced.corners[0] = {self.deepest.contact, 0 - self.deepest.gap};
+    reduced.corner_count = 1;
+  }
+  return py::make_tuple(corner_points(reduced), corner_depths(reduced));
 }
 
 py::tuple arguments_of(const ContactManifold& self) {
   py::tuple corners(static_cast<std::size_t>(self.corner_count));
   for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = py::make_tuple(plain(self.corners[k].point), self.corners[k].depth);
-  return py::make_tuple(self.deepest, corners, self.same_place, self.flatness, self.margin, self.evaluations);
+  return py::make_tuple(self.deepest, corners, self.same_place, self.margin, self.evaluations);
 }
 
 ContactManifold make_manifold(const py::tuple& of) {
@@ -61,9 +60,8 @@ ContactManifold make_manifold(const py::tuple& of) {
   for (std::size_t k = 0; k < corners.size(); ++k) made.corners[k] = {corners[k].first, corners[k].second};
   made.corner_count = static_cast<int>(corners.size());
   made.same_place = of[2].cast<double>();
-  made.flatness = of[3].cast<double>();
-  made.margin = of[4].cast<double>();
-  made.evaluations = of[5].cast<int>();
+  made.margin = of[3].cast<double>();
+  made.evaluations = of[4].cast<int>();
   return made;
 }
 
