@@ -230,3 +230,48 @@ TEST_CASE("a stack of five stands for ten seconds at steps of 10 to 20 ms") {
     }
   }
 }
+
+namespace {
+
+/// The lowest point of a can, m, at the end of six seconds after it has fallen onto the plane z = 0 from 0.4 radii, lying but for
+/// 0.03 rad.
+double lowest_point_of_can(dGeomID geom, dSpaceID space, double radius, double half_length, double step) {
+  World world(space);
+  dCreatePlane(space, 0, 0, 1, 0);
+  world.surface.mode = dContactApprox1;
+  world.surface.mu = dReal(0.5);
+  dMass mass;
+  dMassSetCylinder(&mass, dReal(kDensity), 3, dReal(radius), dReal(2 * half_length));
+  const dBodyID body = world.add(geom, mass);
+  turn(body, {0, 1, 0}, std::numbers::pi / 2 + 0.03);
+  dBodySetPosition(body, 0, 0, dReal(1.4 * radius));
+  for (int k = 0; k * step < 6; ++k) world.quick_step(step);
+  const dVector3 down = {0, 0, -1};
+  dVector3 point;
+  REQUIRE(snGeomSupport(geom, down, point) == 1);
+  return double{point[2]};
+}
+
+}  // namespace
+
+TEST_CASE("a can on its side does not sink, at any step") {
+  const OdeSession session;
+  constexpr double kRadius = 0.05;
+  for (const double exponent : {8.0, 20.0, 60.0, 200.0}) {
+    for (const double rounding : {0.0, 0.3 * kRadius}) {
+      for (const double half_length : {kRadius, 5 * kRadius}) {
+        for (const double step : {0.002, 0.01, 0.0167, 0.02, 0.032}) {
+          CAPTURE(exponent);
+          CAPTURE(rounding);
+          CAPTURE(half_length);
+          CAPTURE(step);
+          const dSpaceID space = dHashSpaceCreate(nullptr);
+          const dGeomID can = snCreateSuperellipsoid(space, dReal(kRadius - rounding), dReal(kRadius - rounding),
+                                                     dReal(half_length - rounding), 2, dReal(exponent));
+          if (rounding > 0) REQUIRE(snGeomSetRounding(can, dReal(rounding)) == 1);
+          CHECK(lowest_point_of_can(can, space, kRadius, half_length, step) >= -0.06 * kRadius);  // a dCylinder stays above 0.94
+        }
+      }
+    }
+  }
+}
