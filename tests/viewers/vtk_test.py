@@ -67,9 +67,11 @@ def check_container(run, first, last):
 
 
 def check_parts(run):
-    """The shell of the drum, the first part, has turned as the table says."""
-    sides = 24
-    frames = check_container(run, (2 * sides + 2 + 2 + 12, 2 * sides + 4 + 4 + 12), (2 * sides + 2 + 2 + 12, 2 * sides + 4 + 4 + 12))
+    """The shell of the drum, the first part, has turned as the table says. Its ends are discs, and it has a box inside."""
+    sides, end_sides = 24, 64
+    shell, end, box = (2 * sides, 2 * sides), (end_sides - 2, end_sides), (12, 12)
+    drum = tuple(of_shell + 2 * of_end + of_box for of_shell, of_end, of_box in zip(shell, end, box, strict=True))
+    frames = check_container(run, drum, drum)
     rows = [row for row in read_rows(run / "parts.csv") if row["part"] == "drum"]
     start = vtk_to_numpy(frames[0].GetPoints().GetData())[0]
     for row, data in zip(rows, frames, strict=True):
