@@ -21,12 +21,12 @@ def test_a_face_on_a_face_has_four_corners():
     assert manifold.corner_points.shape == (4, 3) and manifold.corner_depths == pytest.approx(4 * [0.01], abs=1e-6)
     assert manifold.deepest.gap == nearest.gap
     points, depths = manifold.contacts(room=8)
-    assert points.shape == (5, 3) and depths[0] == pytest.approx(0.01, abs=1e-9)
+    assert points.shape == (4, 3) and depths[0] == pytest.approx(0.01, abs=1e-9) and (np.diff(depths) <= 1e-9).all()
     points, depths = manifold.contacts(room=4)
     assert points.shape == (4, 3) and np.abs(points[:, :2]).min() > 0.3
     assert len(manifold.contacts(room=1)[0]) == 1
     plane = sn.find_plane_proximity(above, sn.Pose((0, 0, 0.49)), (0, 0, 1), 0)
-    assert len(sn.find_plane_contact_manifold(above, sn.Pose((0, 0, 0.49)), plane).contacts()[0]) == 5
+    assert len(sn.find_plane_contact_manifold(above, sn.Pose((0, 0, 0.49)), plane).contacts()[0]) == 4
 
 
 def test_round_bodies_have_one_contact_and_bodies_apart_none():

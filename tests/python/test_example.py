@@ -15,7 +15,7 @@ def test_the_tour(tmp_path):
     environment = {**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": str(tmp_path / "matplotlib")}
     run = subprocess.run([sys.executable, TOUR, tmp_path / "figures"], env=environment, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
-    assert "Superellipsoid on a floor: 5 contacts, 1.000 mm deep" in run.stdout
+    assert "Superellipsoid on a floor: 4 contacts, 1.000 mm deep" in run.stdout
     assert "Superovoid on a floor: 1 contacts, 1.000 mm deep" in run.stdout
     wanted = {"distance.png", "rays.png"} | ({"pebbles.png"} if "ten pebbles after 3 s" in run.stdout else set())
     assert {path.name for path in (tmp_path / "figures").iterdir()} == wanted
