@@ -167,6 +167,7 @@ TEST_CASE("the middle of an edge, of a point and of points that are one but for 
   Ball ball(fx::Adhesion{kPullOff, {}});
   const auto middle = [&](const std::vector<Place>& places) {
     std::vector<dContact> contacts;
+    contacts.reserve(places.size());
     for (const Place& place : places) contacts.push_back(ball.contact(place, 1e-5));
     return ball.adhesion(contacts);
   };

@@ -77,7 +77,7 @@ std::shared_ptr<const Shape> hull(double size) {
           corner[axis] = end;
           corner[(axis + 1) % 3] = x;
           corner[(axis + 2) % 3] = y;
-          corners.push_back(size * corner.cwiseProduct(Vector3(1, 0.8, 0.6)));
+          corners.emplace_back(size * corner.cwiseProduct(Vector3(1, 0.8, 0.6)));
         }
       }
     }

@@ -62,7 +62,7 @@ struct Section {
 };
 
 const std::vector<Section>& sections() {
-  constexpr const char* hopper =
+  constexpr const char* kHopper =
       "container={kind = \"hopper\", outlet = 0.05, wall_angle = 30, diameter = 0.1, cylinder_height = 0.3, segments = 24, "
       "clearance = "
       "0.1, tray_width = 0.2, opens_at = 0.05, dish = {diameter = 0.1, height = 0.02, rim = 0.01}}";
@@ -88,8 +88,8 @@ const std::vector<Section>& sections() {
        "grain[pea].size={distribution = \"sieve\", openings = [1e-3, 2e-3], passing = [0, 1]}",
        {"distribution"}},
       {"[container] kind = \"box\"", "container", "", {"kind"}},
-      {"[container] kind = \"hopper\"", "container", hopper, {"kind"}},
-      {"[container.dish]", "container.dish", hopper},
+      {"[container] kind = \"hopper\"", "container", kHopper, {"kind"}},
+      {"[container.dish]", "container.dish", kHopper},
       {"[container] kind = \"terrain\"",
        "container",
        "container={kind = \"terrain\", width = [0.2, 0.2], amplitude = 0.01, wavelength = 0.1, ridge_height = 0.01, samples = 20, "
@@ -157,7 +157,8 @@ TEST_CASE("list: each range is the one that the loader names when it refuses a v
   int compared = 0;
   const std::map<std::string, Keys> list = listed();
   for (const Section& section : sections()) {
-    for (const auto& [key, text] : list.at(section.line)) {
+    for (const auto& [key, told] : list.at(section.line)) {
+      const std::string& text = told;  // lambdas do not capture structured bindings
       const std::string said = complaint(kSceneText, kCatalogueText, with(section, section.path + '.' + key + "={}"));
       const std::size_t at = said.find(key + " is a table; allowed: ");
       const bool depends_on_others = std::regex_search(said, std::regex("allowed: .*\\([a-z]"));

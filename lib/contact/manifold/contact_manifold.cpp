@@ -48,11 +48,11 @@ struct CornerList {
   std::array<double, ContactManifold::kMaxCorners> leans;
 
   /// Faces count as flat between their corners: what counts is by how much a corner leans more than another. A corner that leans by
-  /// more than the depth and `largest_lean` (m) is drawn in towards the deepest point, to where the faces lean by as much.
-  void write(double largest_lean, ContactManifold& manifold) const {
+  /// more than `depth`, where it does not lean, and `largest_lean` (m) is drawn in towards the deepest point, to where the faces
+  /// lean by as much.
+  void write(double largest_lean, double depth, ContactManifold& manifold) const {
     const double least = *std::min_element(leans.begin(), leans.end());
     const Vector3& deepest = manifold.deepest.contact;
-    const double depth = -manifold.deepest.gap;
     const double left_at_deepest = std::max(0.0, depth + largest_lean + std::min(0.0, least));
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double lean = leans[k] - least;
@@ -200,7 +200,8 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   const ConvexPolygon region = common_region(side1.outline(), side2.outline());
   if (region.size() > 0) {
     const Vector2 lean = frame.plane.project(polygon1.slope() + polygon2.slope());
-    corners_of(region, side1, side2, frame, lean).write(std::min(polygon1.largest_lean(), polygon2.largest_lean()), manifold);
+    corners_of(region, side1, side2, frame, lean)
+        .write(std::min(polygon1.largest_lean(), polygon2.largest_lean()), depth, manifold);
   }
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() - depth);
@@ -210,17 +211,22 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
 ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
   ContactManifold manifold(proximity);
   if (!may_have_corners(shape, proximity)) return manifold;
-  const double depth = -proximity.gap;
-  const SupportPolygon polygon(shape, pose, proximity.normal, proximity.point1, depth);
+  // At the border of a sheet the contact is beside the point on which the body would stand if the sheet went on.
+  const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;
+  const double below = std::max(0.0, proximity.normal.dot(support_point - proximity.point1));
+  const bool is_beside = below > kLeastDepth * shape.half_extents().minCoeff();
+  const Vector3& stands_on = is_beside ? support_point : proximity.point1;
+  const double depth = is_beside ? below - proximity.gap : -proximity.gap;
+  const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, depth);
   manifold.evaluations = polygon.evaluations();
   if (!polygon.has_width()) return manifold;
   CornerList corners;
   for (std::size_t k = 0; k < 4; ++k) {
     corners.leans[k] = polygon.slope().dot(polygon.vertices()[k]);
     // On the face, whose rounding does not count: a body that rolls on a line has the radius of its equator.
-    corners.points[k] = proximity.point1 + polygon.vertices()[k] - corners.leans[k] * proximity.normal;
+    corners.points[k] = stands_on + polygon.vertices()[k] - std::max(0.0, corners.leans[k]) * proximity.normal;
   }
-  corners.write(polygon.largest_lean(), manifold);
+  corners.write(polygon.largest_lean(), depth, manifold);
   manifold.same_place = kSamePlace * polygon.size();
   manifold.margin = std::max(0.0, polygon.largest_separation() - depth);
   return manifold;

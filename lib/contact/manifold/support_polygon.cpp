@@ -228,9 +228,10 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
     evaluations_ += 4;
     return Tilts(shape, normal, axes, support, height_, extents_, tangent);
   };
-  const double reach = std::max(depth, std::min(kReach * height_ + kReachOfDepth * depth, kLargestReach * height_));
-  largest_lean_ = kLean * reach;
-  const double tangent = tangent_of_tilt(reach, height_);
+  // Of a tall body the height says nothing of how far it may lean.
+  const double least_extent = std::min({height_, extents_[0], extents_[1]});
+  reach_ = std::max(depth, std::min(kReach * least_extent + kReachOfDepth * depth, kLargestReach * least_extent));
+  const double tangent = tangent_of_tilt(reach_, height_);
   const Tilts tilts = tilts_of(tangent);
   widths_ = widths_seen_by(tilts);
   if (tangent > kNear && std::min(widths_[0], widths_[1]) < 1) {
@@ -243,6 +244,8 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
   place_vertices(tilts);
   turn_across();
 }
+
+double SupportPolygon::largest_lean() const { return kLean * reach_; }
 
 // How flat the body is along both axes. The fraction is small where the body is flat and the plane is parallel to the face;
 // elsewhere the view from the face decides.
@@ -273,10 +276,14 @@ void SupportPolygon::place_vertices(const Tilts& tilts) {
     const auto mixed = [&](double of_end0, double of_end1, double of_corner) {
       return share0 * of_end0 + share1 * of_end1 + share_of_corner * of_corner;
     };
-    vertices_[k] = mixed(end0.along[0], end1.along[0], corners[k].along[0]) * axes_[0] +
-                   mixed(end0.along[1], end1.along[1], corners[k].along[1]) * axes_[1];
+    const Vector3 vertex = mixed(end0.along[0], end1.along[0], corners[k].along[0]) * axes_[0] +
+                           mixed(end0.along[1], end1.along[1], corners[k].along[1]) * axes_[1];
     const double separation = mixed(end0.separation, end1.separation, corners[k].separation);
-    largest_separation_ = std::max(largest_separation_, separation);
+    // What is farther away than a face that leans is no part of it: it is drawn in along a chord of the body.
+    const double beside_face = separation - std::max(0.0, slope_.dot(vertex));
+    const double share = beside_face > reach_ ? reach_ / beside_face : 1;
+    vertices_[k] = share * vertex;
+    largest_separation_ = std::max(largest_separation_, share * separation);
   }
 }
 

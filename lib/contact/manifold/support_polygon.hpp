@@ -51,7 +51,7 @@ class SupportPolygon {
   double size() const { return std::min(extents_[0], extents_[1]); }
 
   /// m; a corner that leans by more than this beyond the depth is in the air.
-  double largest_lean() const { return largest_lean_; }
+  double largest_lean() const;
 
   /// The largest separation of a vertex from the plane, m.
   double largest_separation() const { return largest_separation_; }
@@ -69,7 +69,7 @@ class SupportPolygon {
   std::array<Vector3, 2> axes_;
   std::array<double, 2> extents_{};
   double height_ = 0;
-  double largest_lean_ = 0;
+  double reach_ = 0;
   std::array<double, 2> widths_{};
   Vector3 slope_ = Vector3::Zero();
   bool is_long_ = false;

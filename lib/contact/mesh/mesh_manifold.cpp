@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "supernormal/contact/mesh_contacts.hpp"
@@ -87,20 +88,37 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
 
 }  // namespace
 
+// Corners in the air are drawn in towards the middle of those on the floor and the contact: from the contact alone, which may be on
+// the border, all of them would end there.
 void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles) {
-  const Vector3& contact = manifold.deepest.contact;
+  if (manifold.corner_count == 0) return;
   const double depth = -manifold.deepest.gap;
-  const Floor floor{-manifold.deepest.normal, manifold.deepest.point2, depth};
+  Floor floor{-manifold.deepest.normal, manifold.deepest.point2, depth};
+  std::array<double, ContactManifold::kMaxCorners> shares{};
   bool is_on_face = false;
-  for (int k = 0; k < manifold.corner_count; ++k) {
-    ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
-    const double share = share_on_floor(floor, triangles, corner.point);
-    is_on_face = is_on_face || share > 0;
-    if (share >= 1) continue;
-    corner.point = contact + share * (corner.point - contact);
-    corner.depth = depth + share * (corner.depth - depth);
+  double on_floor = 1;
+  ManifoldCorner middle{manifold.deepest.contact, depth};
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const ManifoldCorner& corner = manifold.corners[k];
+    shares[k] = share_on_floor(floor, triangles, corner.point);
+    is_on_face = is_on_face || shares[k] > 0;
+    if (shares[k] < 1) continue;
+    ++on_floor;
+    middle.point += (corner.point - middle.point) / on_floor;
+    middle.depth += (corner.depth - middle.depth) / on_floor;
   }
-  if (!is_on_face) manifold.corner_count = 0;
+  if (!is_on_face) {
+    manifold.corner_count = 0;
+    return;
+  }
+  floor.origin = middle.point - floor.normal.dot(middle.point - manifold.deepest.point2) * floor.normal;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    if (shares[k] >= 1) continue;
+    ManifoldCorner& corner = manifold.corners[k];
+    const double share = share_on_floor(floor, triangles, corner.point);
+    corner.point = middle.point + share * (corner.point - middle.point);
+    corner.depth = middle.depth + share * (corner.depth - middle.depth);
+  }
 }
 
 }  // namespace supernormal

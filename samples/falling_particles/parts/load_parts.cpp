@@ -72,7 +72,7 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
 /// sides until they are halfway through.
 std::size_t count_two_sided(const Mesh& mesh) {
   const auto from_lowest = [](std::array<unsigned int, 3> corners) {
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     return corners;
   };
   std::set<std::array<unsigned int, 3>> seen;

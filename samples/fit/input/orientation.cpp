@@ -75,7 +75,8 @@ void measure(Part& part, const Data& data) {
   const Eigen::Vector3d mean = sum / (3 * static_cast<double>(part.triangles.size()));
   double volume = 0;
   for (const auto& [i, is_turned] : part.triangles) {
-    const auto corner = [&](std::size_t k) -> Eigen::Vector3d { return data.vertices.points[data.triangles[i][k]] - mean; };
+    const auto& triangle = data.triangles[i];
+    const auto corner = [&](std::size_t k) -> Eigen::Vector3d { return data.vertices.points[triangle[k]] - mean; };
     volume += (is_turned ? -1 : 1) * corner(0).dot(corner(1).cross(corner(2)));
   }
   part.is_inside_out = volume < 0;

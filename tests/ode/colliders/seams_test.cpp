@@ -69,11 +69,17 @@ Floor lay(Laying laying, bool is_tilted, double apart = 0, double far = 0) {
     const int parts = laying == Laying::TJunctions && i >= 0 ? 3 : 4;
     const double shift = laying == Laying::BrickBond && i % 2 != 0 ? 0.25 : 0;
     for (int j = 0; j < parts; ++j) {
+      const auto add_to = [&](MeshArrays& mesh) {
+        add_rectangle(mesh, floor, 0.5 * i, 0.5 * i + 0.5, -1 + 2.0 * j / parts + shift, -1 + 2.0 * (j + 1) / parts + shift, apart,
+                      random);
+      };
+      if (laying != Laying::Tiles) {
+        add_to(one);
+        continue;
+      }
       MeshArrays tile;
-      MeshArrays& mesh = laying == Laying::Tiles ? tile : one;
-      add_rectangle(mesh, floor, 0.5 * i, 0.5 * i + 0.5, -1 + 2.0 * j / parts + shift, -1 + 2.0 * (j + 1) / parts + shift, apart,
-                    random);
-      if (laying == Laying::Tiles) floor.tiles.push_back(std::make_unique<MeshGeom>(std::move(tile)));
+      add_to(tile);
+      floor.tiles.push_back(std::make_unique<MeshGeom>(std::move(tile)));
     }
   }
   if (laying != Laying::Tiles) floor.tiles.push_back(std::make_unique<MeshGeom>(std::move(one)));
@@ -264,7 +270,7 @@ TEST_CASE("a body that hangs over the border of a sheet is held, and falls when 
       const dBodyID body = world.add(geom, 1000);
       place(geom, {1 + beyond, 0.5, height_of(kind)});
       for (int step = 0; step < 2000; ++step) world.quick_step(1e-3);
-      const double height = double{dBodyGetPosition(body)[2]};
+      const double height{dBodyGetPosition(body)[2]};
       if (beyond < 0) CHECK(height > 0.98 * height_of(kind));
       if (beyond > 0) CHECK(height < -height_of(kind));
       dSpaceRemove(world.space(), table);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "checkpoint/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"

@@ -200,9 +200,10 @@ double drift(const Part& part, const Grain& grain, double step, const Vector3& a
   scene.solver.iterations = 100;
   const World world(scene, {{0, {0.05, 0.01, grain.half_axes[2]}, {1, 0, 0, 0}}});
   Stepper stepper(world, scene);
-  double time = 0;
+  int steps = 0;
   const auto distance_at = [&](double end) {
-    for (; time < end - step / 2; time += step) stepper.step();
+    for (const long last = std::lround(end / step); steps < last; ++steps) stepper.step();
+    const double time = steps * step;
     const Point p = world.bodies()[0].position();
     return std::hypot(p[0] - time * axis_velocity.x(), p[1] - time * axis_velocity.y());
   };
