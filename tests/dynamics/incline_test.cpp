@@ -81,7 +81,7 @@ double creep(const Creeping& what, double incline, double step, int room) {
   const bool lies = norm(what.lying_axis) > 0;
   if (lies) turn(body, what.lying_axis, std::numbers::pi / 2);
   dBodySetPosition(body, 0, 0, dReal(lies ? a : c));
-  const int steps = static_cast<int>(1.5 / step);
+  const int steps = static_cast<int>(3 / step);
   for (int k = 0; k < steps; ++k) world.quick_step(step);
   const double start{dBodyGetPosition(body)[0]};
   for (int k = 0; k < steps; ++k) world.quick_step(step);

@@ -45,15 +45,15 @@ TEST_CASE("toml depth: levels by dots, headers, arrays and tables are counted, e
 
 TEST_CASE("toml depth: what is no level is not counted") {
   const std::string many = repeated(".[{", 1000);
-  for (const std::string& text :
-       {"# " + many, "a = \"" + many + "\"", "a = '" + many + "'", "a = \"\\\"" + many + "\"", "a = \"\"\"\n" + many + "\"\n\"\"\"",
-        "a = '''\n" + many + "'\n'''", "a = [" + repeated("1.5, ", 1000) + "]", "a = [" + repeated("[1.5, 2.5], # [\n", 1000) + "]",
-        repeated("a.b = 1.5\n", 1000), repeated("[[a.b]]\nc = {d.e = [1.5]}\n", 1000)}) {
+  for (const std::string& text : {"# " + many, R"(a = ")" + many + R"(")", "a = '" + many + "'", R"(a = "\")" + many + R"(")",
+                                  "a = \"\"\"\n" + many + "\"\n\"\"\"", "a = '''\n" + many + "'\n'''",
+                                  "a = [" + repeated("1.5, ", 1000) + "]", "a = [" + repeated("[1.5, 2.5], # [\n", 1000) + "]",
+                                  repeated("a.b = 1.5\n", 1000), repeated("[[a.b]]\nc = {d.e = [1.5]}\n", 1000)}) {
     CAPTURE(text.substr(0, 30));
     CHECK_FALSE(find_deep_toml(text));
   }
   CHECK(find_deep_toml("a = \"\"\"\n\n\"\"\"\n" + repeated("b.", 200)) == 4U);
-  for (const char* torn : {"\"", "'", "\"\"\"", "a = \"\\", "[", "]]]]", "#"}) CHECK_FALSE(find_deep_toml(torn));
+  for (const char* torn : {R"(")", "'", R"(""")", "a = \"\\", "[", "]]]]", "#"}) CHECK_FALSE(find_deep_toml(torn));
 }
 
 TEST_CASE("toml depth: a scene, a catalogue and an override of many levels are refused before they are parsed") {
