@@ -23,9 +23,9 @@ struct ManifoldCorner {
 /// the deepest point alone.
 ///
 /// Everything is a continuous function of the pose. Corners grow out of the deepest point as the bodies become flat there; they
-/// are as deep as it is where the face does not lean, and less deep by as much as it leans. The region does not depend on the
-/// depth: it is the face, as far as the leaning faces overlap or are apart by at most 1e-3 half-heights, where corners have depth
-/// 0. lib/contact/README.md has the construction, its proofs and measurements.
+/// are as deep as it is where the face does not lean, and less deep by as much as it leans; where the leaning faces are apart they
+/// have depth 0. The region does not shrink to a point as the depth goes to nothing, nor as it grows. lib/contact/README.md has the
+/// construction, its proofs and measurements.
 struct ContactManifold {
   static constexpr int kMaxCorners = 4;  ///< the most corners that a manifold has
 

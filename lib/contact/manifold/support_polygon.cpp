@@ -10,13 +10,15 @@
 namespace supernormal {
 namespace {
 
-// The reach: how far apart the bodies may be where they rest on one another. It is so many half-heights at any depth, so that what
+// The reach: how far apart the bodies may be where they rest on one another. It is so many least extents (of the
+// half-height and both half-extents in the plane) at any depth, so that what
 // a body stands on does not shrink to a point as quickstep takes the depth away; and so many depths more, for bodies that fall:
 // with less of it those with round edges take longer to rest than a dBox.
 constexpr double kReach = 2e-3;
 constexpr double kReachOfDepth = 12;
 
-// Largest reach, in half-heights, but at least the depth: beyond it the vertices would hold a body that leans in the air in a fall.
+// Largest reach, in least extents, but at least the depth: beyond it the vertices would hold a body that leans in the air in a
+// fall.
 constexpr double kLargestReach = 0.07;
 
 // Share of the reach by which a corner may lean more than another: with more of it, bodies rest leaning.
