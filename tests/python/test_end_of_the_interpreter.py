@@ -1,4 +1,4 @@
-"""A daemon thread in a call of the library does not disturb the end of the program."""
+"""The end of a program: what it still has is destroyed, and a daemon thread in a call of the library does not disturb."""
 
 import subprocess
 import sys
@@ -36,3 +36,9 @@ def test_a_daemon_thread(call):
     for _ in range(3):
         run = subprocess.run([sys.executable, "-c", SETUP.format(call=call)], capture_output=True, text=True, timeout=60)
         assert (run.returncode, run.stdout) == (0, "the end\n"), run.stderr
+
+
+def test_a_shape_of_functions_that_lives_to_the_end():
+    program = "import supernormal as sn; egg = sn.CallbackShape(lambda n: n); pair = sn.Rounded(egg, 1); print('the end')"
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (run.returncode, run.stdout) == (0, "the end\n"), run.stderr

@@ -27,10 +27,18 @@ auto outlive_the_interpreter(const Work& work) {
   }
 }
 
+/// Whether this thread has the lock: also while it ends the interpreter.
+inline bool has_the_lock() {
+  PyThreadState* const own = PyGILState_GetThisThreadState();
+  return own != nullptr && own == pybind11::detail::get_thread_state_unchecked();
+}
+
 /// pybind11::gil_scoped_acquire: has the lock while it lives.
 class HoldingTheLock {
  public:
   HoldingTheLock() {
+    // What the program still has when it ends is destroyed by the thread that ends the interpreter.
+    if (has_the_lock()) return;
     // Where a thread has no state yet, pybind11 makes one in an interpreter that may be gone.
     if (Py_IsInitialized() == 0) wait_for_the_end_of_the_process();
     outlive_the_interpreter([this] { lock_.emplace(); });
