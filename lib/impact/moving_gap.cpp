@@ -1,0 +1,126 @@
+#include "impact/moving_gap.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "supernormal/proximity/gap_function.hpp"
+#include "supernormal/proximity/plane.hpp"
+#include "supernormal/proximity/solve.hpp"
+
+namespace supernormal {
+namespace {
+
+// Rounding of s in units of the last place of its terms: as of the gap function (gap_function.cpp), and as much for the places,
+// which are sums of products with the time.
+constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+
+const Motion kAtRest;
+
+Vector3 centre_of(const Motion& motion) { return motion.pose.position + motion.pose.rotation * motion.centre; }
+
+}  // namespace
+
+MovingGap::MovingGap(const Motion& motion1, const Motion& motion2, const Turning& turning1, const Turning& turning2)
+    : motion1_(motion1),
+      motion2_(motion2),
+      turning1_(turning1),
+      turning2_(turning2),
+      centre1_(centre_of(motion1)),
+      centre_offset_((motion2.pose.position - motion1.pose.position) + motion2.pose.rotation * motion2.centre -
+                     motion1.pose.rotation * motion1.centre),
+      velocity_(motion2.velocity - motion1.velocity) {}
+
+double MovingGap::rate(const Proximity& proximity, double t) const {
+  const Vector3 turning1 = motion1_.angular_velocity.cross(proximity.point1);
+  const Vector3 turning2 = motion2_.angular_velocity.cross(proximity.point2 - offset(t));
+  return proximity.normal.dot(velocity_ + turning2 - turning1);
+}
+
+MovingPair::MovingPair(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, Solver solver)
+    : MovingGap(motion1, motion2, Turning(shape1, motion1), Turning(shape2, motion2)),
+      shape1_(shape1),
+      shape2_(shape2),
+      solver_(solver),
+      length_unit_(GapFunction(shape1, {}, shape2, {}).length_unit()) {}
+
+Pose MovingPair::pose1(double t) const {
+  const Matrix3 rotation = rotation_at(motion1_, t);
+  return {-(rotation * motion1_.centre), rotation};
+}
+
+Pose MovingPair::pose2(double t) const {
+  const Matrix3 rotation = rotation_at(motion2_, t);
+  return {offset(t) - rotation * motion2_.centre, rotation};
+}
+
+Proximity MovingPair::find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) {
+  const Pose one = pose1(t);
+  Vector3 start;
+  if (first_normal != nullptr) start = one.rotation.transpose() * *first_normal;
+  Settings settings;
+  settings.solver = solver_;
+  settings.tolerance = std::clamp(tolerance / length_unit_, 1e-15, 1.0);
+  settings.max_evaluations = most_evaluations;
+  Proximity out = find_proximity(shape1_, one, shape2_, pose2(t), settings, first_normal != nullptr ? &start : nullptr);
+  evaluations_ += out.evaluations;
+  return out;
+}
+
+Proximity MovingPair::evaluate(const Vector3& n, double t) {
+  const Pose one = pose1(t);
+  GapFunction gap(shape1_, one, shape2_, pose2(t));
+  GapJet jet;
+  gap.evaluate((one.rotation.transpose() * n).normalized(), Order::Point, jet);
+  ++evaluations_;
+  Proximity out;
+  if (!jet.is_finite()) return out;
+  out.gap = jet.s;
+  out.normal = n;
+  out.point1 = one.rotation * jet.jet1.r + one.position;
+  out.point2 = out.point1 + one.rotation * jet.d;
+  out.contact = 0.5 * (out.point1 + out.point2);
+  out.evaluations = 1;
+  out.status = Status::Apart;
+  out.is_global = false;
+  return out;
+}
+
+double MovingPair::rounding(double horizon) const {
+  return kRounding * (centre_offset_.norm() + horizon * velocity_.norm() + turning1_.reach() + turning2_.reach());
+}
+
+double MovingPair::balls_meet(double horizon) const {
+  if (!turning1_.is_turning() && !turning2_.is_turning()) return 0;
+  const double radius = turning1_.reach() + turning2_.reach() + rounding(horizon);
+  const double c = centre_offset_.squaredNorm() - radius * radius;
+  const double b = centre_offset_.dot(velocity_);
+  if (!(c > 0)) return 0;
+  const double a = velocity_.squaredNorm();
+  const double discriminant = b * b - a * c;
+  if (b >= 0 || discriminant < 0) return std::numeric_limits<double>::infinity();
+  return c / (-b + std::sqrt(discriminant));
+}
+
+MovingOverPlane::MovingOverPlane(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset)
+    : MovingGap(motion, kAtRest, Turning(shape, motion), Turning(shape, kAtRest)),
+      shape_(shape),
+      plane_normal_(plane_normal),
+      plane_offset_(plane_offset) {
+  // The centre of the half-space goes with that of the body: it has none of its own.
+  velocity_ = -motion.velocity;
+}
+
+Proximity MovingOverPlane::find(double t, const Vector3* /*first_normal*/, double /*tolerance*/, int /*most_evaluations*/) {
+  const Matrix3 rotation = rotation_at(motion1_, t);
+  ++evaluations_;
+  return find_plane_proximity(shape_, {-(rotation * motion1_.centre), rotation}, plane_normal_,
+                              plane_offset_ - plane_normal_.dot(origin(t)));
+}
+
+double MovingOverPlane::rounding(double horizon) const {
+  return kRounding * (centre1_.norm() + horizon * velocity_.norm() + turning1_.reach() + std::abs(plane_offset_));
+}
+
+}  // namespace supernormal

@@ -1,0 +1,108 @@
+// The gap of two bodies in steady motion at any time.
+#pragma once
+
+#include "impact/turning.hpp"
+#include "supernormal/proximity/proximity.hpp"
+
+namespace supernormal {
+
+/// The gap of two moving bodies, and what is proved of it between two times. Answers are in a frame whose origin moves with the
+/// centre of body 1 and which does not turn, so that a common velocity and the distance from the origin cost no digits.
+class MovingGap {
+ public:
+  MovingGap(const Motion& motion1, const Motion& motion2, const Turning& turning1, const Turning& turning2);
+  MovingGap(const MovingGap&) = delete;
+  MovingGap(MovingGap&&) = delete;
+  MovingGap& operator=(const MovingGap&) = delete;
+  MovingGap& operator=(MovingGap&&) = delete;
+  virtual ~MovingGap() = default;
+
+  /// The proximity at time t, to `tolerance` (m), in no more than `most_evaluations`; `first_normal` (world frame) is where the
+  /// search starts, or null.
+  virtual Proximity find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) = 0;
+
+  /// The proximity with the normal n at time t, whether it is a common normal or not: its gap is s(n).
+  virtual Proximity evaluate(const Vector3& n, double t) = 0;
+
+  /// m; the smallest half-extent of the bodies.
+  virtual double length_unit() const = 0;
+
+  /// m; the rounding of s, at any time in [0, horizon].
+  virtual double rounding(double horizon) const = 0;
+
+  /// m/s; how fast the gap changes at the time t of its proximity. An estimate: of flat bodies another point of a face may decide.
+  double rate(const Proximity& proximity, double t) const;
+
+  /// m/s; no gap changes faster.
+  double fastest() const { return velocity_.norm() + turning1_.fastest() + turning2_.fastest(); }
+
+  bool is_turning() const { return turning1_.is_turning() || turning2_.is_turning(); }
+
+  /// m/s^2; the bound K of README.md for a normal that turns by `angle` (rad), from n on, with the angular velocity `turn` (rad/s).
+  double bound(const Vector3& n, double angle, double turn) const {
+    return 2 * turn * velocity_.norm() + turning1_.bound(n, angle, turn) + turning2_.bound(n, angle, turn);
+  }
+
+  /// Where the answers at time t have their origin.
+  Vector3 origin(double t) const { return centre1_ + t * motion1_.velocity; }
+
+  int evaluations() const { return evaluations_; }
+
+ protected:
+  Vector3 offset(double t) const { return centre_offset_ + t * velocity_; }
+
+  const Motion& motion1_;
+  const Motion& motion2_;
+  const Turning turning1_, turning2_;
+  Vector3 centre1_;        // m; of body 1 at time 0
+  Vector3 centre_offset_;  // m; from there to the centre of body 2
+  Vector3 velocity_;       // m/s; of the centre of body 2 against that of body 1
+  int evaluations_ = 0;
+};
+
+/// Two shapes.
+class MovingPair final : public MovingGap {
+ public:
+  /// Keeps references to shapes and motions.
+  MovingPair(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, Solver solver);
+
+  Proximity find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) override;
+  Proximity evaluate(const Vector3& n, double t) override;
+  double length_unit() const override { return length_unit_; }
+  double rounding(double horizon) const override;
+
+  /// s; balls that hold the bodies, about their centres, do not meet before; 0 where neither body turns, and where they overlap at
+  /// first.
+  double balls_meet(double horizon) const;
+
+  /// Unit, from the centre of body 1 to that of body 2.
+  Vector3 between_centres(double t) const { return offset(t).stableNormalized(); }
+
+ private:
+  Pose pose1(double t) const;
+  Pose pose2(double t) const;
+
+  const Shape& shape1_;
+  const Shape& shape2_;
+  Solver solver_;
+  double length_unit_;
+};
+
+/// A body and a half-space that stands still.
+class MovingOverPlane final : public MovingGap {
+ public:
+  /// Keeps references to its arguments.
+  MovingOverPlane(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset);
+
+  Proximity find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) override;
+  Proximity evaluate(const Vector3& n, double t) override { return find(t, &n, 0, 1); }
+  double length_unit() const override { return shape_.half_extents().minCoeff(); }
+  double rounding(double horizon) const override;
+
+ private:
+  const Shape& shape_;
+  const Vector3& plane_normal_;
+  double plane_offset_;
+};
+
+}  // namespace supernormal

@@ -1,0 +1,270 @@
+#include "supernormal/impact/time_of_impact.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "impact/moving_gap.hpp"
+#include "proximity/usable_pose.hpp"
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+namespace {
+
+constexpr double kMaxHorizon = 1e30;  // s
+
+// m/s, rad/s and m: products of two such numbers and times are finite.
+constexpr double kFastest = 1e75;
+
+// The gap is known to rounding: less than some units of it cannot be told from an overlap.
+constexpr double kRoundingUnits = 4;
+
+// A look ahead may find an overlap, whose depth is of no use: it takes no more evaluations than bodies apart do.
+constexpr int kLookAheadEvaluations = 12;
+
+// rad; normals farther apart prove nothing about the time between them.
+constexpr double kWidestTurn = 2;
+
+// Bodies that touch at first are looked at when they have moved so far, in units of the tolerance: enough to be seen apart.
+constexpr double kPartingDistance = 64;
+
+// An impact is near where a stride would leave less than this share of the gap.
+constexpr double kFarShare = 0.3;
+
+// A normal is kept while it proves at least this share of the gap that it proved when it was found, ...
+constexpr double kGoodShare = 0.5;
+
+// ... and the next stride is made the other way, with a normal that turns or with one that does not, where this one has proved less
+// than this share of its stride.
+constexpr double kPoorShare = 0.25;
+
+// Far from an impact, gaps are known to this share of the last.
+constexpr double kRough = 0.05;
+
+/// s; the length of the longest interval, no longer than `left`, that begins where the gap is a with the slope `rate`, and in which
+/// the bound of README.md with this K is positive throughout if the gap goes straight on.
+double longest_stride(double a, double rate, double K, double left) {
+  const double to_zero = -rate * left > a ? a / -rate : left;
+  if (K * to_zero * to_zero <= 2 * a) return to_zero;
+  return std::min(2 / K * (rate + std::sqrt(2 * K * a)), left);
+}
+
+/// The share of an interval, from its start, in which a (1 - x) + b x - k x (1 - x) is positive; a is.
+double positive_share(double a, double b, double k) {
+  // The first root of a - p x + k x^2.
+  const double p = a - b + k;
+  const double discriminant = p * p - 4 * k * a;
+  if (p <= 0 || discriminant < 0) return 1;
+  return std::min(2 * a / (p + std::sqrt(discriminant)), 1.0);
+}
+
+/// The least value of the same in the interval.
+double least_value(double a, double b, double k) {
+  const double p = a - b + k;
+  if (p <= 0) return a;
+  return p >= 2 * k ? b : a - 0.25 * p * p / k;
+}
+
+/// The way of a unit normal along a great circle, from one time to a later one.
+struct Turn {
+  double angle;  // rad
+  Vector3 axis;
+
+  static Turn between(const Vector3& from, const Vector3& to) {
+    const Vector3 across = from.cross(to);
+    const double sine = across.norm();
+    return {std::atan2(sine, from.dot(to)), sine > 0 ? Vector3(across / sine) : from.unitOrthogonal()};
+  }
+
+  Vector3 turned(const Vector3& n, double share) const {
+    return (std::cos(share * angle) * n + std::sin(share * angle) * axis.cross(n)).normalized();
+  }
+};
+
+class ImpactSearch {
+ public:
+  ImpactSearch(MovingGap& gap, double horizon, const Settings& settings)
+      : gap_(gap),
+        horizon_(horizon),
+        most_evaluations_(settings.max_evaluations),
+        rounding_(gap.rounding(horizon)),
+        tolerance_(std::max(0.5 * settings.tolerance * gap.length_unit(), kRoundingUnits * rounding_)) {}
+
+  /// The bodies are apart before `start`.
+  Impact run(double start) {
+    t_ = start;
+    now_ = find(t_, nullptr);
+    if (t_ == 0 && now_.status != Status::InvalidInput && now_.gap <= tolerance_) {
+      if (now_.gap < -tolerance_) return end(ImpactStatus::Overlapping);
+      if (!part()) return end(ImpactStatus::Hits);
+    }
+    while (now_.status != Status::InvalidInput && now_.gap > tolerance_) {
+      if (t_ == horizon_) return end(ImpactStatus::Apart);
+      if (++strides_ > most_evaluations_) return end(ImpactStatus::NotConverged);
+      advance();
+    }
+    return end(ImpactStatus::Hits);
+  }
+
+  /// The bodies are apart until the horizon, and `n` separates them there.
+  Impact apart(const Vector3& n) {
+    t_ = horizon_;
+    now_ = gap_.evaluate(n, t_);
+    return end(ImpactStatus::Apart);
+  }
+
+ private:
+  Impact end(ImpactStatus status) const {
+    Impact out;
+    out.evaluations = gap_.evaluations();
+    if (now_.status == Status::InvalidInput) return out;
+    const bool is_known = now_.status == Status::Converged || now_.is_global || status == ImpactStatus::Apart;
+    out.status = is_known ? status : ImpactStatus::NotConverged;
+    out.time = out.apart_until = t_;
+    out.proximity = now_;
+    const Vector3 origin = gap_.origin(t_);
+    for (Vector3* point : {&out.proximity.point1, &out.proximity.point2, &out.proximity.contact}) *point += origin;
+    return out;
+  }
+
+  Proximity find(double t, const Vector3* first_normal) { return gap_.find(t, first_normal, tolerance_, most_evaluations_); }
+
+  /// Moves on as far as it can be proved that the bodies are apart.
+  void advance() {
+    const double left = horizon_ - t_;
+    const double a = now_.gap - rounding_;
+    const double rate = gap_.rate(now_, t_);
+    if (!gap_.is_turning()) return advance_straight(a, rate, left);
+    if (a >= gap_.fastest() * left) return move_to(horizon_, gap_.evaluate(now_.normal, horizon_));
+    const double K = gap_.bound(now_.normal, 0, is_turned_ ? turn_.angle : 0);
+    const double stride = longest_stride(a, rate, K, left);
+    const double next = stride == left ? horizon_ : t_ + stride;
+    const bool is_meeting = a + rate * stride < kFarShare * a;
+    if (!is_meeting && !is_turned_) return advance_fixed(a, next, stride);
+    look_ahead(a, next, stride);
+  }
+
+  /// Tries the normal of now_ for all of a stride. Far from an impact any normal near the best will do.
+  void advance_fixed(double a, double next, double stride) {
+    const Proximity there = gap_.evaluate(now_.normal, next);
+    const bool is_valid = there.status != Status::InvalidInput;
+    const double share = is_valid ? proved_share(a, there, stride) : 1;
+    if (share == 1 && (!is_valid || next == horizon_ || there.gap > kGoodShare * now_.gap)) return move_to(next, there);
+    is_turned_ = share < kPoorShare;
+    t_ = share == 1 ? next : t_ + share * stride;
+    const double rough = kRough * now_.gap;
+    const Vector3 normal = now_.normal;
+    now_ = gap_.find(t_, &normal, rough, most_evaluations_);
+    if (now_.status == Status::InvalidInput || now_.gap > 2 * rough) return;
+    now_ = find(t_, &normal);
+  }
+
+  /// Looks at the gap, and which way the normal turns, at the end of a stride.
+  void look_ahead(double a, double next, double stride) {
+    const Vector3 guess = Turn{turn_.angle * stride, turn_.axis}.turned(now_.normal, 1);
+    const Proximity there = gap_.find(next, &guess, tolerance_, std::min(kLookAheadEvaluations, most_evaluations_));
+    if (there.status == Status::InvalidInput) return move_to(next, there);
+    const double share = proved_share(a, there, stride);
+    is_turned_ = share > kPoorShare;
+    const Turn turn = Turn::between(now_.normal, there.normal);
+    turn_ = {turn.angle / stride, turn.axis};
+    if (share == 1 && (there.gap > tolerance_ || there.status == Status::Converged)) return move_to(next, there);
+    const Vector3 between = turn.turned(now_.normal, share);
+    t_ += share * stride;
+    now_ = find(t_, &between);
+  }
+
+  /// Without rotation, s at a fixed normal is linear.
+  void advance_straight(double a, double rate, double left) {
+    if (-rate * left < a) return move_to(horizon_, gap_.evaluate(now_.normal, horizon_));
+    t_ = std::min(t_ + a / -rate, horizon_);
+    now_ = find(t_, &now_.normal);
+  }
+
+  void move_to(double t, const Proximity& proximity) {
+    t_ = t;
+    now_ = proximity;
+  }
+
+  /// The share of a stride for which the normals from now_ to `there` prove that the bodies are apart.
+  double proved_share(double a, const Proximity& there, double stride) const {
+    const double angle = Turn::between(now_.normal, there.normal).angle;
+    if (angle > kWidestTurn) return positive_share(a, a - gap_.fastest() * stride, 0);
+    const double k = 0.5 * stride * stride * gap_.bound(now_.normal, angle, angle / stride) / std::cos(0.5 * angle);
+    double b = there.gap - rounding_;
+    if (b < 0 && angle > 0) b *= angle / std::sin(angle);
+    return positive_share(a, b, k);
+  }
+
+  /// Whether bodies that touch at first part: then now_ and t_ are when they are apart.
+  bool part() {
+    if (horizon_ == 0 || gap_.fastest() == 0) return false;
+    const double rate = gap_.rate(now_, 0);
+    if (rate > 0) {
+      const double K = gap_.bound(now_.normal, 0, 0);
+      const double then = K * horizon_ > rate ? rate / K : horizon_;
+      if (is_parted(now_, gap_.evaluate(now_.normal, then), then)) return true;
+    }
+    // At a vertex or on a face another normal, or another point of the face, may decide.
+    const double then =
+        kPartingDistance * tolerance_ < horizon_ * gap_.fastest() ? kPartingDistance * tolerance_ / gap_.fastest() : horizon_;
+    const Proximity later = find(then, &now_.normal);
+    return is_parted(gap_.evaluate(later.normal, 0), later, then);
+  }
+
+  /// Whether s at one normal, that of both, proves that the bodies have parted at the time `then`.
+  bool is_parted(const Proximity& first, const Proximity& later, double then) {
+    if (first.status == Status::InvalidInput || later.status == Status::InvalidInput || later.gap <= tolerance_) return false;
+    const double k = 0.5 * gap_.bound(later.normal, 0, 0) * then * then;
+    if (first.gap < -tolerance_ || least_value(first.gap, later.gap, k) < -2 * tolerance_) return false;
+    move_to(then, later);
+    return true;
+  }
+
+  MovingGap& gap_;
+  const double horizon_;  // s
+  const int most_evaluations_;
+  const double rounding_;   // m
+  const double tolerance_;  // m; half of what is asked for: the queries may leave the other half
+  double t_ = 0;            // s; the bodies are apart before
+  Proximity now_;           // at t_
+  int strides_ = 0;
+  Turn turn_{0, Vector3::UnitX()};  // of the normal in a second, as in the last look ahead
+  bool is_turned_ = false;          // whether the normal is to turn in a stride
+};
+
+void check(double horizon, const Settings& settings) {
+  require_in("horizon", horizon, 0, kMaxHorizon, "s");
+  require_in("tolerance", settings.tolerance, 1e-15, 1);
+  require_in("max_evaluations", settings.max_evaluations, 1, 1e6);
+}
+
+bool is_usable(const Motion& motion, double horizon) {
+  const bool is_in_range = all_within(motion.velocity, kFastest) && all_within(motion.angular_velocity, kFastest) &&
+                           all_within(motion.centre, kFastest) && all_within(motion.pose.position, kFastest);
+  return is_in_range && is_usable(motion.pose) && all_within(horizon * motion.angular_velocity, kFastest);
+}
+
+}  // namespace
+
+Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, double horizon,
+                           const Settings& settings) {
+  check(horizon, settings);
+  if (!is_usable(motion1, horizon) || !is_usable(motion2, horizon)) return {};
+  MovingPair pair(shape1, motion1, shape2, motion2, settings.solver);
+  ImpactSearch search(pair, horizon, settings);
+  const double start = pair.balls_meet(horizon);
+  if (start > horizon) return search.apart(pair.between_centres(horizon));
+  return search.run(start);
+}
+
+Impact find_plane_time_of_impact(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset,
+                                 double horizon, const Settings& settings) {
+  check(horizon, settings);
+  const bool is_plane_usable = all_within(plane_normal, 2) && std::islessequal(std::abs(plane_offset), kFastest);
+  if (!is_usable(motion, horizon) || !is_plane_usable) return {};
+  MovingOverPlane gap(shape, motion, plane_normal, plane_offset);
+  return ImpactSearch(gap, horizon, settings).run(0);
+}
+
+}  // namespace supernormal

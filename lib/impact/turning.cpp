@@ -1,0 +1,107 @@
+#include "impact/turning.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "supernormal/shapes/bounding_box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/rounded.hpp"
+#include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+namespace supernormal {
+namespace {
+
+// The axis of a body of revolution in its own frame, through the origin of that; 0 for a ball, which has every axis.
+std::optional<Vector3> axis_of_revolution(const Shape& shape);
+
+std::optional<Vector3> axis_of_ellipsoid(const Vector3& half_axes) {
+  if (half_axes.x() == half_axes.y()) return half_axes.y() == half_axes.z() ? Vector3(Vector3::Zero()) : Vector3(Vector3::UnitZ());
+  if (half_axes.y() == half_axes.z()) return Vector3(Vector3::UnitX());
+  if (half_axes.x() == half_axes.z()) return Vector3(Vector3::UnitY());
+  return std::nullopt;
+}
+
+template <typename Section>
+bool has_round_section(const Section& shape) {
+  return shape.half_axes().x() == shape.half_axes().y() && shape.delta() == 2;
+}
+
+std::optional<Vector3> axis_of_revolution(const Shape& shape) {
+  const Vector3 z = Vector3::UnitZ();
+  if (dynamic_cast<const Sphere*>(&shape) != nullptr) return Vector3(Vector3::Zero());
+  if (dynamic_cast<const Capsule*>(&shape) != nullptr || dynamic_cast<const Cylinder*>(&shape) != nullptr) return z;
+  if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&shape)) return axis_of_ellipsoid(ellipsoid->half_axes());
+  if (const auto* rounded = dynamic_cast<const Rounded*>(&shape)) return axis_of_revolution(rounded->core());
+  if (const auto* surface = dynamic_cast<const Superellipsoid*>(&shape)) {
+    if (surface->delta() == 2 && surface->epsilon() == 2) return axis_of_ellipsoid(surface->half_axes());
+    return has_round_section(*surface) ? std::optional(z) : std::nullopt;
+  }
+  const auto* ovoid = dynamic_cast<const Superovoid*>(&shape);
+  const bool is_round = ovoid != nullptr && has_round_section(*ovoid) && ovoid->taper_x() == ovoid->taper_y();
+  return is_round ? std::optional(z) : std::nullopt;
+}
+
+BoundingBox box_of(const Shape& shape) {
+  if (!shape.is_symmetric()) return find_bounding_box(shape, {});
+  const Vector3 half = shape.half_extents();
+  return {-half, half};
+}
+
+}  // namespace
+
+Matrix3 rotation_at(const Motion& motion, double time) {
+  const double speed = motion.angular_velocity.stableNorm();
+  if (speed == 0) return motion.pose.rotation;
+  return Eigen::AngleAxisd(speed * time, motion.angular_velocity / speed).toRotationMatrix() * motion.pose.rotation;
+}
+
+Turning::Turning(const Shape& shape, const Motion& motion) : speed_(motion.angular_velocity.stableNorm()) {
+  if (!is_turning()) {
+    reach_ = shape.half_extents().norm() + motion.centre.norm();
+    return;
+  }
+  axis_ = motion.angular_velocity / speed_;
+  const Vector3 axis = motion.pose.rotation.transpose() * axis_;
+  const BoundingBox box = box_of(shape);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3 x((corner & 1) != 0 ? box.high.x() : box.low.x(), (corner & 2) != 0 ? box.high.y() : box.low.y(),
+                    (corner & 4) != 0 ? box.high.z() : box.low.z());
+    reach_ = std::max(reach_, (x - motion.centre).norm());
+    axis_distance_ = std::max(axis_distance_, axis.cross(x - motion.centre).norm());
+  }
+  use_axis(shape, motion);
+}
+
+// A body of revolution about the unit vector e is at every time where the points g + q are: g is a point of that axis that turns
+// with the body, and q turns with the angular velocity w = W - (W.e) e, where W is that of the body: q follows e, and does not spin
+// about it. As W.e is constant and e' = W x e, w' = -(W.e) W x e, and q'' = w' x q + w x (w x q).
+void Turning::use_axis(const Shape& shape, const Motion& motion) {
+  const std::optional<Vector3> e = axis_of_revolution(shape);
+  if (!e) return;
+  is_revolved_ = true;
+  pivot_distance_ = (*e * e->dot(motion.centre) - motion.centre).norm();
+  const Vector3 axis = motion.pose.rotation * *e;
+  follow_speed_ = speed_ * axis.cross(axis_).norm();
+  follow_acceleration_ = follow_speed_ * speed_ * std::abs(axis.dot(axis_));
+}
+
+// A point that circles about the axis has the velocity W x q and the acceleration W x (W x q), whose product with n is that of
+// W x (W x n) with the part of q across the axis.
+double Turning::bound(const Vector3& n, double angle, double turn) const {
+  if (!is_turning()) return 0;
+  const double across = speed_ * std::min(axis_.cross(n).norm() + angle, 1.0);  // of the angular velocity, to n
+  const double circling = speed_ * across;
+  const double plain = circling * axis_distance_ + 2 * turn * speed_ * reach_;
+  if (!is_revolved_) return plain;
+  const double pivot = pivot_distance_ * (circling + 2 * turn * speed_);
+  const double following = follow_speed_ * (follow_speed_ + 2 * turn) + follow_acceleration_;
+  return std::min(plain, pivot + following * (reach_ + pivot_distance_));
+}
+
+}  // namespace supernormal

@@ -1,0 +1,158 @@
+// Random pairs of bodies in motion, and a slow search for their first impact.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "supernormal/impact/time_of_impact.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/sphere.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+namespace supernormal::test {
+
+struct MovingBody {
+  std::shared_ptr<const Shape> shape;
+  Motion motion;
+};
+
+/// How the bodies of a pair move.
+struct MotionKind {
+  const char* name;
+  double speed;  ///< the bodies go as far in the horizon as this times their distance
+  double turns;  ///< radians in the horizon
+  bool is_off;   ///< they turn about a point off their middle
+};
+
+inline constexpr MotionKind kMotionKinds[] = {{"straight", 2, 0, false},
+                                              {"straight and turning", 2, 1, false},
+                                              {"turning", 0, 3, true},
+                                              {"a bullet that spins", 4, 20, false},
+                                              {"a slow step", 0.05, 0.05, false},
+                                              {"off its middle", 1, 3, true}};
+
+struct MovingPair {
+  MovingBody one, other;
+  double horizon = 1;
+  double unit = 0;  ///< m; the smallest half-extent
+};
+
+class RandomMotions {
+ public:
+  explicit RandomMotions(unsigned seed) : engine_(seed) {}
+
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
+
+  Matrix3 rotation() {
+    const Eigen::Quaterniond q{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
+    return q.normalized().toRotationMatrix();
+  }
+
+  /// Needles, cans, cubes, bricks, coins, balls, ovals.
+  std::shared_ptr<const Shape> shape() {
+    const double a = uniform(0.5, 1.5);
+    switch (std::uniform_int_distribution<int>(0, 8)(engine_)) {
+      case 0:
+        return std::make_shared<Ellipsoid>(Vector3(a, a / 40, a / 40));
+      case 1:
+        return std::make_shared<Cylinder>(a, uniform(0.2, 2));
+      case 2:
+        return std::make_shared<Box>(Vector3(a, uniform(0.5, 1.5), uniform(0.1, 1.5)));
+      case 3:
+        return std::make_shared<Superellipsoid>(Vector3::Constant(a), uniform(4, 60), uniform(4, 60));
+      case 4:
+        return std::make_shared<Superellipsoid>(Vector3(a, a, 0.2 * a), 2, 20);
+      case 5:
+        return std::make_shared<Sphere>(a);
+      case 6:
+        return std::make_shared<Superellipsoid>(Vector3(a, a, a), 1.1, 1.1);
+      case 7:
+        return std::make_shared<Capsule>(0.2 * a, a);
+      default:
+        return std::make_shared<Ellipsoid>(Vector3(a, uniform(0.5, 1.5), uniform(0.5, 1.5)));
+    }
+  }
+
+  /// The first body is near the origin; the bodies are `gap` (m) apart at time 0 along a random normal.
+  MovingPair draw(const MotionKind& kind, double gap) {
+    MovingPair pair;
+    pair.one.shape = shape();
+    pair.other.shape = shape();
+    pair.unit = std::min(pair.one.shape->half_extents().minCoeff(), pair.other.shape->half_extents().minCoeff());
+    pair.horizon = std::pow(10, uniform(-3, 1));
+    Motion& motion1 = pair.one.motion;
+    Motion& motion2 = pair.other.motion;
+    motion1.pose.rotation = rotation();
+    motion2.pose.rotation = rotation();
+    const Vector3 n = direction();
+    const Vector3 point2 = motion2.pose.rotation * pair.other.shape->point(-(motion2.pose.rotation.transpose() * n));
+    motion2.pose.position = motion1.pose.rotation * pair.one.shape->point(motion1.pose.rotation.transpose() * n) + gap * n - point2;
+    const double distance = motion2.pose.position.norm();
+    const Vector3 common = uniform(0, 10) / pair.horizon * direction();
+    // Towards the other body, give or take their size.
+    const Vector3 towards = (motion2.pose.position + uniform(0, 1.5) * distance * direction()).normalized();
+    motion1.velocity = common + kind.speed * distance / pair.horizon * uniform(0, 1) * towards;
+    motion2.velocity = common;
+    for (Motion* motion : {&motion1, &motion2}) {
+      motion->angular_velocity = kind.turns / pair.horizon * uniform(0, 1) * direction();
+      if (kind.is_off) motion->centre = uniform(0, 1) * direction();
+    }
+    return pair;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> gauss_;
+};
+
+/// The gap of the pair at a time, from a query that knows of no other.
+inline double gap_at(const MovingPair& pair, double t) {
+  Settings settings;
+  settings.tolerance = 1e-13;
+  return find_proximity(*pair.one.shape, pose_at(pair.one.motion, t), *pair.other.shape, pose_at(pair.other.motion, t), settings)
+      .gap;
+}
+
+/// m/s; no gap of the pair changes faster: the speed of the centres, and the angular velocities times the reach of the bodies.
+inline double fastest(const MovingPair& pair) {
+  double speed = (pair.other.motion.velocity - pair.one.motion.velocity).norm();
+  for (const MovingBody* body : {&pair.one, &pair.other}) {
+    speed += body->motion.angular_velocity.norm() * (body->shape->half_extents().norm() + body->motion.centre.norm());
+  }
+  return speed;
+}
+
+/// s; the gap exceeds `level` (m) before this time: by steps in which no gap can fall by more than it exceeds it. It is `horizon`
+/// if there is no such gap, and where `most_steps` do not reach so far the time that they reach.
+inline double apart_until(const MovingPair& pair, double horizon, double level, int most_steps) {
+  const double speed = fastest(pair);
+  double t = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    const double excess = gap_at(pair, t) - level;
+    if (excess <= 0) return t;
+    if (speed * (horizon - t) <= excess) return horizon;
+    t += excess / speed;
+  }
+  return t;
+}
+
+/// The deepest overlap of the pair, m, at `samples` times up to `until`, evenly spread and crowded before it.
+inline double deepest_before(const MovingPair& pair, double until, int samples) {
+  double depth = 0;
+  for (int k = 0; k < samples; ++k) {
+    const double share = static_cast<double>(k) / samples;
+    depth = std::max(depth, -gap_at(pair, share * until));
+    depth = std::max(depth, -gap_at(pair, (1 - std::pow(10, -8 * share)) * until));
+  }
+  return depth;
+}
+
+}  // namespace supernormal::test
