@@ -192,6 +192,26 @@ SUPERNORMAL_API int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out);
  * where it does what snGeomProximity does. */
 SUPERNORMAL_API int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out);
 
+/** When two geoms will meet. */
+typedef struct snImpact {
+  dReal time;      /**< s from now; the horizon if there is no impact within it */
+  int hits;        /**< 1: the gap comes within the tolerance at `time`; 0: no contact in [0, horizon], proved */
+  dVector3 normal; /**< unit, from g1 to g2, at `time`, world frame; without an impact, one that separates the geoms, but for a
+                    * surface of triangles, of which none may be near */
+  dVector3 point1; /**< m, world frame, on the boundary of g1 at `time` */
+  dVector3 point2; /**< m, world frame, on the boundary of g2 at `time` */
+  int evaluations; /**< evaluations of the gap function; with a plane, of the support function */
+  int converged;   /**< 0: a limit was reached; `hits` is then 1, and it is proved that there is no impact before `time` */
+} snImpact;
+
+/** Finds the first time in [0, horizon] (s, at most 1e30) at which two geoms meet that go on with the velocities of their bodies
+ * now, linear and angular, about their centres of mass; a geom without body stands still. At `time` the gap is within the tolerance
+ * of the geoms' solver settings. No impact is missed, however fast the geoms turn: that they are apart before is proved. Geoms that
+ * overlap or touch now hit at time 0, but for those that touch and part. The geoms are those of snGeomProximity, in either order.
+ * Of a dTriMesh or dHeightfield every triangle counts, from both sides, and nothing behind it. Returns 1; 0 (and snLastError) when
+ * the pair is not supported, the horizon is out of range, or a pose, velocity or length is not finite. */
+SUPERNORMAL_API int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out);
+
 /* --- many pairs at once ------------------------------------------------------------------------------------------------ */
 
 /** The memory and threads for colliding a space in parallel. A batch keeps them from one call to the next. */

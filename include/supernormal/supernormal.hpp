@@ -7,7 +7,8 @@
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
-///     in motion    find_time_of_impact(), find_plane_time_of_impact(): when two bodies meet, or the proof that they do not; pose_at()
+///     in motion    find_time_of_impact(), find_plane_time_of_impact(), find_mesh_time_of_impact(): when two bodies
+///                  meet, or the proof that they do not; pose_at()
 ///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to(); hertz_correction(),
 ///                  hertz_damping_ratio()
 ///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
@@ -31,6 +32,7 @@
 #include "supernormal/contact/contact_manifold.hpp"
 #include "supernormal/contact/hertz.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
+#include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/impact/motion.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 #include "supernormal/proximity/gap_function.hpp"

@@ -91,9 +91,9 @@ class ImpactSearch {
         tolerance_(std::max(0.5 * settings.tolerance * gap.length_unit(), kRoundingUnits * rounding_)) {}
 
   /// The bodies are apart before `start`.
-  Impact run(double start) {
+  Impact run(double start, const Vector3* first_normal) {
     t_ = start;
-    now_ = find(t_, nullptr);
+    now_ = find(t_, first_normal);
     if (t_ == 0 && now_.status != Status::InvalidInput && now_.gap <= tolerance_) {
       if (now_.gap < -tolerance_) return end(ImpactStatus::Overlapping);
       if (!part()) return end(ImpactStatus::Hits);
@@ -248,14 +248,16 @@ bool is_usable(const Motion& motion, double horizon) {
 }  // namespace
 
 Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2, double horizon,
-                           const Settings& settings) {
+                           const Settings& settings, const Vector3* first_normal) {
   check(horizon, settings);
   if (!is_usable(motion1, horizon) || !is_usable(motion2, horizon)) return {};
   MovingPair pair(shape1, motion1, shape2, motion2, settings.solver);
   ImpactSearch search(pair, horizon, settings);
   const double start = pair.balls_meet(horizon);
   if (start > horizon) return search.apart(pair.between_centres(horizon));
-  return search.run(start);
+  Vector3 normal;
+  if (first_normal != nullptr) normal = motion1.pose.rotation * *first_normal;
+  return search.run(start, first_normal != nullptr ? &normal : nullptr);
 }
 
 Impact find_plane_time_of_impact(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset,
@@ -264,7 +266,7 @@ Impact find_plane_time_of_impact(const Shape& shape, const Motion& motion, const
   const bool is_plane_usable = all_within(plane_normal, 2) && std::islessequal(std::abs(plane_offset), kFastest);
   if (!is_usable(motion, horizon) || !is_plane_usable) return {};
   MovingOverPlane gap(shape, motion, plane_normal, plane_offset);
-  return ImpactSearch(gap, horizon, settings).run(0);
+  return ImpactSearch(gap, horizon, settings).run(0, nullptr);
 }
 
 }  // namespace supernormal

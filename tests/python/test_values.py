@@ -40,6 +40,8 @@ VALUES = [
     NEAR,
     sn.find_contact_manifold(BRICK, sn.Pose(), BRICK, sn.Pose((0, 0, 5.9)), sn.find_proximity(BRICK, sn.Pose(), BRICK, sn.Pose((0, 0, 5.9)))),
     sn.find_ray_hit(BRICK, sn.Pose(), (0, 0, 9), (0, 0, -1)),
+    sn.Motion(THERE, (1, 2, 3), (4, 5, 6), (0.1, 0, 0)),
+    sn.find_time_of_impact(BRICK, sn.Motion(), EGG, sn.Motion(sn.Pose((0, 0, 9)), (0, 0, -9), (1, 2, 3)), 1),
     EGG.mass_properties(),
     sn.Shapes(SHAPES),
     sn.Shapes.spheres([1, 2, 3]),

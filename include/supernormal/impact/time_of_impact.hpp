@@ -38,12 +38,14 @@ struct Impact {
 /// time 0, with a gap of either sign within half of the tolerance, hit at 0, unless it is proved that they part: that they are
 /// apart at a later time, and until then overlap by no more than the tolerance. The search goes on from there.
 ///
+/// `first_normal` (unit, in body 1's frame, or null) is where the first query starts: a normal of an earlier, similar pose.
+///
 /// `horizon` in s, in [0, 1e30]. Of the settings, `tolerance`, `solver` and `max_evaluations` are used, the latter as the limit of
 /// each query and of their number. Throws std::invalid_argument when one of these is out of range; ImpactStatus::InvalidInput when
 /// a number of a motion, or the angle that a body turns, is not within 1e75, a rotation is none (Pose), or a shape delivers what is
 /// not finite.
 SUPERNORMAL_API Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2,
-                                           double horizon, const Settings& settings = {});
+                                           double horizon, const Settings& settings = {}, const Vector3* first_normal = nullptr);
 
 /// The same for a body (body 1) and the half-space plane_normal . x <= plane_offset (body 2), which stands still: plane_normal of
 /// unit length, pointing out of the half-space, plane_offset in m. Every evaluation is one of the support function.

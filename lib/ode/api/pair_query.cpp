@@ -1,10 +1,11 @@
-// snGeomProximity and snGeomProximityCertified.
+// snGeomProximity, snGeomProximityCertified and snGeomTimeOfImpact.
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "ode/colliders/collider.hpp"
+#include "ode/colliders/impact.hpp"
 #include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
@@ -15,6 +16,8 @@
 
 namespace supernormal::ode {
 namespace {
+
+constexpr double kMaxHorizon = 1e30;  // s; that of the core
 
 // The core's result for two geoms, ours first.
 Proximity query(dGeomID ours, dGeomID collider, Goal goal) {
@@ -44,14 +47,52 @@ void write(const Proximity& proximity, bool swapped, snProximity& out) {
   out.is_global = proximity.is_global ? 1 : 0;
 }
 
+void write(const Impact& impact, bool swapped, snImpact& out) {
+  const Proximity& then = impact.proximity;
+  out.time = to_real(impact.time);
+  out.hits = impact.may_hit() ? 1 : 0;
+  from_vector(swapped ? Vector3(-then.normal) : then.normal, out.normal);
+  from_vector(swapped ? then.point2 : then.point1, out.point1);
+  from_vector(swapped ? then.point1 : then.point2, out.point2);
+  out.normal[3] = out.point1[3] = out.point2[3] = 0;
+  out.evaluations = impact.evaluations;
+  out.converged = impact.status == ImpactStatus::NotConverged ? 0 : 1;
+}
+
+void require_finite_velocities(dGeomID geom) {
+  const dBodyID body = dGeomGetBody(geom);
+  if (body == nullptr) return;
+  require_finite("linear velocity", to_vector(dBodyGetLinearVel(body)));
+  require_finite("angular velocity", to_vector(dBodyGetAngularVel(body)));
+}
+
+void require_two(dGeomID g1, dGeomID g2, const void* out) {
+  require_not_null("g1", g1);
+  require_not_null("g2", g2);
+  require_not_null("out", out);
+  if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
+}
+
 int answer_query(const char* function, dGeomID g1, dGeomID g2, Goal goal, snProximity* out) {
   return guarded(function, 0, [&] {
-    require_not_null("g1", g1);
-    require_not_null("g2", g2);
-    require_not_null("out", out);
-    if (g1 == g2) throw std::invalid_argument("g1 and g2 are the same geom, but must be two");
+    require_two(g1, g2, out);
     const bool swapped = find_body(g1) == nullptr;
     write(swapped ? query(g2, g1, goal) : query(g1, g2, goal), swapped, *out);
+    return 1;
+  });
+}
+
+int answer_impact(dGeomID g1, dGeomID g2, double horizon, snImpact* out) {
+  return guarded("snGeomTimeOfImpact", 0, [&] {
+    require_two(g1, g2, out);
+    require_in("horizon", horizon, 0, kMaxHorizon, "s");
+    require_finite_velocities(g1);
+    require_finite_velocities(g2);
+    const bool swapped = find_body(g1) == nullptr;
+    const dGeomID ours = swapped ? g2 : g1, collider = swapped ? g1 : g2;
+    const Impact impact = find_impact(ours, collider, horizon);
+    if (impact.status == ImpactStatus::InvalidInput) refuse_pair(ours, collider);
+    write(impact, swapped, *out);
     return 1;
   });
 }
@@ -67,4 +108,8 @@ extern "C" int snGeomProximity(dGeomID g1, dGeomID g2, snProximity* out) {
 
 extern "C" int snGeomProximityCertified(dGeomID g1, dGeomID g2, snProximity* out) {
   return answer_query("snGeomProximityCertified", g1, g2, Goal::CertifiedDistance, out);
+}
+
+extern "C" int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out) {
+  return answer_impact(g1, g2, horizon, out);
 }

@@ -29,6 +29,7 @@ void add_int_enum(py::module_& m, const char* name, const char* doc, const std::
 
 int number(Solver solver) { return static_cast<int>(solver); }
 int number(Status status) { return static_cast<int>(status); }
+int number(ImpactStatus status) { return static_cast<int>(status); }
 
 }  // namespace
 
@@ -56,6 +57,18 @@ void bind_enums(py::module_& m) {
                 {"EVALUATION_LIMIT", number(Status::EvaluationLimit)},
                 {"DIVERGED", number(Status::Diverged)},
                 {"INVALID_INPUT", number(Status::InvalidInput)}});
+  add_int_enum(m, "ImpactStatus",
+               "How the search for an impact ended.\n\n"
+               "APART: no impact until the horizon: proved.\n"
+               "HITS: the gap comes within the tolerance at `time`, and not before: proved.\n"
+               "OVERLAPPING: the bodies overlap by more than the tolerance at time 0.\n"
+               "NOT_CONVERGED: a limit was reached, or a query has stalled; there is no impact before `apart_until`.\n"
+               "INVALID_INPUT: a number is not finite. Queries raise ValueError instead of returning it.",
+               {{"APART", number(ImpactStatus::Apart)},
+                {"HITS", number(ImpactStatus::Hits)},
+                {"OVERLAPPING", number(ImpactStatus::Overlapping)},
+                {"NOT_CONVERGED", number(ImpactStatus::NotConverged)},
+                {"INVALID_INPUT", number(ImpactStatus::InvalidInput)}});
 }
 
 }  // namespace supernormal::python

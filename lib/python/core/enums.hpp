@@ -1,9 +1,10 @@
-// Solver and Status are IntEnums of Python, so that they compare with the integers of NumPy arrays. Every file that passes one
-// includes this.
+// Solver, Status and ImpactStatus are IntEnums of Python, so that they compare with the integers of NumPy arrays. Every file that
+// passes one includes this.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
+#include "supernormal/impact/time_of_impact.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal::python {
@@ -20,6 +21,10 @@ struct EnumName<Solver> {
 template <>
 struct EnumName<Status> {
   static constexpr const char* kName = "Status";
+};
+template <>
+struct EnumName<ImpactStatus> {
+  static constexpr const char* kName = "ImpactStatus";
 };
 
 }  // namespace supernormal::python
@@ -47,5 +52,7 @@ template <>
 struct type_caster<supernormal::Solver> : IntEnumCaster<supernormal::Solver> {};
 template <>
 struct type_caster<supernormal::Status> : IntEnumCaster<supernormal::Status> {};
+template <>
+struct type_caster<supernormal::ImpactStatus> : IntEnumCaster<supernormal::ImpactStatus> {};
 
 }  // namespace pybind11::detail

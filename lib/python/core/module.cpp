@@ -35,6 +35,7 @@ PYBIND11_MODULE(_core, m) {
   bind_proximity(m);
   bind_contact(m);
   bind_raycast(m);
+  bind_impact(m);
   bind_batch(m);
   refuse_unmade_objects(m);
 }

@@ -19,6 +19,13 @@ class Status(IntEnum):
     DIVERGED = 4
     INVALID_INPUT = 5
 
+class ImpactStatus(IntEnum):
+    APART = 0
+    HITS = 1
+    OVERLAPPING = 2
+    NOT_CONVERGED = 3
+    INVALID_INPUT = 4
+
 class Pose:
     def __init__(
         self,
@@ -270,6 +277,38 @@ class ContactManifold:
     def evaluations(self) -> int: ...
     def contacts(self, room: int = ...) -> Tuple[_Floats, _Floats]: ...
 
+class Motion:
+    def __init__(
+        self,
+        pose: Pose = ...,
+        velocity: npt.ArrayLike = ...,
+        angular_velocity: npt.ArrayLike = ...,
+        centre: npt.ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def pose(self) -> Pose: ...
+    @property
+    def velocity(self) -> _Floats: ...
+    @property
+    def angular_velocity(self) -> _Floats: ...
+    @property
+    def centre(self) -> _Floats: ...
+    def pose_at(self, time: float) -> Pose: ...
+
+class Impact:
+    @property
+    def status(self) -> ImpactStatus: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def apart_until(self) -> float: ...
+    @property
+    def proximity(self) -> Proximity: ...
+    @property
+    def evaluations(self) -> int: ...
+    @property
+    def may_hit(self) -> bool: ...
+
 class RayHit:
     @property
     def hit(self) -> bool: ...
@@ -314,6 +353,23 @@ def find_proximity(
     first_normal: Optional[npt.ArrayLike] = ...,
 ) -> Proximity: ...
 def find_plane_proximity(shape: Shape, pose: Pose, plane_normal: npt.ArrayLike, plane_offset: float) -> Proximity: ...
+def find_time_of_impact(
+    shape1: Shape,
+    motion1: Motion,
+    shape2: Shape,
+    motion2: Motion,
+    horizon: float,
+    settings: Settings = ...,
+    first_normal: Optional[npt.ArrayLike] = ...,
+) -> Impact: ...
+def find_plane_time_of_impact(
+    shape: Shape,
+    motion: Motion,
+    plane_normal: npt.ArrayLike,
+    plane_offset: float,
+    horizon: float,
+    settings: Settings = ...,
+) -> Impact: ...
 def find_proximities(
     shapes1: Union[Shape, Shapes, Sequence[Shape]],
     poses1: Union[Pose, Poses],

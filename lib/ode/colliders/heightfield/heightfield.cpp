@@ -5,6 +5,7 @@
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
 #include "ode/colliders/heightfield/heightfield_patch.hpp"
+#include "ode/colliders/impact.hpp"
 #include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
@@ -12,6 +13,7 @@
 #include "ode/support/last_error.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
+#include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/proximity/plane.hpp"
 
 namespace supernormal::ode {
@@ -154,6 +156,22 @@ ContactManifold query_heightfield(dGeomID ours, dGeomID collider, Goal /*goal*/)
     if (!contacts.empty()) return to_world(contacts.front(), frame);
   }
   return to_world(find_nearest(probe, visitor), frame);
+}
+
+Impact find_heightfield_impact(dGeomID ours, dGeomID collider, double horizon) {
+  const Body& body = require_body(ours);
+  const Pose frame = pose_of_heightfield(collider);
+  const Motion start = motion_of(ours, pose_of(ours));
+  if (!Visitor(body, start.pose, frame).is_finite()) return {};
+  const BodyBox box = BodyBox::of(body.shape());
+  const Way way(start, motion_of(collider, frame), (box.centre - start.centre).norm() + box.half_lengths.norm(), horizon);
+  HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
+  return way.first([&](const Motion& here, const Motion& field, double duration) {
+    const Visitor visitor(body, here.pose, field.pose);
+    const Region region = visitor.region().widened(way.travel() + kMargin * visitor.size());
+    const std::span<const MeshTriangle> triangles = scratch().patch.read(probe, region);
+    return find_mesh_time_of_impact(body.shape(), here, triangles, field, duration, body.settings()).impact;
+  });
 }
 
 int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {

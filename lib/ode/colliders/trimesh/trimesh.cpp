@@ -6,6 +6,7 @@
 
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/contact.hpp"
+#include "ode/colliders/impact.hpp"
 #include "ode/colliders/no_answer.hpp"
 #include "ode/colliders/trimesh/mesh_candidates.hpp"
 #include "ode/geom/body.hpp"
@@ -15,9 +16,13 @@
 #include "proximity/usable_pose.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
+#include "supernormal/impact/mesh_time_of_impact.hpp"
 
 namespace supernormal::ode {
 namespace {
+
+// The box around the way of a body is wider by this share of the body, so that rounding loses no triangle that touches it.
+constexpr double kMargin = 1e-6;
 
 /// Objects that a thread keeps from query to query, for their memory.
 struct Scratch {
@@ -122,6 +127,25 @@ ContactManifold query_trimesh(dGeomID ours, dGeomID collider, Goal /*goal*/) {
   if (nearest.proximity.status == Status::InvalidInput) throw std::invalid_argument("the dTriMesh has no triangles");
   count_query(nearest.proximity, false);
   return nearest.proximity;
+}
+
+// The triangles near each piece of the way are those of a box that is turned as the body is at its start.
+Impact find_trimesh_impact(dGeomID ours, dGeomID collider, double horizon) {
+  Visit visit(ours, collider);
+  if (!visit.is_usable()) return {};
+  const Pose frame = pose_of(collider);
+  const Motion body = motion_of(ours, visit.pose);
+  const Way way(body, motion_of(collider, frame), (visit.box.centre - body.centre).norm() + visit.box.half_lengths.norm(), horizon);
+  return way.first([&](const Motion& here, const Motion& mesh, double duration) {
+    // ODE's mesh is where it is now: the body is brought to where it is as seen from there.
+    const Matrix3 back = frame.rotation * mesh.pose.rotation.transpose();
+    visit.pose = {frame.position + back * (here.pose.position - mesh.pose.position), back * here.pose.rotation};
+    Motion world = mesh;
+    world.pose = {mesh.pose.position - back.transpose() * frame.position, back.transpose()};
+    world.centre = frame.rotation * mesh.centre + frame.position;
+    const std::span<const MeshTriangle> triangles = visit.triangles_within(way.travel() + kMargin * visit.box.half_lengths.norm());
+    return find_mesh_time_of_impact(visit.body.shape(), here, triangles, world, duration, visit.body.settings()).impact;
+  });
 }
 
 int collide_with_trimesh(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {

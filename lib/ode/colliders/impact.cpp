@@ -1,0 +1,148 @@
+#include "ode/colliders/impact.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "ode/colliders/convex/convex_vertices.hpp"
+#include "ode/geom/body.hpp"
+#include "ode/geom/convert.hpp"
+#include "ode/geom/geom_class.hpp"
+#include "ode/geom/solver_settings.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/sphere.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+// A piece of a way is as long as so many sizes of the body, and there are no more than so many.
+constexpr double kPieceSizes = 8;
+constexpr double kMostPieces = 1000;
+
+/// A geom of ours on its way.
+struct Mover {
+  const Body& body;
+  Motion motion;
+
+  explicit Mover(dGeomID geom) : body(require_body(geom)), motion(motion_of(geom, pose_of(geom))) {}
+
+  Impact meet(dGeomID collider, const Shape& shape, const Pose& pose, double horizon) const {
+    return find_time_of_impact(body.shape(), motion, shape, motion_of(collider, pose), horizon, body.settings());
+  }
+};
+
+Impact meet_body(const Mover& mover, dGeomID collider, double horizon) {
+  const Mover other(collider);
+  return find_time_of_impact(mover.body.shape(), mover.motion, other.body.shape(), other.motion, horizon,
+                             combined(mover.body.settings(), other.body.settings()));
+}
+
+Impact meet_plane(const Mover& mover, dGeomID collider, double horizon) {
+  dVector4 plane;
+  dGeomPlaneGetParams(collider, plane);
+  return find_plane_time_of_impact(mover.body.shape(), mover.motion, to_vector(plane), plane[3], horizon, mover.body.settings());
+}
+
+Impact meet_sphere(const Mover& mover, dGeomID collider, double horizon) {
+  return mover.meet(collider, Sphere(dGeomSphereGetRadius(collider)), pose_of(collider), horizon);
+}
+
+Impact meet_box(const Mover& mover, dGeomID collider, double horizon) {
+  dVector3 lengths;
+  dGeomBoxGetLengths(collider, lengths);
+  return mover.meet(collider, Box(0.5 * to_vector(lengths)), pose_of(collider), horizon);
+}
+
+Impact meet_capsule(const Mover& mover, dGeomID collider, double horizon) {
+  dReal radius = 0, length = 0;
+  dGeomCapsuleGetParams(collider, &radius, &length);
+  return mover.meet(collider, Capsule(radius, 0.5 * double{length}), pose_of(collider), horizon);
+}
+
+Impact meet_cylinder(const Mover& mover, dGeomID collider, double horizon) {
+  dReal radius = 0, length = 0;
+  dGeomCylinderGetParams(collider, &radius, &length);
+  return mover.meet(collider, Cylinder(radius, 0.5 * double{length}), pose_of(collider), horizon);
+}
+
+Impact meet_convex(const Mover& mover, dGeomID collider, double horizon) {
+  thread_local ConvexVertices vertices;
+  if (!vertices.read(collider)) return {};
+  return mover.meet(collider, Polytope(vertices.points()), vertices.pose(), horizon);
+}
+
+// The segment is read without the geom's rotation, of which dGeomRaySet writes only one column.
+Impact meet_ray(const Mover& mover, dGeomID collider, double horizon) {
+  dVector3 start, along;
+  dGeomRayGet(collider, start, along);
+  const Vector3 half = 0.5 * double{dGeomRayGetLength(collider)} * to_vector(along);
+  const std::array<Vector3, 2> ends = {-half, half};
+  return mover.meet(collider, Polytope(ends), {to_vector(start) + half, Matrix3::Identity()}, horizon);
+}
+
+}  // namespace
+
+Motion motion_of(dGeomID geom, const Pose& pose) {
+  Motion motion;
+  motion.pose = pose;
+  const dBodyID body = dGeomGetBody(geom);
+  if (body == nullptr) return motion;
+  motion.velocity = to_vector(dBodyGetLinearVel(body));
+  motion.angular_velocity = to_vector(dBodyGetAngularVel(body));
+  motion.centre = pose.rotation.transpose() * (to_vector(dBodyGetPosition(body)) - pose.position);
+  return motion;
+}
+
+Impact find_impact(dGeomID ours, dGeomID collider, double horizon) {
+  const Mover mover(ours);
+  const int collider_class = dGeomGetClass(collider);
+  if (collider_class == geom_class()) return meet_body(mover, collider, horizon);
+  switch (collider_class) {
+    case dSphereClass:
+      return meet_sphere(mover, collider, horizon);
+    case dBoxClass:
+      return meet_box(mover, collider, horizon);
+    case dCapsuleClass:
+      return meet_capsule(mover, collider, horizon);
+    case dCylinderClass:
+      return meet_cylinder(mover, collider, horizon);
+    case dPlaneClass:
+      return meet_plane(mover, collider, horizon);
+    case dRayClass:
+      return meet_ray(mover, collider, horizon);
+    case dConvexClass:
+      return meet_convex(mover, collider, horizon);
+    case dTriMeshClass:
+      return find_trimesh_impact(ours, collider, horizon);
+    case dHeightfieldClass:
+      return find_heightfield_impact(ours, collider, horizon);
+    default:
+      throw std::invalid_argument(
+          "the collider is " + geom_class_name(collider) +
+          ", but must be a body made by snCreate… or one of ODE's own geoms (not a space, not a dGeomTransform)");
+  }
+}
+
+// As seen from the surface, the body has the difference of the velocities, turns about its own centre, and the surface about its
+// own, which is no farther from a point of the body than `far`.
+Way::Way(const Motion& body, const Motion& surface, double reach, double horizon)
+    : body_(body), surface_(surface), horizon_(horizon) {
+  const auto centre = [](const Motion& motion) { return Vector3(motion.pose.position + motion.pose.rotation * motion.centre); };
+  const double speed = (body.velocity - surface.velocity).norm();
+  const double far = (centre(body) - centre(surface)).norm() + reach + speed * horizon;
+  const double way = horizon * (speed + body.angular_velocity.norm() * reach + surface.angular_velocity.norm() * far);
+  pieces_ = static_cast<int>(std::clamp(std::ceil(way / (kPieceSizes * reach)), 1.0, kMostPieces));
+  travel_ = way / pieces_;
+}
+
+Motion Way::later(const Motion& motion, double time) {
+  Motion then = motion;
+  then.pose = pose_at(motion, time);
+  return then;
+}
+
+}  // namespace supernormal::ode
