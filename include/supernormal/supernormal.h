@@ -198,8 +198,9 @@ typedef struct snImpact {
   int hits;        /**< 1: the gap comes within the tolerance at `time`; 0: no contact in [0, horizon], proved */
   dVector3 normal; /**< unit, from g1 to g2, at `time`, world frame; without an impact, one that separates the geoms, but for a
                     * surface of triangles, of which none may be near */
-  dVector3 point1; /**< m, world frame, on the boundary of g1 at `time` */
-  dVector3 point2; /**< m, world frame, on the boundary of g2 at `time` */
+  dVector3
+      point1; /**< m, world frame, on the boundary of g1 at `time`: of an impact where the geoms touch, to 1e-6 of their size */
+  dVector3 point2; /**< m, world frame, on the boundary of g2; of an impact, it is point1 + gap * normal */
   int evaluations; /**< evaluations of the gap function; with a plane, of the support function */
   int converged;   /**< 0: a limit was reached; `hits` is then 1, and it is proved that there is no impact before `time` */
 } snImpact;

@@ -33,8 +33,12 @@ MovingGap::MovingGap(const Motion& motion1, const Motion& motion2, const Turning
       velocity_(motion2.velocity - motion1.velocity) {}
 
 double MovingGap::rate(const Proximity& proximity, double t) const {
-  const Vector3 turning1 = motion1_.angular_velocity.cross(proximity.point1);
-  const Vector3 turning2 = motion2_.angular_velocity.cross(proximity.point2 - offset(t));
+  // On a face the witness points may be any; the contact is a point of both bodies.
+  const bool has_contact = proximity.status != Status::Apart;
+  const Vector3 point1 = has_contact ? proximity.contact : proximity.point1;
+  const Vector3 point2 = has_contact ? proximity.contact : proximity.point2;
+  const Vector3 turning1 = motion1_.angular_velocity.cross(point1);
+  const Vector3 turning2 = motion2_.angular_velocity.cross(point2 - offset(t));
   return proximity.normal.dot(velocity_ + turning2 - turning1);
 }
 

@@ -30,7 +30,7 @@ class MovingGap {
   /// m; the rounding of s, at any time in [0, horizon].
   virtual double rounding(double horizon) const = 0;
 
-  /// m/s; how fast the gap changes at the time t of its proximity. An estimate: of flat bodies another point of a face may decide.
+  /// m/s; how fast s at the normal of a proximity, at the time t, changes. An estimate: on a face another point may decide.
   double rate(const Proximity& proximity, double t) const;
 
   /// m/s; no gap changes faster.

@@ -52,8 +52,12 @@ void write(const Impact& impact, bool swapped, snImpact& out) {
   out.time = to_real(impact.time);
   out.hits = impact.may_hit() ? 1 : 0;
   from_vector(swapped ? Vector3(-then.normal) : then.normal, out.normal);
-  from_vector(swapped ? then.point2 : then.point1, out.point1);
-  from_vector(swapped ? then.point1 : then.point2, out.point2);
+  // Where faces touch, witness points may be any two, but the contact is a point of both bodies.
+  const Vector3 half = 0.5 * then.gap * then.normal;
+  const Vector3 point1 = impact.may_hit() ? Vector3(then.contact - half) : then.point1;
+  const Vector3 point2 = impact.may_hit() ? Vector3(then.contact + half) : then.point2;
+  from_vector(swapped ? point2 : point1, out.point1);
+  from_vector(swapped ? point1 : point2, out.point2);
   out.normal[3] = out.point1[3] = out.point2[3] = 0;
   out.evaluations = impact.evaluations;
   out.converged = impact.status == ImpactStatus::NotConverged ? 0 : 1;

@@ -117,7 +117,8 @@ TEST_CASE("time of impact: with every collider the gap is positive before, and c
       }
       ++hits;
       CHECK(gap_of(ours, collider) <= rounding);
-      CHECK(norm(to_vec(impact.point1) - to_vec(impact.point2)) <= rounding + 1e-3);
+      CHECK(norm(to_vec(impact.point1) - to_vec(impact.point2)) <= rounding);
+      CHECK(std::abs(snGeomPointDepth(ours, impact.point1[0], impact.point1[1], impact.point1[2])) <= 100 * rounding);
     }
     CHECK(hits >= 10);
   }
