@@ -155,4 +155,31 @@ inline double deepest_before(const MovingPair& pair, double until, int samples) 
   return depth;
 }
 
+inline Impact find_impact(const MovingPair& pair) {
+  return find_time_of_impact(*pair.one.shape, pair.one.motion, *pair.other.shape, pair.other.motion, pair.horizon);
+}
+
+/// What a slow search finds of an impact.
+struct Verdict {
+  double overlap_before = 0;  ///< m; the deepest at times before it that were looked at
+  double gap = 0;             ///< m; at its time
+  double earlier = 0;         ///< s; by so much it is earlier than a gap of a millionth of the size
+  double tolerance = 0;       ///< m; of the impact
+  double rounding = 0;        ///< m; of the gap that the slow search finds
+
+  bool is_right() const { return overlap_before <= rounding && gap <= tolerance + rounding && gap >= -rounding && earlier <= 0; }
+};
+
+/// Judges an impact, or that there is none. Pairs that overlap at first are not looked at.
+inline Verdict judge(const MovingPair& pair, const Impact& impact) {
+  Verdict verdict;
+  verdict.tolerance = 1e-9 * pair.unit;
+  verdict.rounding = 1e-13 * (10 + fastest(pair) * pair.horizon);
+  verdict.overlap_before = deepest_before(pair, impact.apart_until, 40);
+  if (impact.status != ImpactStatus::Hits) return verdict;
+  verdict.gap = gap_at(pair, impact.time);
+  verdict.earlier = apart_until(pair, pair.horizon, 1e-6 * pair.unit, 300) * (1 - 1e-12) - impact.time;
+  return verdict;
+}
+
 }  // namespace supernormal::test

@@ -9,6 +9,7 @@
 
 #include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
+#include "ode/terrain.hpp"
 
 using namespace supernormal::test;
 
@@ -211,4 +212,31 @@ TEST_CASE("time of impact: what is refused") {
   dBodySetLinearVel(body, 1, 0, 0);
   CHECK(snGeomTimeOfImpact(box, ball, 1, &impact) == 1);
   CHECK(snGeomTimeOfImpact(box, ball, 0, &impact) == 1);
+}
+
+TEST_CASE("time of impact: a heightfield, as snGeomProximity has it") {
+  const OdeSession session;
+  const TestWorld world;
+  Terrain::Layout layout;
+  layout.columns = layout.rows = 33;
+  layout.width = layout.depth = 16;
+  const Terrain terrain(layout, [](int i, int j) { return 0.5 * std::sin(0.7 * i) * std::cos(0.5 * j); });
+  const Geom field(dCreateHeightfield(nullptr, terrain.data(), 1));
+  const Geom ball(snCreateSuperellipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3), 3, 4));
+  Mover mover(world.id, ball);
+  Random random(5);
+  const double rounding = within_rounding(1e-8, 50);
+  for (int k = 0; k < 20; ++k) {
+    CAPTURE(k);
+    mover.set({random.uniform(-4, 4), 3, random.uniform(-4, 4)},
+              {random.uniform(-3, 3), random.uniform(-9, -4), random.uniform(-3, 3)}, random.uniform(0, 10) * random.direction());
+    const snImpact impact = impact_of(ball, field, 1);
+    CHECK(impact.hits == 1);
+    for (int sample = 0; sample < 30; ++sample) {
+      mover.go(impact.time * sample / 30);
+      CHECK(gap_of(ball, field) > 0);
+    }
+    mover.go(impact.time);
+    CHECK(std::abs(gap_of(ball, field)) <= rounding);
+  }
 }

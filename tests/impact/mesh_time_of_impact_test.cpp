@@ -1,0 +1,75 @@
+// Tests of the time of impact with triangles.
+#include "supernormal/impact/mesh_time_of_impact.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "random_motions.hpp"
+#include "supernormal/contact/mesh_contacts.hpp"
+
+using namespace supernormal;
+using namespace supernormal::test;
+
+namespace {
+
+/// A hilly sheet of 2 * cells^2 triangles, about the origin, 1 m a cell.
+std::vector<MeshTriangle> hills(int cells) {
+  const auto point = [&](int i, int j) {
+    const double x = i - 0.5 * cells, y = j - 0.5 * cells;
+    return Vector3(x, y, 0.4 * std::sin(1.3 * x) * std::cos(0.9 * y));
+  };
+  std::vector<MeshTriangle> triangles;
+  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
+    triangles.push_back({{a, b, c}, static_cast<int>(triangles.size())});
+  };
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      add(point(i, j), point(i + 1, j), point(i, j + 1));
+      add(point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
+    }
+  }
+  return triangles;
+}
+
+}  // namespace
+
+TEST_CASE("triangles: the first of them, where the nearest triangle is as near as the tolerance, and none before") {
+  const std::vector<MeshTriangle> triangles = hills(8);
+  RandomMotions random(11);
+  int hits = 0;
+  for (int k = 0; k < 40; ++k) {
+    CAPTURE(k);
+    const auto shape = random.shape();
+    Motion motion, mesh;
+    motion.pose = {Vector3(random.uniform(-2, 2), random.uniform(-2, 2), 3), random.rotation()};
+    motion.velocity = Vector3(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-6, 0));
+    motion.angular_velocity = random.uniform(0, 3) * random.direction();
+    if (k % 2 == 0) {
+      mesh.velocity = random.uniform(0, 2) * random.direction();
+      mesh.angular_velocity = random.uniform(0, 0.5) * random.direction();
+    }
+    const MeshImpact found = find_mesh_time_of_impact(*shape, motion, triangles, mesh, 1);
+    REQUIRE(found.impact.status != ImpactStatus::InvalidInput);
+    CHECK(found.impact.status != ImpactStatus::NotConverged);
+    const auto gap = [&](double t) {
+      const Pose pose = pose_at(motion, t), frame = pose_at(mesh, t);
+      const Pose seen{frame.rotation.transpose() * (pose.position - frame.position), frame.rotation.transpose() * pose.rotation};
+      return find_nearest_triangle(*shape, seen, triangles, {}).proximity.gap;
+    };
+    for (int sample = 0; sample < 30; ++sample) CHECK(gap(found.impact.time * sample / 30) > -1e-12);
+    CHECK((found.triangle >= 0) == found.impact.may_hit());
+    if (found.impact.status != ImpactStatus::Hits) continue;
+    ++hits;
+    CHECK(std::abs(gap(found.impact.time)) <= 2e-9);
+  }
+  CHECK(hits > 10);
+}
+
+TEST_CASE("triangles: without any, bodies are apart") {
+  const MeshImpact found = find_mesh_time_of_impact(Sphere(1), {}, {}, {}, 2);
+  CHECK(found.impact.status == ImpactStatus::Apart);
+  CHECK(found.impact.time == 2);
+  CHECK(found.triangle == -1);
+}
