@@ -92,7 +92,7 @@ Proximity MovingPair::evaluate(const Vector3& n, double t) {
 }
 
 double MovingPair::rounding(double horizon) const {
-  return kRounding * (centre_offset_.norm() + horizon * velocity_.norm() + turning1_.reach() + turning2_.reach());
+  return kRounding * (centre_offset_.norm() + horizon * fastest() + turning1_.reach() + turning2_.reach());
 }
 
 double MovingPair::balls_meet(double horizon) const {
@@ -124,7 +124,7 @@ Proximity MovingOverPlane::find(double t, const Vector3* /*first_normal*/, doubl
 }
 
 double MovingOverPlane::rounding(double horizon) const {
-  return kRounding * (centre1_.norm() + horizon * velocity_.norm() + turning1_.reach() + std::abs(plane_offset_));
+  return kRounding * (centre1_.norm() + horizon * fastest() + turning1_.reach() + std::abs(plane_offset_));
 }
 
 }  // namespace supernormal

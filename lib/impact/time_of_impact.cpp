@@ -118,13 +118,17 @@ class ImpactSearch {
     Impact out;
     out.evaluations = gap_.evaluations();
     if (now_.status == Status::InvalidInput) return out;
-    const bool is_known = now_.status == Status::Converged || now_.is_global || status == ImpactStatus::Apart;
-    out.status = is_known ? status : ImpactStatus::NotConverged;
+    out.status = is_known(status) ? status : ImpactStatus::NotConverged;
     out.time = out.apart_until = t_;
     out.proximity = now_;
     const Vector3 origin = gap_.origin(t_);
     for (Vector3* point : {&out.proximity.point1, &out.proximity.point2, &out.proximity.contact}) *point += origin;
     return out;
+  }
+
+  bool is_known(ImpactStatus status) const {
+    if (now_.status == Status::Converged || now_.is_global) return true;
+    return status == ImpactStatus::Apart || (status == ImpactStatus::Overlapping && now_.gap + now_.global_error < 0);
   }
 
   Proximity find(double t, const Vector3* first_normal) { return gap_.find(t, first_normal, tolerance_, most_evaluations_); }
@@ -135,7 +139,7 @@ class ImpactSearch {
     const double a = now_.gap - rounding_;
     const double rate = gap_.rate(now_, t_);
     if (!gap_.is_turning()) return advance_straight(a, rate, left);
-    if (a >= gap_.fastest() * left) return move_to(horizon_, gap_.evaluate(now_.normal, horizon_));
+    if (a >= gap_.fastest() * left) return move_to_horizon(gap_.evaluate(now_.normal, horizon_));
     const double K = gap_.bound(now_.normal, 0, is_turned_ ? turn_.angle : 0);
     const double stride = longest_stride(a, rate, K, left);
     const double next = stride == left ? horizon_ : t_ + stride;
@@ -149,9 +153,10 @@ class ImpactSearch {
     const Proximity there = gap_.evaluate(now_.normal, next);
     const bool is_valid = there.status != Status::InvalidInput;
     const double share = is_valid ? proved_share(a, there, stride) : 1;
-    if (share == 1 && (!is_valid || next == horizon_ || there.gap > kGoodShare * now_.gap)) return move_to(next, there);
+    if (share == 1 && (!is_valid || next == horizon_)) return move_to_horizon(there);
+    if (share == 1 && there.gap > kGoodShare * now_.gap) return move_to(next, there);
     is_turned_ = share < kPoorShare;
-    t_ = share == 1 ? next : t_ + share * stride;
+    t_ = share == 1 ? next : std::min(t_ + share * stride, next);
     const double rough = kRough * now_.gap;
     const Vector3 normal = now_.normal;
     now_ = gap_.find(t_, &normal, rough, most_evaluations_);
@@ -170,13 +175,13 @@ class ImpactSearch {
     turn_ = {turn.angle / stride, turn.axis};
     if (share == 1 && (there.gap > tolerance_ || there.status == Status::Converged)) return move_to(next, there);
     const Vector3 between = turn.turned(now_.normal, share);
-    t_ += share * stride;
+    t_ = std::min(t_ + share * stride, next);
     now_ = find(t_, &between);
   }
 
   /// Without rotation, s at a fixed normal is linear.
   void advance_straight(double a, double rate, double left) {
-    if (-rate * left < a) return move_to(horizon_, gap_.evaluate(now_.normal, horizon_));
+    if (-rate * left < a) return move_to_horizon(gap_.evaluate(now_.normal, horizon_));
     t_ = std::min(t_ + a / -rate, horizon_);
     now_ = find(t_, &now_.normal);
   }
@@ -184,6 +189,12 @@ class ImpactSearch {
   void move_to(double t, const Proximity& proximity) {
     t_ = t;
     now_ = proximity;
+  }
+
+  /// The bodies are apart until the horizon, where `there` proves it: if they are near, a query says how near.
+  void move_to_horizon(const Proximity& there) {
+    move_to(horizon_, there);
+    if (there.status != Status::InvalidInput && there.gap <= tolerance_) now_ = find(horizon_, &there.normal);
   }
 
   /// The share of a stride for which the normals from now_ to `there` prove that the bodies are apart.

@@ -319,6 +319,14 @@ TEST_CASE("time of impact: what is out of range is refused, what is not finite i
     CHECK(find_plane_time_of_impact(ball, {}, Vector3::UnitX(), bad, 1).status == ImpactStatus::InvalidInput);
     CHECK(std::fetestexcept(kTrapped) == 0);
   }
+  // Just before the horizon, at it and just after it.
+  for (const double gap : {-1e-10, 1e-10, 4e-10, 6e-10, 1e-8}) {
+    CAPTURE(gap);
+    const Impact impact = find_time_of_impact(ball, {}, ball, there, 3 - gap);
+    CHECK(impact.status == (gap < 5e-10 ? ImpactStatus::Hits : ImpactStatus::Apart));
+    const Impact turning = find_time_of_impact(ball, {}, ball, moving({5, 0, 0}, {-1, 0, 0}, {0, 0, 5}), 3 - gap);
+    CHECK(turning.status == impact.status);
+  }
   // At the horizon, and with none.
   CHECK(find_time_of_impact(ball, {}, ball, there, 3.0001).status == ImpactStatus::Hits);
   CHECK(find_time_of_impact(ball, {}, ball, there, 2.9999).status == ImpactStatus::Apart);
