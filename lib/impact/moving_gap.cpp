@@ -50,13 +50,13 @@ MovingPair::MovingPair(const Shape& shape1, const Motion& motion1, const Shape& 
       length_unit_(GapFunction(shape1, {}, shape2, {}).length_unit()) {}
 
 Pose MovingPair::pose1(double t) const {
-  const Matrix3 rotation = rotation_at(motion1_, t);
-  return {-(rotation * motion1_.centre), rotation};
+  const Matrix3 rotation = rotation_at(motion1(), t);
+  return {-(rotation * motion1().centre), rotation};
 }
 
 Pose MovingPair::pose2(double t) const {
-  const Matrix3 rotation = rotation_at(motion2_, t);
-  return {offset(t) - rotation * motion2_.centre, rotation};
+  const Matrix3 rotation = rotation_at(motion2(), t);
+  return {offset(t) - rotation * motion2().centre, rotation};
 }
 
 Proximity MovingPair::find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) {
@@ -68,7 +68,7 @@ Proximity MovingPair::find(double t, const Vector3* first_normal, double toleran
   settings.tolerance = std::clamp(tolerance / length_unit_, 1e-15, 1.0);
   settings.max_evaluations = most_evaluations;
   Proximity out = find_proximity(shape1_, one, shape2_, pose2(t), settings, first_normal != nullptr ? &start : nullptr);
-  evaluations_ += out.evaluations;
+  count(out.evaluations);
   return out;
 }
 
@@ -77,7 +77,7 @@ Proximity MovingPair::evaluate(const Vector3& n, double t) {
   GapFunction gap(shape1_, one, shape2_, pose2(t));
   GapJet jet;
   gap.evaluate((one.rotation.transpose() * n).normalized(), Order::Point, jet);
-  ++evaluations_;
+  count(1);
   Proximity out;
   if (!jet.is_finite()) return out;
   out.gap = jet.s;
@@ -91,17 +91,15 @@ Proximity MovingPair::evaluate(const Vector3& n, double t) {
   return out;
 }
 
-double MovingPair::rounding(double horizon) const {
-  return kRounding * (centre_offset_.norm() + horizon * fastest() + turning1_.reach() + turning2_.reach());
-}
+double MovingPair::rounding(double horizon) const { return kRounding * (offset(0).norm() + horizon * fastest() + reach()); }
 
 double MovingPair::balls_meet(double horizon) const {
-  if (!turning1_.is_turning() && !turning2_.is_turning()) return 0;
-  const double radius = turning1_.reach() + turning2_.reach() + rounding(horizon);
-  const double c = centre_offset_.squaredNorm() - radius * radius;
-  const double b = centre_offset_.dot(velocity_);
+  if (!is_turning()) return 0;
+  const double radius = reach() + rounding(horizon);
+  const double c = offset(0).squaredNorm() - radius * radius;
+  const double b = offset(0).dot(velocity());
   if (!(c > 0)) return 0;
-  const double a = velocity_.squaredNorm();
+  const double a = velocity().squaredNorm();
   const double discriminant = b * b - a * c;
   if (b >= 0 || discriminant < 0) return std::numeric_limits<double>::infinity();
   return c / (-b + std::sqrt(discriminant));
@@ -111,20 +109,17 @@ MovingOverPlane::MovingOverPlane(const Shape& shape, const Motion& motion, const
     : MovingGap(motion, kAtRest, Turning(shape, motion), Turning(shape, kAtRest)),
       shape_(shape),
       plane_normal_(plane_normal),
-      plane_offset_(plane_offset) {
-  // The centre of the half-space goes with that of the body: it has none of its own.
-  velocity_ = -motion.velocity;
-}
+      plane_offset_(plane_offset) {}
 
 Proximity MovingOverPlane::find(double t, const Vector3* /*first_normal*/, double /*tolerance*/, int /*most_evaluations*/) {
-  const Matrix3 rotation = rotation_at(motion1_, t);
-  ++evaluations_;
-  return find_plane_proximity(shape_, {-(rotation * motion1_.centre), rotation}, plane_normal_,
+  const Matrix3 rotation = rotation_at(motion1(), t);
+  count(1);
+  return find_plane_proximity(shape_, {-(rotation * motion1().centre), rotation}, plane_normal_,
                               plane_offset_ - plane_normal_.dot(origin(t)));
 }
 
 double MovingOverPlane::rounding(double horizon) const {
-  return kRounding * (centre1_.norm() + horizon * fastest() + turning1_.reach() + std::abs(plane_offset_));
+  return kRounding * (first_centre1().norm() + horizon * fastest() + reach() + std::abs(plane_offset_));
 }
 
 }  // namespace supernormal

@@ -49,14 +49,24 @@ class MovingGap {
   int evaluations() const { return evaluations_; }
 
  protected:
-  Vector3 offset(double t) const { return centre_offset_ + t * velocity_; }
+  const Motion& motion1() const { return motion1_; }
+  const Motion& motion2() const { return motion2_; }
+  const Vector3& first_centre1() const { return centre1_; }  // m; of body 1 at time 0
+  double reach() const { return turning1_.reach() + turning2_.reach(); }
 
+  /// m; from the centre of body 1 to that of body 2.
+  Vector3 offset(double t) const { return centre_offset_ + t * velocity_; }
+  const Vector3& velocity() const { return velocity_; }  // m/s; of the centre of body 2 against that of body 1
+
+  void count(int evaluations) { evaluations_ += evaluations; }
+
+ private:
   const Motion& motion1_;
   const Motion& motion2_;
   const Turning turning1_, turning2_;
-  Vector3 centre1_;        // m; of body 1 at time 0
-  Vector3 centre_offset_;  // m; from there to the centre of body 2
-  Vector3 velocity_;       // m/s; of the centre of body 2 against that of body 1
+  Vector3 centre1_;
+  Vector3 centre_offset_;
+  Vector3 velocity_;
   int evaluations_ = 0;
 };
 
