@@ -17,6 +17,14 @@ namespace {
 
 Scene with_part(const std::string& part) { return scene_of(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + part); }
 
+/// A scene whose walls are parts.
+Scene in_open(const std::string& rest) {
+  return scene_of(replaced(kSceneText, "kind = \"box\"\nwidth = [0.05, 0.06]\n",
+                           "kind = \"none\"\nstart = { corner = [0, 0, 0], size = [0.05, 0.06, 0.5] }\n"
+                           "bounds = { corner = [-9, -9, -9], size = [18, 18, 18] }\n") +
+                  rest);
+}
+
 void check_one_doubt(const Scene& scene, const std::vector<const char*>& says) {
   const std::vector<std::string> doubts = doubts_about(scene);
   REQUIRE(doubts.size() == 1);
@@ -104,7 +112,14 @@ TEST_CASE("doubts: a grain may not start inside a part") {
 
 TEST_CASE("doubts: a mesh does not hold what falls on the backs of its triangles") {
   CHECK(doubts_about(in_mesh(true)).empty());
-  check_one_doubt(in_mesh(false), {"part \"bin\": 7 of 7 grains start above the back of a triangle"});
+  check_one_doubt(in_mesh(false), {"part \"bin\": 7 of 7 grains start behind a triangle", "part.two_sided = true"});
+  Scene without_floor = in_mesh(false);  // whose walls alone are turned around, above the container's floor
+  auto& walls = std::get<MeshShape>(without_floor.parts[0].shape);
+  walls.triangles.erase(walls.triangles.begin(), walls.triangles.begin() + 2);
+  check_one_doubt(without_floor, {"part \"bin\": 7 of 7 grains start behind a triangle"});
+  Scene two_sided = in_mesh(false);
+  std::get<MeshShape>(two_sided.parts[0].shape).two_sided = true;
+  CHECK(doubts_about(two_sided).empty());
 }
 
 TEST_CASE("doubts: a feeder that no grain is due from, or that throws too fast") {
@@ -113,4 +128,25 @@ TEST_CASE("doubts: a feeder that no grain is due from, or that throws too fast")
   check_one_doubt(scene_of(feeder + "grains_per_second = 5\n"), {"feeder \"f\" feeds nothing", "5 grains/s"});
   check_one_doubt(scene_of(feeder + "grains_per_second = 100\nvelocity = [0, 0, -500]\n"), {"grains of feeder \"f\" move 0.25 m"});
   CHECK(doubts_about(scene_of(feeder + "grains_per_second = 100\n")).empty());
+}
+
+TEST_CASE("doubts: a feeder whose grains have no room, or fall beside everything") {
+  const auto fed = [](const std::string& corner, const std::string& part, const std::string& more = "") {
+    return in_open("[[feeder]]\nname = \"f\"\ncorner = " + corner + "\nsize = [0.05, 0.06, 0.05]\ngrains_per_second = 100\n" +
+                   more + "[[part]]\nname = \"p\"\n" + part);
+  };
+  const std::string floor = "shape = \"box\"\nsize = [1, 1, 0.1]\nposition = [0, 0, -0.05]\n";
+  CHECK(doubts_about(fed("[0, 0, 0.2]", floor)).empty());
+  check_one_doubt(fed("[0, 0, -1]", floor), {"grains that feeder \"f\" brings are above nothing"});
+  check_one_doubt(fed("[0.6, 0, 0.2]", floor), {"grains that feeder \"f\" brings are above nothing"});
+  CHECK(doubts_about(fed("[0.6, 0, 0.2]", floor, "velocity = [-1, 0, 0]\n")).empty());
+  CHECK(doubts_about(fed("[0, 0, -1]", floor, "[[sink]]\nname = \"s\"\npoint = [0, 0, -2]\nnormal = [0, 0, 1]\n")).empty());
+  const std::string thick = "shape = \"box\"\nsize = [1, 1, 2]\nposition = [0, 0, -1]\n";
+  check_one_doubt(fed("[0, 0, -1]", thick), {"feeder \"f\" has no room for grain", "part \"p\" is wherever it would come"});
+  check_one_doubt(fed("[0, 0, -1]", "shape = \"plane\"\n"), {"feeder \"f\" has no room for grain", "part \"p\""});
+}
+
+TEST_CASE("doubts: grains that start above nothing") {
+  check_one_doubt(in_open("[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [1, 1, 0.1]\nposition = [3, 0, -0.05]\n"),
+                  {"7 of 7 grains start above nothing"});
 }

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 
+#include "check/origins.hpp"
 #include "parts/part_mesh.hpp"
 #include "scene/input_error.hpp"
 #include "scene/interval.hpp"
@@ -65,45 +65,6 @@ std::string moves_too_far(const std::string& who, double way, const Scene& scene
   return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
 }
 
-/// How many grains of the start are above the back of each part that is a mesh, with nothing in between.
-std::map<std::size_t, std::size_t> count_above_backs(const World& world, const Vector3& down) {
-  std::map<std::size_t, std::size_t> counts;
-  const std::vector<dGeomID>& parts = world.parts()->geoms();
-  std::vector<dGeomID> solids = world.walls().geoms();
-  solids.insert(solids.end(), parts.begin(), parts.end());
-  const std::unique_ptr<dxGeom, decltype(&dGeomDestroy)> ray(dCreateRay(nullptr, kLargestLength), dGeomDestroy);
-  dGeomRaySetClosestHit(ray.get(), 1);
-  for (const Body& body : world.present()) {
-    const Point p = body.position();
-    dGeomRaySet(ray.get(), p[0], p[1], p[2], down.x(), down.y(), down.z());
-    dContactGeom nearest{};
-    nearest.depth = INFINITY;
-    for (const dGeomID solid : solids) {
-      dContactGeom hit;
-      if (dCollide(solid, ray.get(), 1, &hit, sizeof hit) > 0 && hit.depth < nearest.depth) nearest = hit;
-    }
-    const auto found = std::ranges::find(parts, nearest.g1);
-    if (found == parts.end()) continue;
-    const Part& part = world.parts()->part(static_cast<std::size_t>(found - parts.begin()));
-    const auto* mesh = std::get_if<MeshShape>(&part.shape);
-    if (mesh == nullptr || nearest.side1 < 0) continue;
-    const auto& [a, b, c] = mesh->triangles[static_cast<std::size_t>(nearest.side1)];
-    const auto corner = [&](unsigned int i) { return Vector3(mesh->vertices[i][0], mesh->vertices[i][1], mesh->vertices[i][2]); };
-    const Vector3 normal = part.start.rotation * (corner(b) - corner(a)).cross(corner(c) - corner(a));
-    if (normal.dot(down) > 0) ++counts[static_cast<std::size_t>(found - parts.begin())];
-  }
-  return counts;
-}
-
-/// At most a thousand grains of the start, as they start.
-World world_at_start(const Scene& scene, bool all) {
-  Random random(scene.seed);
-  std::vector<Placement> placements = place(scene, random);
-  constexpr std::size_t kEnough = 1000;
-  if (!all && placements.size() > kEnough) placements.resize(kEnough);  // they are in random order
-  return {scene, placements};
-}
-
 void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
   const std::optional<Fall> fall = fall_from_start(scene);
   if (!fall || fall->way <= scene.smallest_half_axis()) return;
@@ -127,20 +88,6 @@ void add_parts(const Scene& scene, std::vector<std::string>& doubts) {
       doubts.push_back(moves_too_far("part \"" + part.name + "\" is driven", first, scene) + "part.drive.mass from " +
                        rounded(part.drive->mass * first / size) + " kg on would do");
     }
-  }
-}
-
-void add_backs(const Scene& scene, std::vector<std::string>& doubts) {
-  const auto is_mesh = [](const Part& part) { return std::holds_alternative<MeshShape>(part.shape); };
-  const auto* const gravity = scene.gravity();
-  if (gravity == nullptr || scene.bodies() == 0 || std::ranges::none_of(scene.parts, is_mesh)) return;
-  const World world = world_at_start(scene, false);
-  const Vector3 down = gravity->acceleration.normalized();
-  for (const auto& [part, count] : count_above_backs(world, down)) {
-    doubts.push_back("part \"" + scene.parts[part].name + "\": " + std::to_string(count) + " of " +
-                     std::to_string(world.present().size()) +
-                     " grains start above the back of a triangle, which does not hold them: a triangle is solid behind, and holds "
-                     "what sees its corners anticlockwise; turn its corners around");
   }
 }
 
@@ -190,13 +137,14 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_fall(scene, doubts);
   add_parts(scene, doubts);
   add_feeders(scene, doubts);
-  add_backs(scene, doubts);
+  std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
   return doubts;
 }
 
 void refuse_overlapping_start(const Scene& scene) {
   if (scene.parts.empty() || scene.bodies() == 0) return;
-  const World world = world_at_start(scene, true);
+  Random random(scene.seed);
+  const World world(scene, place(scene, random));
   std::vector<std::pair<dGeomID, dGeomID>> pairs;
   world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
     static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
