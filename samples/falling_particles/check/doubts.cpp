@@ -10,6 +10,7 @@
 
 #include "check/origins.hpp"
 #include "parts/part_mesh.hpp"
+#include "scene/grain_shape.hpp"
 #include "scene/input_error.hpp"
 #include "scene/interval.hpp"
 #include "simulation/lattice.hpp"
@@ -74,9 +75,64 @@ void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
                    rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
 }
 
+/// m, by which a grain under its own weight sinks into what carries it; infinite where overlaps are never corrected.
+double rest_depth_of(const GrainCount& kind, const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  const double weight =
+      std::pow(kind.smallest_scale(), 3) * mass_of(kind.grain) * (gravity == nullptr ? 0 : gravity->acceleration.norm());
+  return scene.solver.erp == 0 ? INFINITY : scene.solver.cfm * weight * scene.time.step / scene.solver.erp;
+}
+
+/// Contacts that a scene names as soft have a stiffness of their own.
+bool has_soft_contacts(const Scene& scene) {
+  return std::ranges::any_of(scene.effects, [](const supernormal::effects::Effect& effect) {
+    return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
+           std::holds_alternative<supernormal::effects::Hertz>(effect);
+  });
+}
+
+void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kSunk = 0.1;  // of the smallest half-axis
+  if (has_soft_contacts(scene) || scene.compression) return;
+  for (const GrainCount& kind : scene.grains) {
+    const double share = rest_depth_of(kind, scene) / (kind.smallest_scale() * kind.grain.smallest_half_axis());
+    if (!(share > kSunk)) continue;
+    doubts.push_back(std::isfinite(share) ? "grain \"" + kind.grain.name + "\" sinks by " + rounded(share) +
+                                                " of its smallest half-axis under its own weight: solver.cfm up to " +
+                                                rounded(scene.solver.cfm * kSunk / share) + " s/kg would do"
+                                          : "solver.erp is 0: overlaps are never corrected, and grains sink; 0.2 would do");
+    return;
+  }
+}
+
+/// What moves or is driven from the end of the run on stands.
+void add_late(const Scene& scene, const Part& part, std::vector<std::string>& doubts) {
+  const auto is_late = [&](double from) { return from >= scene.time.duration; };
+  if (std::ranges::none_of(part.motions, [&](const PartMotion& motion) { return is_late(motion.from); }) &&
+      !(part.drive && is_late(part.drive->from))) {
+    return;
+  }
+  doubts.push_back("part \"" + part.name + "\" has a motion or a drive that starts at the end of the run, after " +
+                   shortest(scene.time.duration) + " s, or later");
+}
+
+/// m, the least of the lengths that describe a solid; infinite for the others.
+double thinnest(const PartShape& shape) {
+  if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
+  if (const auto* body = std::get_if<SmoothShape>(&shape)) return body->half_axes.minCoeff();
+  return INFINITY;
+}
+
 void add_parts(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
   for (const Part& part : scene.parts) {
+    add_late(scene, part, doubts);
+    if (const double least = thinnest(part.shape); least < kThin * size) {
+      doubts.push_back("part \"" + part.name + "\" is " + rounded(least) + " m thin, " + in_half_axes(least, scene) +
+                       ": is it in another unit?");
+    }
     const double way = normal_way_of(part, scene);
     if (way > size) {
       doubts.push_back(moves_too_far("part \"" + part.name + "\" moves", way, scene) + "time.step up to " +
@@ -135,6 +191,7 @@ double normal_way_of(const Part& part, const Scene& scene) {
 std::vector<std::string> doubts_about(const Scene& scene) {
   std::vector<std::string> doubts;
   add_fall(scene, doubts);
+  add_solver(scene, doubts);
   add_parts(scene, doubts);
   add_feeders(scene, doubts);
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));

@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
-#include <stdexcept>
+#include <variant>
 
 #include "check/sight.hpp"
 #include "population/candidate.hpp"
@@ -39,6 +41,13 @@ Origin start_of(const Scene& scene) {
   return origin;
 }
 
+/// Where grains fall, if they do: of unit length.
+std::optional<Vector3> down_in(const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || gravity->acceleration.isZero(0)) return std::nullopt;
+  return gravity->acceleration.stableNormalized();
+}
+
 double smallest_radius(const Feeder& feeder, const Scene& scene) {
   double least = INFINITY;
   for (const FedKind& fed : feeder.mixture) {
@@ -58,19 +67,19 @@ Origin origin_of(const Feeder& feeder, const Scene& scene) {
     Point& place = origin.places.emplace_back(corner);
     for (unsigned axis = 0; axis < 3; ++axis) place[axis] += ((i >> axis) & 1U) != 0 ? size[axis] - radius : radius;
   }
-  const auto* const gravity = scene.gravity();
+  const std::optional<Vector3> down = down_in(scene);
   const Vector3 velocity(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
-  origin.falls = gravity != nullptr && velocity.cross(gravity->acceleration).isZero(0);
+  origin.falls = down && velocity.cross(*down).norm() <= 1e-12 * velocity.norm();
   return origin;
 }
 
 /// Where a grain may be held: below and beside it; on all sides without gravity.
 std::vector<Vector3> directions_of(const Scene& scene) {
-  const auto* const gravity = scene.gravity();
-  const Vector3 down = gravity != nullptr ? gravity->acceleration.normalized() : Vector3(-Vector3::UnitZ());
+  const std::optional<Vector3> gravity = down_in(scene);
+  const Vector3 down = gravity.value_or(-Vector3::UnitZ());
   const Vector3 side = down.unitOrthogonal(), other = down.cross(side);
   std::vector<Vector3> directions = {down, side, -side, other, -other};
-  if (gravity == nullptr) directions.emplace_back(-down);
+  if (!gravity) directions.emplace_back(-down);
   return directions;
 }
 
@@ -91,12 +100,40 @@ void add_backs(const Sight& sight, const Scene& scene, const Origin& origin, std
 }
 
 void add_void(const Sight& sight, const Scene& scene, const Origin& origin, std::vector<std::string>& doubts) {
-  const auto* const gravity = scene.gravity();
-  if (gravity == nullptr || !origin.falls || origin.places.empty()) return;
-  const Vector3 down = gravity->acceleration.normalized();
-  if (std::ranges::any_of(origin.places, [&](const Point& place) { return sight.look(place, down).has_value(); })) return;
+  const std::optional<Vector3> down = down_in(scene);
+  if (!down || !origin.falls || origin.places.empty()) return;
+  const auto lands = [&](const Point& place) {
+    const std::optional<Sight::Seen> below = sight.look(place, *down);
+    if (!below) return false;
+    const double way = std::max(0.0, below->distance - scene.smallest_half_axis());
+    return is_inside(scene, {place[0] + way * down->x(), place[1] + way * down->y(), place[2] + way * down->z()});
+  };
+  if (std::ranges::any_of(origin.places, lands)) return;
   doubts.push_back(origin.grains(origin.places.size()) +
-                   " above nothing: no wall, part or sink is below them, and they fall out of the scene");
+                   " above nothing: no wall, part or sink is below them within the container, and they fall out of it");
+}
+
+void add_sunk(const Scene& scene, const Origin& origin, std::vector<std::string>& doubts) {
+  const auto is_in_sink = [&](const Point& place) {
+    return std::ranges::any_of(scene.sinks, [&](const Sink& sink) { return sink.contains(place); });
+  };
+  if (origin.places.empty() || !std::ranges::all_of(origin.places, is_in_sink)) return;
+  doubts.push_back(origin.grains(origin.places.size()) + " within sinks, which take them at once");
+}
+
+/// Parts that stand outside a box, whose walls have no end. (It is not a periodic one, which has images of its parts.)
+void add_unreached(const World& world, std::vector<std::string>& doubts) {
+  const Scene& scene = world.scene();
+  const auto* const box = std::get_if<Box>(&scene.container);
+  if (box == nullptr || world.parts() == nullptr || is_any(scene.periodic)) return;
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    if (scene.parts[i].moves()) continue;
+    dReal aabb[6];
+    dGeomGetAABB(world.parts()->geoms()[i], aabb);
+    const auto& [x, y] = box->width;
+    if (aabb[1] > 0 && aabb[0] < x && aabb[3] > 0 && aabb[2] < y && aabb[5] > 0) continue;
+    doubts.push_back("part \"" + scene.parts[i].name + "\" stands outside the box of the container, where no grain meets it");
+  }
 }
 
 std::string name_of(dGeomID solid, const World& world) {
@@ -150,9 +187,11 @@ std::vector<std::string> doubts_about_origins(const Scene& scene) {
     if (!add_full(world, feeder, doubts)) origins.push_back(origin_of(feeder, scene));
   }
   for (const Origin& origin : origins) {
+    add_sunk(scene, origin, doubts);
     add_void(sight, scene, origin, doubts);
     add_backs(sight, scene, origin, doubts);
   }
+  add_unreached(world, doubts);
   return doubts;
 }
 

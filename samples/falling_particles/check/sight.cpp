@@ -41,7 +41,7 @@ std::optional<Sight::Seen> Sight::look(const Point& from, const Vector3& directi
     dContactGeom hit;
     if (dCollide(solids_[i], ray_.get(), 1, &hit, sizeof hit) == 0 || !(hit.depth < nearest)) continue;
     nearest = hit.depth;
-    seen = Seen{};
+    seen = Seen{nearest, {}, false};
     if (i >= parts) continue;
     seen->part = i;
     seen->is_back = is_back_of(world_.scene().parts[i], hit.side1, direction);

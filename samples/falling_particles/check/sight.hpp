@@ -17,6 +17,7 @@ namespace falling_particles {
 class Sight {
  public:
   struct Seen {
+    double distance = 0;              ///< m
     std::optional<std::size_t> part;  ///< its index; none for a wall or a sink
     bool is_back = false;             ///< whether it is a triangle that grains meet from its other side alone
   };
