@@ -321,6 +321,15 @@ class FallingParticles(RunTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("point 0 (seed=1) FAILED: exit code 2: --set time.step=-1: time.step is -1; allowed: a number in (0, ", done.stderr)
 
+    def test_a_run_tells_each_failed_point_once(self):
+        if shutil.which("parallel") is None:
+            self.skipTest("GNU parallel is missing")
+        self.write('seeds = 2\ngrid = {"time.step" = [5e-4, -1]}', SCENES / "short.toml")
+        done = self.ensemble("run", "--jobs", 1, program=PROGRAM)
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1][:6]), (1, "2 of 4"), done.stderr)
+        self.assertEqual(done.stderr.count("exit code 2"), 2, done.stderr)
+        self.assertEqual(self.ensemble("collect").stderr.count("exit code 2"), 2)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 #include <doctest/doctest.h>
 #include <supernormal/supernormal.h>
+#include <sys/stat.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -63,6 +64,9 @@ TEST_CASE("files that are of no use are refused with a reason") {
   const TemporaryFolder folder;
   const std::string none = (folder.path() / "none.ply").string();
   CHECK(complaint(none) == none + ": no such file");
+  const std::string pipe = (folder.path() / "pipe.stl").string();
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(complaint(pipe) == pipe + ": a pipe or a socket, and no file");
   const std::string text = folder.write("points.txt", "1 2 3\n");
   CHECK(complaint(text) == text + ": unknown extension \".txt\"; allowed: .stl, .obj, .ply (meshes or points), .xyz (points)");
   const std::string empty = folder.write("empty.xyz", "# nothing\n\n");

@@ -266,6 +266,33 @@ TEST_CASE("povray: a grain with rounded edges is a mesh, another is exact") {
   CHECK(count_of(text, "object { Kind1 matrix") == 2);
 }
 
+TEST_CASE("povray: a box has walls and edges, but none in front of the grains, and lengths above POV-Ray's smallest") {
+  const Written written("povray");
+  const std::string text = written.text("still.pov");
+  double eye[3] = {};
+  const std::size_t camera = text.find("location Unit * <");
+  REQUIRE(camera != std::string::npos);
+  REQUIRE(std::sscanf(text.c_str() + camera, "location Unit * <%lf, %lf, %lf>", &eye[0], &eye[1], &eye[2]) == 3);
+  const std::size_t walls = text.find("// walls"), end = text.find("//", walls + 3);
+  REQUIRE(end != std::string::npos);
+  const std::string part = text.substr(walls, end - walls);
+  CHECK(count_of(part, "triangle {") == 4);  // of eight
+  CHECK(count_of(part, "cylinder {") == 8);
+  for (std::size_t at = part.find("triangle {"); at != std::string::npos; at = part.find("triangle {", at + 1)) {
+    Eigen::Matrix3d corners;
+    REQUIRE(std::sscanf(part.c_str() + at, "triangle { <%lf, %lf, %lf>, <%lf, %lf, %lf>, <%lf, %lf, %lf> }", &corners(0, 0),
+                        &corners(1, 0), &corners(2, 0), &corners(0, 1), &corners(1, 1), &corners(2, 1), &corners(0, 2),
+                        &corners(1, 2), &corners(2, 2)) == 9);
+    const Vector3 normal = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+    CHECK(normal.dot(Vector3::Map(eye) - corners.col(0)) > 0);
+  }
+  double unit = 0;
+  REQUIRE(std::sscanf(text.c_str() + text.find("#declare Unit"), "#declare Unit = %lf;", &unit) == 1);
+  CHECK(unit * written.scene().smallest_half_axis() == doctest::Approx(10));
+  CHECK(count_of(text, "scale Unit") ==
+        count_of(text, "object { Kind") + count_of(text, "cylinder {") + count_of(text, "\nmesh {"));
+}
+
 TEST_CASE("pictures show each body at its own size") {
   const std::vector<double> scales = {1, 2, 0.5, 1, 1};
   {

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 
+#include "check/origins.hpp"
 #include "parts/part_mesh.hpp"
+#include "scene/grain_shape.hpp"
 #include "scene/input_error.hpp"
 #include "scene/interval.hpp"
 #include "simulation/lattice.hpp"
@@ -65,45 +66,6 @@ std::string moves_too_far(const std::string& who, double way, const Scene& scene
   return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
 }
 
-/// How many grains of the start are above the back of each part that is a mesh, with nothing in between.
-std::map<std::size_t, std::size_t> count_above_backs(const World& world, const Vector3& down) {
-  std::map<std::size_t, std::size_t> counts;
-  const std::vector<dGeomID>& parts = world.parts()->geoms();
-  std::vector<dGeomID> solids = world.walls().geoms();
-  solids.insert(solids.end(), parts.begin(), parts.end());
-  const std::unique_ptr<dxGeom, decltype(&dGeomDestroy)> ray(dCreateRay(nullptr, kLargestLength), dGeomDestroy);
-  dGeomRaySetClosestHit(ray.get(), 1);
-  for (const Body& body : world.present()) {
-    const Point p = body.position();
-    dGeomRaySet(ray.get(), p[0], p[1], p[2], down.x(), down.y(), down.z());
-    dContactGeom nearest{};
-    nearest.depth = INFINITY;
-    for (const dGeomID solid : solids) {
-      dContactGeom hit;
-      if (dCollide(solid, ray.get(), 1, &hit, sizeof hit) > 0 && hit.depth < nearest.depth) nearest = hit;
-    }
-    const auto found = std::ranges::find(parts, nearest.g1);
-    if (found == parts.end()) continue;
-    const Part& part = world.parts()->part(static_cast<std::size_t>(found - parts.begin()));
-    const auto* mesh = std::get_if<MeshShape>(&part.shape);
-    if (mesh == nullptr || nearest.side1 < 0) continue;
-    const auto& [a, b, c] = mesh->triangles[static_cast<std::size_t>(nearest.side1)];
-    const auto corner = [&](unsigned int i) { return Vector3(mesh->vertices[i][0], mesh->vertices[i][1], mesh->vertices[i][2]); };
-    const Vector3 normal = part.start.rotation * (corner(b) - corner(a)).cross(corner(c) - corner(a));
-    if (normal.dot(down) > 0) ++counts[static_cast<std::size_t>(found - parts.begin())];
-  }
-  return counts;
-}
-
-/// At most a thousand grains of the start, as they start.
-World world_at_start(const Scene& scene, bool all) {
-  Random random(scene.seed);
-  std::vector<Placement> placements = place(scene, random);
-  constexpr std::size_t kEnough = 1000;
-  if (!all && placements.size() > kEnough) placements.resize(kEnough);  // they are in random order
-  return {scene, placements};
-}
-
 void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
   const std::optional<Fall> fall = fall_from_start(scene);
   if (!fall || fall->way <= scene.smallest_half_axis()) return;
@@ -113,9 +75,64 @@ void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
                    rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
 }
 
+/// m, by which a grain under its own weight sinks into what carries it; infinite where overlaps are never corrected.
+double rest_depth_of(const GrainCount& kind, const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  const double weight =
+      std::pow(kind.smallest_scale(), 3) * mass_of(kind.grain) * (gravity == nullptr ? 0 : gravity->acceleration.norm());
+  return scene.solver.erp == 0 ? INFINITY : scene.solver.cfm * weight * scene.time.step / scene.solver.erp;
+}
+
+/// Contacts that a scene names as soft have a stiffness of their own.
+bool has_soft_contacts(const Scene& scene) {
+  return std::ranges::any_of(scene.effects, [](const supernormal::effects::Effect& effect) {
+    return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
+           std::holds_alternative<supernormal::effects::Hertz>(effect);
+  });
+}
+
+void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kSunk = 0.1;  // of the smallest half-axis
+  if (has_soft_contacts(scene) || scene.compression) return;
+  for (const GrainCount& kind : scene.grains) {
+    const double share = rest_depth_of(kind, scene) / (kind.smallest_scale() * kind.grain.smallest_half_axis());
+    if (!(share > kSunk)) continue;
+    doubts.push_back(std::isfinite(share) ? "grain \"" + kind.grain.name + "\" sinks by " + rounded(share) +
+                                                " of its smallest half-axis under its own weight: solver.cfm up to " +
+                                                rounded(scene.solver.cfm * kSunk / share) + " s/kg would do"
+                                          : "solver.erp is 0: overlaps are never corrected, and grains sink; 0.2 would do");
+    return;
+  }
+}
+
+/// What moves or is driven from the end of the run on stands.
+void add_late(const Scene& scene, const Part& part, std::vector<std::string>& doubts) {
+  const auto is_late = [&](double from) { return from >= scene.time.duration; };
+  if (std::ranges::none_of(part.motions, [&](const PartMotion& motion) { return is_late(motion.from); }) &&
+      !(part.drive && is_late(part.drive->from))) {
+    return;
+  }
+  doubts.push_back("part \"" + part.name + "\" has a motion or a drive that starts at the end of the run, after " +
+                   shortest(scene.time.duration) + " s, or later");
+}
+
+/// m, the least of the lengths that describe a solid; infinite for the others.
+double thinnest(const PartShape& shape) {
+  if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
+  if (const auto* body = std::get_if<SmoothShape>(&shape)) return body->half_axes.minCoeff();
+  return INFINITY;
+}
+
 void add_parts(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
   for (const Part& part : scene.parts) {
+    add_late(scene, part, doubts);
+    if (const double least = thinnest(part.shape); least < kThin * size) {
+      doubts.push_back("part \"" + part.name + "\" is " + rounded(least) + " m thin, " + in_half_axes(least, scene) +
+                       ": is it in another unit?");
+    }
     const double way = normal_way_of(part, scene);
     if (way > size) {
       doubts.push_back(moves_too_far("part \"" + part.name + "\" moves", way, scene) + "time.step up to " +
@@ -127,20 +144,6 @@ void add_parts(const Scene& scene, std::vector<std::string>& doubts) {
       doubts.push_back(moves_too_far("part \"" + part.name + "\" is driven", first, scene) + "part.drive.mass from " +
                        rounded(part.drive->mass * first / size) + " kg on would do");
     }
-  }
-}
-
-void add_backs(const Scene& scene, std::vector<std::string>& doubts) {
-  const auto is_mesh = [](const Part& part) { return std::holds_alternative<MeshShape>(part.shape); };
-  const auto* const gravity = scene.gravity();
-  if (gravity == nullptr || scene.bodies() == 0 || std::ranges::none_of(scene.parts, is_mesh)) return;
-  const World world = world_at_start(scene, false);
-  const Vector3 down = gravity->acceleration.normalized();
-  for (const auto& [part, count] : count_above_backs(world, down)) {
-    doubts.push_back("part \"" + scene.parts[part].name + "\": " + std::to_string(count) + " of " +
-                     std::to_string(world.present().size()) +
-                     " grains start above the back of a triangle, which does not hold them: a triangle is solid behind, and holds "
-                     "what sees its corners anticlockwise; turn its corners around");
   }
 }
 
@@ -188,15 +191,17 @@ double normal_way_of(const Part& part, const Scene& scene) {
 std::vector<std::string> doubts_about(const Scene& scene) {
   std::vector<std::string> doubts;
   add_fall(scene, doubts);
+  add_solver(scene, doubts);
   add_parts(scene, doubts);
   add_feeders(scene, doubts);
-  add_backs(scene, doubts);
+  std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
   return doubts;
 }
 
 void refuse_overlapping_start(const Scene& scene) {
   if (scene.parts.empty() || scene.bodies() == 0) return;
-  const World world = world_at_start(scene, true);
+  Random random(scene.seed);
+  const World world(scene, place(scene, random));
   std::vector<std::pair<dGeomID, dGeomID>> pairs;
   world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
     static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);

@@ -19,6 +19,7 @@ struct ContainerPart {
   Role role;
   Mesh mesh;                                       ///< bodies are on the side from which its triangles run anticlockwise
   std::vector<std::array<unsigned int, 2>> edges;  ///< of vertices of the mesh, where a line makes the part easier to see
+  bool two_sided = false;                          ///< whether bodies are on the other side, too
 };
 
 /// The parts of a container. Walls without upper end are shown up to z = top (m); a box has none across periodic axes.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
+#include <variant>
+#include <vector>
 
 #include "output/grain_mesh.hpp"
 #include "output/palette.hpp"
@@ -18,6 +20,10 @@ using supernormal::Vector3;
 
 // Of the smallest half-axis: finer than a pixel of a picture of a bed.
 constexpr double kStillChordError = 0.005;
+
+// The smallest half-axis in POV-Ray's units. A shadow that is cast from nearer than 0.001 of them is left out: in metres, grains of
+// millimetres would have bright spots beside what they touch.
+constexpr double kUnits = 10;
 
 template <typename Numbers>
 std::string vector(const Numbers& numbers) {
@@ -65,31 +71,57 @@ std::string shape(const Grain& grain) {
   return grain.is_capsule ? capsule(body) : superellipsoid(body);
 }
 
+Vector3 vector_of(const Point& point) { return {point[0], point[1], point[2]}; }
+
+/// Where the vertices of a part are. Walls without upper end are shown up to `top` (m).
+std::vector<Vector3> vertices_of(const ContainerPart& part, const PartPlace& place, double top) {
+  std::vector<Vector3> vertices;
+  vertices.reserve(part.mesh.vertices.size());
+  for (const auto& vertex : part.mesh.vertices) {
+    vertices.push_back(vector_of(place(vertex)));
+    if (part.name == "walls") vertices.back().z() = std::min(vertices.back().z(), top);
+  }
+  return vertices;
+}
+
+struct Camera {
+  Vector3 eye;
+  double line;       // m, half of the width of a line, which is some two pixels wide
+  std::string text;  // with the lights
+};
+
 /// A part of the container: what carries grains is solid, and one sees through what surrounds them, of which a still of the last
-/// frame shows edges, as wide as a tenth of a grain. Walls are left out but for their lowest edges, the floor's.
-std::string container(const ContainerPart& part, const PartPlace& place, double grain) {
-  if (place.scale == 0 || part.name == "walls") return {};
+/// frame shows edges. Of a wall between the eye and the grains there are the edges alone: grains that lie on it stick through it by
+/// their overlap, and would show as spots.
+std::string container(const ContainerPart& part, const std::vector<Vector3>& vertices, const Camera& camera) {
   const bool is_solid = part.edges.empty() || part.name == "floor" || part.name == "dish";
-  const auto corner = [&](unsigned int index) { return vector(place(part.mesh.vertices[index])); };
-  std::string text = "\n// " + part.name + "\n";
-  if (!part.mesh.triangles.empty()) {
-    text += "mesh {\n";
-    for (const auto& [a, b, c] : part.mesh.triangles)
-      text += "  triangle { " + corner(a) + ", " + corner(b) + ", " + corner(c) + " }\n";
-    text += is_solid ? "  pigment { rgb 0.9 }\n  finish { ambient 0.1 diffuse 0.8 }\n}\n"
-                     : "  pigment { rgbt <0.75, 0.8, 0.86, 0.85> }\n  finish { ambient 0.1 diffuse 0.5 }\n  no_shadow\n}\n";
+  const auto is_shown = [&](const std::array<unsigned int, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    const Vector3 normal = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
+    return is_solid || part.two_sided || normal.dot(camera.eye - vertices[a]) > 0;
+  };
+  std::string text = "\n// " + part.name + "\n", triangles;
+  for (const auto& corners : part.mesh.triangles) {
+    const auto& [a, b, c] = corners;
+    if (!is_shown(corners)) continue;
+    triangles += "  triangle { " + vector(vertices[a]) + ", " + vector(vertices[b]) + ", " + vector(vertices[c]) + " }\n";
+  }
+  if (!triangles.empty()) {
+    text += "mesh {\n" + triangles +
+            (is_solid ? "  pigment { rgb 0.9 }\n  finish { ambient 0.1 diffuse 0.8 }\n"
+                      : "  pigment { rgbt <0.75, 0.8, 0.86, 0.85> }\n  finish { ambient 0.1 diffuse 0.5 }\n  no_shadow\n") +
+            "  scale Unit\n}\n";
   }
   for (const auto& [a, b] : part.edges) {
     if (is_solid) break;
-    text += "cylinder { " + corner(a) + ", " + corner(b) + ", " + shortest(grain / 20) + " pigment { rgb 0.55 } no_shadow }\n";
+    text += "cylinder { " + vector(vertices[a]) + ", " + vector(vertices[b]) + ", " + shortest(camera.line) +
+            " pigment { rgb 0.55 } no_shadow scale Unit }\n";
   }
   return text;
 }
 
-Vector3 vector_of(const Point& point) { return {point[0], point[1], point[2]}; }
-
-/// A camera to the side and above, from which all grains and a cell just fit into the picture, however wide it is.
-std::string camera_on(const Frame& frame, double radius, const std::vector<ContainerPart>& parts) {
+/// A camera to the side and above, from which all grains and the points of `held` just fit into the picture, however wide it is.
+Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& held) {
   const Extent extent = extent_of(frame, radius);
   const Vector3 least = vector_of(extent.least), most = vector_of(extent.most), centre = 0.5 * (least + most);
   const double size = (most - least).norm();
@@ -107,18 +139,18 @@ std::string camera_on(const Frame& frame, double radius, const std::vector<Conta
   for (const BodyState& body : frame.bodies) {
     if (body.is_present) hold(vector_of(body.position), radius);
   }
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    if (parts[part].role != ContainerPart::Role::Cell) continue;
-    for (const auto& vertex : parts[part].mesh.vertices) hold(vector_of(frame.part_places[part](vertex)), 0);
-  }
+  for (const Vector3& point : held) hold(point, 0);
   const Vector3 light = centre + 4 * size * Vector3(0.1, -0.5, 0.85).normalized();
   const std::string side = shortest(size / 2);
   // The mirrored x makes POV-Ray's frame right-handed.
-  return "#declare Aspect = image_width / image_height;\n#declare High = max(" + shortest(height) + ", " + shortest(width) +
-         " / Aspect);\ncamera {\n  location " + vector(eye) +
-         "\n  sky z\n  right -x * 2 * High * Aspect\n  up y * 2 * High\n  look_at " + vector(centre) + "\n}\nlight_source { " +
-         vector(light) + " rgb 1 area_light " + side + " * x, " + side + " * y, 4, 4 adaptive 1 jitter }\nlight_source { " +
-         vector(eye) + " rgb 0.35 shadowless }\nbackground { rgb 1 }\n";
+  constexpr double kLine = 1e-3;
+  return {eye, kLine * size,
+          "#declare Aspect = image_width / image_height;\n#declare High = max(" + shortest(height) + ", " + shortest(width) +
+              " / Aspect);\ncamera {\n  location Unit * " + vector(eye) +
+              "\n  sky z\n  right -x * 2 * High * Aspect\n  up y * 2 * High\n  look_at Unit * " + vector(centre) +
+              "\n}\nlight_source { Unit * " + vector(light) + " rgb 1 area_light Unit * " + side + " * x, Unit * " + side +
+              " * y, 4, 4 adaptive 1 jitter }\nlight_source { Unit * " + vector(eye) +
+              " rgb 0.35 shadowless }\nbackground { rgb 1 }\n"};
 }
 
 }  // namespace
@@ -126,10 +158,23 @@ std::string camera_on(const Frame& frame, double radius, const std::vector<Conta
 PovrayScene::PovrayScene(const std::filesystem::path& path, const Contents& contents) : path_(path), contents_(contents) {}
 
 void PovrayScene::finish(const std::string& /*summary*/) {
-  std::string text = "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n" +
-                     camera_on(last_, contents_.scene->largest_bounding_radius(), contents_.parts);
-  for (std::size_t part = 0; part < contents_.parts.size(); ++part) {
-    text += container(contents_.parts[part], last_.part_places[part], contents_.scene->smallest_half_axis());
+  const double radius = contents_.scene->largest_bounding_radius();
+  const double top = extent_of(last_, radius).most[2];
+  std::vector<std::vector<Vector3>> vertices;  // of the parts
+  std::vector<Vector3> held;
+  for (std::size_t i = 0; i < contents_.parts.size(); ++i) {
+    const ContainerPart& part = contents_.parts[i];
+    const std::vector<Vector3>& last = vertices.emplace_back(vertices_of(part, last_.part_places[i], top));
+    const bool is_box = part.name == "walls" && std::holds_alternative<Box>(contents_.scene->container);
+    if (is_box || part.role == ContainerPart::Role::Cell) held.insert(held.end(), last.begin(), last.end());
+  }
+  const Camera camera = camera_on(last_, radius, held);
+  // A ray goes through more walls than the five that POV-Ray follows by itself: behind them all is black.
+  std::string text = "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 50 }\n#declare Unit = " +
+                     shortest(kUnits / contents_.scene->smallest_half_axis()) + "; // of POV-Ray, in a metre\n" + camera.text;
+  for (std::size_t i = 0; i < contents_.parts.size(); ++i) {
+    if (last_.part_places[i].scale == 0) continue;  // it is gone
+    text += container(contents_.parts[i], vertices[i], camera);
   }
   for (std::size_t kind = 0; kind < contents_.scene->grains.size(); ++kind) {
     const Grain& grain = contents_.scene->grains[kind].grain;
@@ -149,7 +194,7 @@ void PovrayScene::finish(const std::string& /*summary*/) {
       rows.insert(rows.end(), column.begin(), column.end());
     }
     rows.insert(rows.end(), body.position.begin(), body.position.end());
-    text += "object { Kind" + std::to_string(contents_.kind_of_body[k]) + " matrix " + vector(rows) + " }\n";
+    text += "object { Kind" + std::to_string(contents_.kind_of_body[k]) + " matrix " + vector(rows) + " scale Unit }\n";
   }
   write_file(path_, text);
 }

@@ -25,8 +25,8 @@ void add_walls(const std::string& prefix, const std::array<double, 2>& width, do
 }
 
 /// The inner side of the shell around the y-axis, which reaches beyond the ends.
-Mesh shell_of(const Drum& drum) {
-  Mesh mesh;
+MeshShape shell_of(const Drum& drum) {
+  MeshShape mesh;
   const double beyond = 0.1 * drum.radius();
   const auto count = static_cast<unsigned int>(drum.segments);
   for (const double y : {-beyond, drum.length + beyond}) {

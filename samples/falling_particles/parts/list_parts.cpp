@@ -24,6 +24,7 @@ std::string list_parts() {
   parameters  half_axes, delta, epsilon; taper: along x and y, in [-1, 1], as long as it is convex
 [[part]] shape = "mesh"
   parameters  file: an STL or OBJ file, its path relative to the scene file; unit: m, cm, mm or inch
+              two_sided: true or false, whether it holds grains on both sides; false without it: what is behind a triangle is solid
 [[part.motion]] kind = "velocity"
   parameters  velocity: m/s, each in [-1000, 1000]
               from, until: s, of this and every other kind of motion; the whole run without them

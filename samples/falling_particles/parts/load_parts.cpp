@@ -13,6 +13,7 @@
 #include "parts/load_mesh.hpp"
 #include "parts/load_motion.hpp"
 #include "parts/part_material.hpp"
+#include "parts/two_sided_mesh.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
 namespace falling_particles {
@@ -24,7 +25,7 @@ const std::vector<std::string> kShapes = {"plane", "box", "cylinder", "mesh", "e
 std::vector<std::string> keys_of(const std::string& shape) {
   if (shape == "box") return {"size"};
   if (shape == "cylinder") return {"radius", "length"};
-  if (shape == "mesh") return {"file", "unit"};
+  if (shape == "mesh") return {"file", "unit", "two_sided"};
   if (shape == "ellipsoid") return {"half_axes"};
   if (shape == "superellipsoid") return {"half_axes", "delta", "epsilon"};
   if (shape == "superovoid") return {"half_axes", "delta", "epsilon", "taper"};
@@ -68,8 +69,8 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   return body;
 }
 
-/// Triangles that are there with their corners in both orders. Each pushes what is behind it out in front: grains sink in from both
-/// sides until they are halfway through.
+/// Triangles that are there with their corners in both orders. As they are, each pushes what is behind it out in front: grains sink
+/// in from both sides until they are halfway through.
 std::size_t count_two_sided(const Mesh& mesh) {
   const auto from_lowest = [](std::array<unsigned int, 3> corners) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -93,9 +94,11 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
                            "\"; allowed: an .stl or .obj file, its path relative to the scene file");
   }
   const auto* const found = std::ranges::find(kUnits, unit, [](const auto& entry) { return std::string(entry.first); });
-  Mesh mesh;
+  MeshShape mesh;
+  mesh.two_sided = table.has("two_sided") && table.boolean("two_sided");
   try {
-    mesh = load_mesh((std::filesystem::path(scene_path).parent_path() / name).string(), found->second);
+    static_cast<Mesh&>(mesh) = load_mesh((std::filesystem::path(scene_path).parent_path() / name).string(), found->second);
+    if (mesh.two_sided) mesh.triangles = sheets_of(mesh).triangles;
   } catch (const std::runtime_error& error) {
     table.fail("file", table.full_name("file") + ": " + error.what());
   }
@@ -107,7 +110,8 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
   if (const std::size_t count = count_two_sided(mesh); count > 0) {
     table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + std::to_string(count) +
                            " triangles with their corners in both orders, between which grains would sink; allowed: each triangle "
-                           "once, solid behind; a sheet for both sides is a closed mesh or a box with a thickness");
+                           "once, solid behind, or " +
+                           table.full_name("two_sided") + " = true, which holds grains on both sides");
   }
   return mesh;
 }

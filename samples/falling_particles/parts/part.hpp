@@ -36,7 +36,9 @@ struct SmoothShape {
 };
 
 /// Triangles in the part's frame.
-using MeshShape = Mesh;
+struct MeshShape : Mesh {
+  bool two_sided = false;  ///< whether grains meet it from the side on which their centres are, or from the front alone
+};
 
 using PartShape = std::variant<PlaneShape, BoxShape, CylinderShape, SmoothShape, MeshShape>;
 

@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <supernormal/effects.hpp>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "parts/part.hpp"
+#include "parts/two_sided_mesh.hpp"
 
 namespace falling_particles {
 
@@ -99,6 +101,7 @@ class PartBodies {
     Vector3 axis() const;                // of the drive, in the world's frame
   };
   dGeomID create_geom(const PartShape& shape);
+  dGeomID create_geom(const MeshShape& mesh);
   void add_drive(Entry& entry, const Drive& drive);
   void push(Entry& entry, double now);
   void slide(Entry& entry);
@@ -112,6 +115,7 @@ class PartBodies {
   std::vector<dGeomID> geoms_;
   std::unordered_map<dGeomID, std::size_t> index_of_;
   std::vector<dTriMeshDataID> mesh_data_;
+  std::vector<std::unique_ptr<const TwoSidedMesh>> two_sided_;
 };
 
 }  // namespace falling_particles

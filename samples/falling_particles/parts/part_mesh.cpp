@@ -70,7 +70,7 @@ struct Mesher {
     for (const auto& [a, b, c] : found.triangles) mesh.triangles.push_back({a, b, c});
     return mesh;
   }
-  Mesh operator()(const MeshShape& mesh) const { return mesh; }
+  Mesh operator()(const MeshShape& mesh) const { return {mesh.vertices, mesh.triangles}; }
 };
 
 Vector3 normal_of(const Mesh& mesh, const std::array<unsigned int, 3>& triangle) {
@@ -106,6 +106,8 @@ ContainerPart picture_of(const Part& part, double extent) {
                         {}};
   // Smooth bodies have no edges, however sharply their triangles bend.
   if (!std::holds_alternative<SmoothShape>(part.shape)) picture.edges = sharp_edges(picture.mesh);
+  const auto* const mesh = std::get_if<MeshShape>(&part.shape);
+  picture.two_sided = mesh != nullptr && mesh->two_sided;
   if (part.moves()) return picture;
   for (auto& corner : picture.mesh.vertices) corner = vertex(part.start(Vector3(corner[0], corner[1], corner[2])));
   return picture;

@@ -95,12 +95,8 @@ std::optional<Placement> Feeding::find_place(const Neighbourhood& neighbourhood)
   const Candidate& grain = candidate();
   const double radius = grain.body().bounding_radius();
   for (int i = 0; i < kTries; ++i) {
-    Placement place{feeder_.mixture[state_.next.kind].kind, {}, {}, state_.next.scale};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double room = std::max(0.0, feeder_.region.size[axis] - 2 * radius);
-      place.position[axis] = feeder_.region.corner[axis] + radius + room * state_.random.uniform();
-    }
-    place.quaternion = state_.random.rotation();
+    const std::size_t kind = feeder_.mixture[state_.next.kind].kind;
+    const Placement place = random_place(feeder_.region, kind, state_.next.scale, radius, state_.random);
     grain.put(place);
     const auto is_free = [&](dGeomID geom) { return neighbourhood.is_free(geom); };
     if (std::ranges::all_of(grain.geoms(), is_free)) return place;

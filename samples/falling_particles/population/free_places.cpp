@@ -41,14 +41,25 @@ Neighbourhood::Neighbourhood(const World& world, const Region& region) {
   if (world.parts() != nullptr) std::ranges::for_each(world.parts()->geoms(), add_if_near);
 }
 
-bool Neighbourhood::is_free(dGeomID geom) const {
+dGeomID Neighbourhood::find_overlap(dGeomID geom) const {
   const Aabb own = aabb_of(geom);
-  return std::ranges::none_of(geoms_, [&](dGeomID other) {
+  const auto found = std::ranges::find_if(geoms_, [&](dGeomID other) {
     if (!meet(own, aabb_of(other))) return false;
     snProximity proximity;
     if (snGeomProximity(geom, other, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     return !(proximity.gap > 0);
   });
+  return found == geoms_.end() ? nullptr : *found;
+}
+
+Placement random_place(const Region& region, std::size_t kind, double scale, double radius, Random& random) {
+  Placement place{kind, {}, {}, scale};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double room = std::max(0.0, region.size[axis] - 2 * radius);
+    place.position[axis] = region.corner[axis] + radius + room * random.uniform();
+  }
+  place.quaternion = random.rotation();
+  return place;
 }
 
 }  // namespace falling_particles

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <supernormal/proximity/solve.hpp>
 #include <supernormal/raycast/ray.hpp>
+#include <supernormal/shapes/superellipsoid.hpp>
 #include <utility>
 
 #include "grain_shape.hpp"
@@ -24,6 +29,12 @@ struct Moments {
   double mass = 0;                   // kg
   Vector3 first = Vector3::Zero();   // kg m
   Matrix3 second = Matrix3::Zero();  // kg m^2, of x x^T
+};
+
+/// A stretch of a vertical; empty where its end is not above its start.
+struct Stretch {
+  double start = 0, end = 0;
+  double length() const { return std::max(0.0, end - start); }
 };
 
 struct PlacedPart {
@@ -45,9 +56,18 @@ struct PlacedPart {
   std::pair<double, double> range(int axis) const { return ranges[static_cast<std::size_t>(axis)]; }
   bool is_in_range(int axis, double x) const { return x >= range(axis).first && x <= range(axis).second; }
 
+  /// Where the vertical through x and y is within the part.
+  Stretch chord(double x, double y) const;
+
   std::array<std::pair<double, double>, 3> ranges = find_ranges();
+  std::optional<Matrix3> to_ball = find_to_ball();  // of an ellipsoid: to a frame in which it is the unit ball
 
  private:
+  std::optional<Matrix3> find_to_ball() const {
+    const supernormal::Superellipsoid* const body = shape->as_superellipsoid();
+    if (body == nullptr || body->delta() != 2 || body->epsilon() != 2) return std::nullopt;
+    return Matrix3(body->half_axes().cwiseInverse().asDiagonal() * pose.rotation.transpose());
+  }
   std::array<std::pair<double, double>, 3> find_ranges() const {
     std::array<std::pair<double, double>, 3> found;
     for (int axis = 0; axis < 3; ++axis) {
@@ -58,22 +78,25 @@ struct PlacedPart {
   }
 };
 
-/// A stretch of a vertical; empty where its end is not above its start.
-struct Stretch {
-  double start = 0, end = 0;
-  double length() const { return std::max(0.0, end - start); }
-};
+/// The chord of the unit ball, whose half is the root of a quadratic equation.
+Stretch chord_of_ball(const Vector3& from_centre, const Vector3& up) {
+  const double closest = -from_centre.dot(up) / up.squaredNorm();
+  const double squared = 1 - (from_centre + closest * up).squaredNorm();
+  if (!(squared > 0)) return {};
+  const double half = std::sqrt(squared / up.squaredNorm());
+  return {closest - half, closest + half};
+}
 
-/// Where the vertical through x and y is within a part.
-Stretch chord(const PlacedPart& part, double x, double y) {
-  if (!part.is_in_range(0, x) || !part.is_in_range(1, y)) return {};  // a ray would cost a hundred times as much
-  const auto [bottom, top] = part.range(2);
+Stretch PlacedPart::chord(double x, double y) const {
+  if (!is_in_range(0, x) || !is_in_range(1, y)) return {};  // a ray would cost a hundred times as much
+  if (to_ball) return chord_of_ball(*to_ball * (Vector3(x, y, 0) - pose.position), to_ball->col(2));
+  const auto [bottom, top] = range(2);
   const double margin = top - bottom;
   const Vector3 below(x, y, bottom - margin);
   const Vector3 above(x, y, top + margin);
-  const supernormal::RayHit up = find_ray_hit(*part.shape, part.pose, below, Vector3::UnitZ(), 3 * margin);
+  const supernormal::RayHit up = find_ray_hit(*shape, pose, below, Vector3::UnitZ(), 3 * margin);
   if (!up.hit) return {};
-  const supernormal::RayHit down = find_ray_hit(*part.shape, part.pose, above, -Vector3::UnitZ(), 3 * margin);
+  const supernormal::RayHit down = find_ray_hit(*shape, pose, above, -Vector3::UnitZ(), 3 * margin);
   if (!down.hit) return {};
   return {below.z() + up.distance, above.z() - down.distance};
 }
@@ -119,11 +142,11 @@ void subtract_shared(const PlacedPart& part, const std::vector<PlacedPart>& earl
       const double y = box[1].start + (j + 0.5) * dy;
       const auto is_above = [&](const PlacedPart& other) { return other.is_in_range(0, x) && other.is_in_range(1, y); };
       if (std::ranges::none_of(earlier, is_above)) continue;
-      const Stretch own = chord(part, x, y);
+      const Stretch own = part.chord(x, y);
       if (own.length() == 0) continue;
       std::vector<Stretch> others;
       others.reserve(earlier.size());
-      for (const PlacedPart& other : earlier) others.push_back(chord(other, x, y));
+      for (const PlacedPart& other : earlier) others.push_back(other.chord(x, y));
       for (const Stretch& shared : covered(own, std::move(others))) {
         const double volume = dx * dy * shared.length();
         const double mass = part.density * volume;
@@ -139,8 +162,26 @@ void subtract_shared(const PlacedPart& part, const std::vector<PlacedPart>& earl
   }
 }
 
-Moments moments_of(const std::vector<PlacedPart>& parts) {
+/// Tells on stderr, once, when what parts of a compound share takes long.
+class Patience {
+ public:
+  explicit Patience(std::string name) : name_(std::move(name)) {}
+  void after(std::size_t done, std::size_t all) {
+    constexpr std::chrono::milliseconds kLong(500);
+    if (has_told_ || done == all || std::chrono::steady_clock::now() - start_ < kLong) return;
+    has_told_ = true;
+    std::fprintf(stderr, "Mass of grain \"%s\": what its %zu bodies share is being worked out\n", name_.c_str(), all);
+  }
+
+ private:
+  std::string name_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  bool has_told_ = false;
+};
+
+Moments moments_of(const std::string& name, const std::vector<PlacedPart>& parts) {
   Moments sum;
+  Patience patience(name);
   std::vector<PlacedPart> before;
   before.reserve(parts.size());
   for (const PlacedPart& part : parts) {
@@ -153,6 +194,7 @@ Moments moments_of(const std::vector<PlacedPart>& parts) {
     std::ranges::copy_if(before, std::back_inserter(earlier), [&part](const PlacedPart& other) { return overlaps(other, part); });
     if (!earlier.empty()) subtract_shared(part, earlier, sum);
     before.push_back(part);
+    patience.after(before.size(), parts.size());
   }
   return sum;
 }
@@ -163,7 +205,7 @@ Grain make_compound(std::string name, std::vector<GrainPart> parts, std::string 
   std::vector<PlacedPart> placed;
   placed.reserve(parts.size());
   for (const GrainPart& part : parts) placed.push_back({shape_of(part.body), pose_of(part), part.density});
-  const Moments moments = moments_of(placed);
+  const Moments moments = moments_of(name, placed);
   const Vector3 centre = moments.first / moments.mass;
   const Matrix3 central = moments.second - moments.mass * centre * centre.transpose();
   const Matrix3 inertia = central.trace() * Matrix3::Identity() - central;

@@ -74,8 +74,10 @@ class PresentBodies {
   std::span<const std::size_t> indices_;
 };
 
-/// The body of a geom in a World; null for a wall.
-inline const Body* body_of(dGeomID geom) { return static_cast<const Body*>(dGeomGetData(geom)); }
+/// The body of a geom in a World; null for a wall, of which a mesh may have data of its own.
+inline const Body* body_of(dGeomID geom) {
+  return dGeomGetClass(geom) == dTriMeshClass ? nullptr : static_cast<const Body*>(dGeomGetData(geom));
+}
 
 inline supernormal::effects::Material material_of(dGeomID geom) {
   return body_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;

@@ -16,6 +16,7 @@
 #include <sstream>
 #include <utility>
 
+#include "checkpoint/read_file.hpp"  // of samples/falling_particles
 #include "orientation.hpp"
 
 namespace fit {
@@ -188,6 +189,9 @@ Data read_data(const std::string& path, double scale) {
   const bool is_text = extension == ".xyz";
   if (!is_text && std::ranges::find(kMeshes, extension) == kMeshes.end()) {
     throw InputError(path + ": unknown extension \"" + extension + "\"; allowed: " + kExtensions);
+  }
+  if (const std::string other = falling_particles::what_is_no_file(path); !other.empty()) {
+    throw InputError(path + ": " + other + ", and no file");
   }
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
   Data data = is_text ? read_text(path) : read_by_assimp(path);

@@ -3,6 +3,7 @@
 
 #include <supernormal/supernormal.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -147,7 +148,11 @@ void print_all() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Compares settings of quickstep for bodies that rest: unrest, sleep, and how those that start in the floor come out");
+  app.footer("Prints tables in Markdown, in some minutes. It takes no options.");
+  CLI11_PARSE(app, argc, argv);
   try {
     print_all();
   } catch (const std::exception& error) {

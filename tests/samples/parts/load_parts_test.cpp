@@ -204,7 +204,11 @@ TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said")
   check_says(refusal("points.obj", "mm"), {"part.file", "points.obj"});
   check_says(refusal("broken.stl", "mm"), {"part.file", "broken.stl", "cannot be read"});
   check_says(refusal("nan.stl", "mm"), {"part.file", "nan.stl\" has a coordinate that is not finite"});
-  check_says(refusal("twice.obj", "m"), {"part.file: \"twice.obj\" has 1 triangles with their corners in both orders"});
+  check_says(refusal("twice.obj", "m"),
+             {"part.file: \"twice.obj\" has 1 triangles with their corners in both orders", "part.two_sided = true"});
+  const auto sheet = std::get<MeshShape>(load("twice.obj", "m\"\ntwo_sided = true # ").parts[0].shape);
+  CHECK(sheet.two_sided);
+  CHECK(sheet.triangles.size() == 1);
   check_says(refusal("t.step", "mm"), {"part.file is \"t.step\"", ".stl or .obj"});
   check_says(refusal("t.stl", "ft"), {"part.unit is \"ft\"", "inch"});
 }

@@ -229,8 +229,8 @@ TEST_CASE("a grain that rides on a part that turns stays at its distance from th
 }
 
 TEST_CASE("a ball rests on every shape, where its surface is, and is lifted with it") {
-  const MeshShape square{{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}},
-                         {{0, 1, 2}, {0, 2, 3}}};
+  const MeshShape square{
+      {{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}}, {{0, 1, 2}, {0, 2, 3}}}};
   const std::vector<std::pair<PartShape, double>> shapes = {
       {PlaneShape{}, 0},
       {BoxShape{{0.1, 0.1, 0.04}}, 0.02},
