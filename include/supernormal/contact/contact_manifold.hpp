@@ -28,20 +28,17 @@ struct ManifoldCorner {
 /// have depth 0. The region does not shrink to a point as the depth goes to nothing, nor as it grows. lib/contact/README.md has the
 /// construction, its proofs and measurements.
 struct ContactManifold {
-  static constexpr int kMaxCorners = 4;   ///< the most corners that a manifold has
-  static constexpr int kMaxContacts = 5;  ///< the most contacts: the corners, and one at the centre
+  static constexpr int kMaxCorners = 4;  ///< the most corners that a manifold has
 
   ContactManifold() = default;
   /// One contact, without corners.
   ContactManifold(const Proximity& proximity) : deepest(proximity) {}  // NOLINT(google-explicit-constructor): one point is one
 
   Proximity deepest;  ///< the point with the depth of the overlap: the contact if there are no corners
-  std::array<ManifoldCorner, kMaxContacts> corners{};  ///< the first corner_count are valid, in order around the contact
-  int corner_count = 0;                                ///< 0 or 4, some of which may be at the same place; see reduced_to()
-  bool has_centre = false;                             ///< for contacts ahead (contacts_ahead.hpp)
-  ManifoldCorner centre;                               ///< a contact in line with the centre of mass, if it has one
-  double same_place = 0;                               ///< m; corners that are nearer to each other are one contact
-  double margin = 0;                                   ///< m; the bodies are apart by no more than this at a corner
+  std::array<ManifoldCorner, kMaxCorners> corners{};  ///< the first corner_count are valid, in order around the contact
+  int corner_count = 0;                               ///< 0 or 4, some of which may be at the same place; see reduced_to()
+  double same_place = 0;                              ///< m; corners that are nearer to each other are one contact
+  double margin = 0;                                  ///< m; the bodies are apart by no more than this at a corner
   double reach = 0;     ///< m; what has a larger gap is no contact; 0 but for contacts ahead (contacts_ahead.hpp)
   double shallow = 0;   ///< m; a corner this much above the deepest weighs least where two are united; 0: the depth of the overlap
   int evaluations = 0;  ///< boundary points of one body that finding the corners took
@@ -57,7 +54,7 @@ SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, 
 
 /// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places, deepest first, or the
 /// deepest point alone where there are none. The first has the depth of the overlap. With room for two or three, neighbours are
-/// united at a place between them. The contact at the centre takes one place of the room. The result is as continuous as the
+/// united at a place between them. The result is as continuous as the
 /// manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 

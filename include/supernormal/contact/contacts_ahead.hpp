@@ -28,7 +28,8 @@ SUPERNORMAL_API ContactManifold find_plane_manifold_of_gaps(const Shape& shape, 
 /// What is known of a body's motion in the time to come.
 struct Motion {
   Vector3 velocity = Vector3::Zero();  ///< m/s; of the origin of the body's frame
-  Vector3 centre = Vector3::Zero();    ///< m; the centre of mass, in the frame of the pose
+  Vector3 centre = Vector3::Zero();    ///< m; the centre of mass, in the frame that the pose refers to
+  Matrix3 turning = Matrix3::Zero();   ///< 1/m^2; the inverse of the inertia tensor times the mass, in the same frame
   double turn_rate = 0;                ///< rad/s
   double arm = 0;                      ///< m; no point of the body is farther from what it turns about
   double acceleration = 0;             ///< m/s^2; the most that gravity and known forces change the velocity
@@ -54,9 +55,8 @@ struct MovingBody {
 /// though the tangent planes of now are in its way. `now` is the proximity of the two at their poses, with settings that do not
 /// stop where the bodies are apart. lib/contact/README.md has the construction.
 ///
-/// Where the bodies would come so much nearer that an impact at one end turns them by a large angle within the time, there is one
-/// contact more, ContactManifold::centre. It is in line with the centre of mass, and lets that come no nearer than a small turn
-/// allows: the other contacts alone would let the centre go on through a wall while the body spins.
+/// An impact that would turn a body by a large angle within the time acts nearer to the line through its centre of mass, so that
+/// the turn is small: contacts are linear in the motion, and one at the end of a body would let the centre go on through a wall.
 ///
 /// Contacts are those with a gap up to ContactManifold::reach; Status::Apart if there are none. Where the bodies are moved out of
 /// the range of poses, or a motion is not finite, the manifold is that of the poses of now.

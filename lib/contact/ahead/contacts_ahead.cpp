@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/ahead/central_contact.hpp"
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
+#include "contact/ahead/small_turn.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -62,7 +62,7 @@ ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& b
   take_back(manifold, body1, body2, meeting.time, share, now.gap);
   manifold.deepest.evaluations = meeting.evaluations;
   manifold.reach = reach;
-  hold_centre(body1, body2, time, share, manifold);
+  limit_turn(body1, body2, time, share, manifold);
   return manifold;
 }
 
@@ -75,7 +75,7 @@ ContactManifold find_plane_contacts_ahead(const MovingBody& body, double time, c
   if (now.gap > reach) return none(now, now.evaluations);
   ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now);
   manifold.reach = reach;
-  hold_centre(body, {body.shape, body.pose, {}}, time, 1, manifold);
+  limit_turn(body, {body.shape, body.pose, {}}, time, 1, manifold);
   return manifold;
 }
 

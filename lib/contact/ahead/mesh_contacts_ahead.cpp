@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/ahead/central_contact.hpp"
 #include "contact/ahead/meeting.hpp"
 #include "contact/ahead/nearness.hpp"
+#include "contact/ahead/small_turn.hpp"
 #include "contact/mesh/mesh_triangle.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
@@ -185,7 +185,7 @@ void MeshContactsAhead::add(const Search& search, const Proximity& there, int tr
   draw_in_corners(manifold, search.triangles);
   take_back(manifold, way, search.share);
   manifold.reach = search.reach;
-  hold_centre(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
+  limit_turn(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
     return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal &&
            std::abs(other.manifold.deepest.gap - manifold.deepest.gap) < kSameGap * search.near;

@@ -80,7 +80,7 @@ void remove_repeated(ContactManifold& manifold) {
   const double distance = kMoved * manifold.same_place;
   const auto kept = manifold.corners.begin();
   auto end = kept;
-  for (const ManifoldCorner& corner : std::span(manifold.corners).first<ContactManifold::kMaxCorners>()) {
+  for (const ManifoldCorner& corner : manifold.corners) {
     const auto there = std::find_if(
         kept, end, [&](const ManifoldCorner& other) { return (other.point - corner.point).squaredNorm() <= distance * distance; });
     const double depth = there == end ? corner.depth : std::max(there->depth, corner.depth);
@@ -104,18 +104,6 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
         [&](const ManifoldCorner& corner, const ManifoldCorner& other) { return units_above(corner) < units_above(other); });
     std::rotate(place, next, next + 1);
   }
-}
-
-/// Reduces a manifold with a contact at the centre, which comes last. With room for one it is the only one.
-ContactManifold with_centre(ContactManifold manifold, int room) {
-  manifold.has_centre = false;
-  manifold = reduced_to(manifold, room - 1);
-  if (manifold.corner_count == 0 && room > 1) {
-    manifold.corners[0] = {manifold.deepest.contact, -manifold.deepest.gap};
-    manifold.corner_count = 1;
-  }
-  manifold.corners[static_cast<std::size_t>(manifold.corner_count++)] = manifold.centre;
-  return manifold;
 }
 
 }  // namespace
@@ -160,10 +148,9 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
 // become one: so no force jumps. Quickstep starts each step from zero and ends before it has converged, so that the contact that
 // comes first carries more: with the deepest first, bodies drift least (lib/contact/README.md).
 ContactManifold reduced_to(ContactManifold manifold, int room) {
-  if (manifold.has_centre) return with_centre(manifold, room);
   if (room < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
-  const std::span<ManifoldCorner> corners = std::span(manifold.corners).first<ContactManifold::kMaxCorners>();
+  std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
   const double depth = -manifold.deepest.gap;
   const double shallow = std::max(depth, manifold.shallow);
   const double least_weight = kLeastShare * shallow;
@@ -171,7 +158,7 @@ ContactManifold reduced_to(ContactManifold manifold, int room) {
   if (room < 3) unite(corners[2], corners[3], depth - shallow, least_weight);
   draw_together(corners, manifold.same_place);
   remove_repeated(manifold);
-  put_deepest_first(corners.first(static_cast<std::size_t>(manifold.corner_count)), manifold.shallow);
+  put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, manifold.shallow);
   corners[0].depth = depth;  // but for rounding it is
   return manifold;
 }

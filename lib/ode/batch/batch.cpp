@@ -22,7 +22,7 @@ bool is_solid_pair(dGeomID g1, dGeomID g2) {
 
 int Batch::collide(dSpaceID space, int room, const BatchCallbacks& callbacks) {
   room_ = room;
-  room_of_job_ = std::min(room, ContactManifold::kMaxContacts);
+  room_of_job_ = std::min(room, ContactManifold::kMaxCorners);
   callbacks_ = &callbacks;
   has_run_out_ = false;
   items_.clear();

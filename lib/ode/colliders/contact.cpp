@@ -57,11 +57,11 @@ class Shares {
 
   /// The room for the next manifold.
   int next(const ContactManifold& manifold) {
-    const int wanted = std::max(0, reduced_to(manifold, ContactManifold::kMaxContacts).corner_count - 1);
+    const int wanted = std::max(0, reduced_to(manifold, ContactManifold::kMaxCorners).corner_count - 1);
     const int share = std::min(wanted, (spare_ + left_ - 1) / left_);
     spare_ -= share;
     --left_;
-    return share == wanted ? ContactManifold::kMaxContacts : 1 + share;
+    return share == wanted ? ContactManifold::kMaxCorners : 1 + share;
   }
 
  private:

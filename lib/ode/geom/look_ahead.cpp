@@ -1,6 +1,7 @@
 #include "ode/geom/look_ahead.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <atomic>
 
 #include "ode/geom/convert.hpp"
@@ -21,11 +22,10 @@ double acceleration_of(dBodyID body, double mobility) {
   return acceleration.norm();
 }
 
-double mobility_of(dBodyID body) {
-  if (dBodyIsKinematic(body) != 0) return 0;
-  dMass mass;
-  dBodyGetMass(body, &mass);
-  return 1 / double{mass.mass};
+/// 1/m^2; the inverse of the inertia tensor times the mass, in the world frame.
+Matrix3 turning_of(dBodyID body, const dMass& mass) {
+  const Matrix3 rotation = to_rotation(dBodyGetRotation(body));
+  return double{mass.mass} * (rotation * to_rotation(mass.I).inverse() * rotation.transpose());
 }
 
 }  // namespace
@@ -42,7 +42,12 @@ Motion motion_of(dGeomID geom, const Vector3& origin, double radius) {
   const dBodyID body = dGeomGetBody(geom);
   if (body == nullptr) return motion;
   motion.centre = to_vector(dBodyGetPosition(body));
-  motion.mobility = mobility_of(body);
+  if (dBodyIsKinematic(body) == 0) {
+    dMass mass;
+    dBodyGetMass(body, &mass);
+    motion.mobility = 1 / double{mass.mass};
+    motion.turning = turning_of(body, mass);
+  }
   if (dBodyIsEnabled(body) == 0) return motion;
   const Vector3 turn = to_vector(dBodyGetAngularVel(body));
   const Vector3 from_centre = origin - motion.centre;
