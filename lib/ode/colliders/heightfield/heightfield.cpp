@@ -129,7 +129,10 @@ Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
 }
 
 Motion in_frame(Motion world, const Pose& frame) {
-  world.velocity = frame.rotation.transpose() * world.velocity;
+  const Matrix3 to_frame = frame.rotation.transpose();
+  world.velocity = to_frame * world.velocity;
+  world.centre = to_frame * (world.centre - frame.position);
+  world.turning = to_frame * world.turning * frame.rotation;
   return world;
 }
 
