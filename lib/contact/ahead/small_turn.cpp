@@ -99,16 +99,9 @@ void limit_turn(const MovingBody& body1, const MovingBody& body2, double time, d
   const double turn = time * (share * body1.motion.turn_rate + (1 - share) * body2.motion.turn_rate);
   const Impact impact{body1, body2, share, normal, approach, turn, std::max(0.0, height)};
   const Vector3 arm = arm_of(nearest_place(manifold, contact - arm_of(contact)));
-  const Vector3 shift = (impact.part_for_small_turn(arm) - 1) * arm;
-  // What a face leans shrinks with the lever.
-  const double depth = -manifold.deepest.gap;
-  const auto drawn_in = [&](const ManifoldCorner& corner) {
-    const Vector3 own = arm_of(corner.point + shift);
-    const double part = impact.part_for_height(own);
-    return ManifoldCorner{corner.point + shift + (part - 1) * own, depth + part * (corner.depth - depth)};
-  };
-  manifold.deepest.contact = drawn_in({manifold.deepest.contact, depth}).point;
-  for (ManifoldCorner& corner : manifold.corners) corner = drawn_in(corner);
+  const Vector3 shift = (std::min(impact.part_for_small_turn(arm), impact.part_for_height(arm)) - 1) * arm;
+  manifold.deepest.contact += shift;
+  for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
 }
 
 }  // namespace supernormal
