@@ -59,7 +59,7 @@ struct MovingBody {
 /// the turn is small: contacts are linear in the motion, and one at the end of a body would let the centre go on through a wall.
 ///
 /// Contacts are those with a gap up to ContactManifold::reach; Status::Apart if there are none. Where the bodies are moved out of
-/// the range of poses, or a motion is not finite, the manifold is that of the poses of now.
+/// the range of poses, the manifold is that of the poses of now. Where a motion is not finite, both count as standing still.
 SUPERNORMAL_API ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& body2, double time,
                                                     const Settings& settings, const Proximity& now);
 

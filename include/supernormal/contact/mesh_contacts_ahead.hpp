@@ -46,9 +46,9 @@ class SUPERNORMAL_API MeshContactsAhead {
  private:
   struct Search;
 
-  bool holds_back(const Vector3& velocity) const;
-  void add_contacts(const Search& search, const Vector3& way);
-  void add(const Search& search, const Proximity& there, int triangle, const Vector3& way);
+  SUPERNORMAL_LOCAL bool holds_back(const Vector3& velocity) const;
+  SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
+  SUPERNORMAL_LOCAL void add(const Search& search, const Proximity& there, int triangle, const Vector3& way);
 
   MeshContacts contacts_;
   std::vector<MeshManifold> found_;

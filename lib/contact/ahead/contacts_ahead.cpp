@@ -11,11 +11,6 @@
 namespace supernormal {
 namespace {
 
-bool is_finite(const Motion& motion) {
-  return motion.velocity.allFinite() && std::isfinite(motion.turn_rate) && std::isfinite(motion.arm) &&
-         std::isfinite(motion.acceleration) && std::isfinite(motion.mobility);
-}
-
 /// Takes a manifold at the poses after `time` back to those of now. A contact keeps its place on the bodies, on each as much as it
 /// has its share in the motion.
 void take_back(ContactManifold& manifold, const MovingBody& body1, const MovingBody& body2, double time, double share,
@@ -48,14 +43,16 @@ double nearness(const Motion& motion, double time, double size) { return nearnes
 ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& body2, double time, const Settings& settings,
                                     const Proximity& now) {
   if (now.status == Status::InvalidInput) return now;
+  if (!is_finite(body1.motion) || !is_finite(body2.motion)) {
+    return find_contacts_ahead({body1.shape, body1.pose, {}}, {body2.shape, body2.pose, {}}, time, settings, now);
+  }
   const double share = share_of_first(body1.motion, body2.motion);
   const double size = smaller_thickness(body1.shape, body2.shape);
   const double near = nearness_of_both(body1.motion, body2.motion, time, size);
-  const Vector3 velocity = body1.motion.velocity - body2.motion.velocity;
-  Meeting meeting{0, now, false, now.evaluations};
-  if (is_finite(body1.motion) && is_finite(body2.motion)) meeting = find_meeting(body1, body2, time, size, settings, now);
-  const double reach = velocity.norm() * time + near;
-  if (!meeting.hits && meeting.there.gap > (meeting.time > 0 ? near : reach)) return none(now, meeting.evaluations);
+  const double reach = (body1.motion.velocity - body2.motion.velocity).norm() * time + near;
+  if (now.gap > reach) return none(now, now.evaluations);
+  const Meeting meeting = find_meeting(body1, body2, time, size, settings, now);
+  if (!meeting.hits && meeting.time > 0 && meeting.there.gap > near) return none(now, meeting.evaluations);
   const MovingBody there1 = moved(body1, meeting.time);
   const MovingBody there2 = moved(body2, meeting.time);
   ContactManifold manifold = find_manifold_of_gaps(there1.shape, there1.pose, there2.shape, there2.pose, meeting.there, share);
@@ -69,6 +66,7 @@ ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& b
 // The tangent plane is the same wherever the body is moved, and its gap shrinks evenly: the impact need not be looked for.
 ContactManifold find_plane_contacts_ahead(const MovingBody& body, double time, const Proximity& now) {
   if (now.status == Status::InvalidInput) return now;
+  if (!is_finite(body.motion)) return find_plane_contacts_ahead({body.shape, body.pose, {}}, time, now);
   const double size = body.shape.half_extents().minCoeff();
   const double closing = std::max(0.0, body.motion.velocity.dot(now.normal));
   const double reach = closing * time + nearness(body.motion, time, size);

@@ -119,6 +119,7 @@ struct MeshContactsAhead::Search {
 };
 
 MeshContactsAhead::Reach MeshContactsAhead::reach_of(const MovingBody& body, const Motion& surface, double time) {
+  if (!is_finite(body.motion) || !is_finite(surface)) return reach_of({body.shape, body.pose, {}}, {}, time);
   const Vector3 half_way = 0.5 * time * (body.motion.velocity - surface.velocity);
   const double size = body.shape.half_extents().minCoeff();
   // The places on the way along a wall are on the sphere around the way without the wall (Thales).
@@ -127,6 +128,9 @@ MeshContactsAhead::Reach MeshContactsAhead::reach_of(const MovingBody& body, con
 
 std::span<const MeshManifold> MeshContactsAhead::find(const MovingBody& body, const Motion& surface, double time,
                                                       std::span<const MeshTriangle> triangles, const Settings& settings) {
+  if (!is_finite(body.motion) || !is_finite(surface)) {
+    return find({body.shape, body.pose, {}}, {}, time, triangles, settings);
+  }
   found_.clear();
   evaluations_ = 0;
   const double size = body.shape.half_extents().minCoeff();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "supernormal/contact/contacts_ahead.hpp"
 
@@ -17,6 +18,12 @@ inline double turn_of(const Motion& motion, double time) { return motion.arm * s
 inline double nearness_of_both(const Motion& motion1, const Motion& motion2, double time, double size) {
   const double acceleration = std::max(motion1.acceleration, motion2.acceleration);
   return turn_of(motion1, time) + turn_of(motion2, time) + acceleration * time * time + kSlack * size;
+}
+
+inline bool is_finite(const Motion& motion) {
+  return motion.velocity.allFinite() && motion.centre.allFinite() && motion.turning.allFinite() &&
+         std::isfinite(motion.turn_rate) && std::isfinite(motion.arm) && std::isfinite(motion.acceleration) &&
+         std::isfinite(motion.mobility);
 }
 
 /// The share of body 1 in the motion of both.

@@ -84,9 +84,10 @@ struct Impact {
 
 void limit_turn(const MovingBody& body1, const MovingBody& body2, double time, double share, ContactManifold& manifold) {
   const Vector3& normal = manifold.deepest.normal;
-  const double acceleration = std::max(body1.motion.acceleration, body2.motion.acceleration);
-  const double closing = normal.dot(body1.motion.velocity - body2.motion.velocity) + acceleration * time;
-  const double approach = closing * time - manifold.deepest.gap;
+  const double closing = normal.dot(body1.motion.velocity - body2.motion.velocity);
+  // What accelerates bodies at rest is held up by all their contacts together: it does not turn them.
+  const double gained = std::min(closing, time * std::max(body1.motion.acceleration, body2.motion.acceleration));
+  const double approach = (closing + gained) * time - manifold.deepest.gap;
   if (!(approach > 0)) return;
   const Vector3 centre = share * body1.motion.centre + (1 - share) * body2.motion.centre;
   const auto arm_of = [&](const Vector3& place) {
