@@ -13,7 +13,7 @@ using namespace supernormal;
 
 namespace {
 
-constexpr double kTime = 0.01;  // s
+constexpr double kStep = 0.01;  // s
 
 const Ellipsoid kBall(Vector3(0.05, 0.05, 0.05));
 
@@ -23,7 +23,7 @@ std::vector<MeshTriangle> corner() {
   return {{{a, b, c}, 0}, {{a, c, d}, 1}, {{b, e, f}, 2}, {{b, f, c}, 3}};
 }
 
-MovingBody moving(const Shape& shape, const Vector3& position, const Vector3& velocity) {
+MovingBody flying(const Shape& shape, const Vector3& position, const Vector3& velocity) {
   Motion motion;
   motion.velocity = velocity;
   motion.centre = position;
@@ -38,8 +38,8 @@ TEST_CASE("a ball that hits the floor slides on into the wall behind") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
   // Straight on it would pass below the floor, and below the wall.
-  const MovingBody ball = moving(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
-  const auto found = ahead.find(ball, {}, kTime, triangles);
+  const MovingBody ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
+  const auto found = ahead.find(ball, {}, kStep, triangles);
   REQUIRE(found.size() == 2);
   CHECK((found[0].manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-6);
   CHECK(found[0].manifold.deepest.gap == doctest::Approx(0.1));
@@ -53,7 +53,7 @@ TEST_CASE("from behind there is no impact, and what moves away or is too slow ha
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
   const auto has_contact = [&](const Vector3& position, const Vector3& velocity) {
-    const auto found = ahead.find(moving(kBall, position, velocity), {}, kTime, triangles);
+    const auto found = ahead.find(flying(kBall, position, velocity), {}, kStep, triangles);
     return !found.empty() && found.front().manifold.deepest.gap <= found.front().manifold.reach;
   };
   CHECK(has_contact(Vector3(0, 0, 0.15), Vector3(0, 0, -50)));
@@ -67,15 +67,15 @@ TEST_CASE("the surface moves as well") {
   const std::vector<MeshTriangle> triangles = corner();
   Motion surface;
   surface.velocity = Vector3(0, 0, 20);
-  const auto found = ahead.find(moving(kBall, Vector3(0, 0, 0.15), Vector3::Zero()), surface, kTime, triangles);
+  const auto found = ahead.find(flying(kBall, Vector3(0, 0, 0.15), Vector3::Zero()), surface, kStep, triangles);
   REQUIRE(found.size() == 1);
   CHECK(found[0].manifold.deepest.gap == doctest::Approx(0.1));
 }
 
 TEST_CASE("the triangles that count are within the reach, and no others") {
   MeshContactsAhead ahead;
-  const MovingBody ball = moving(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
-  const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(ball, {}, kTime);
+  const MovingBody ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
+  const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(ball, {}, kStep);
   // Every place on the way, and those of the way along the floor, are within the box.
   for (const Vector3& way : {Vector3(0, 0, 0), Vector3(0.4, 0, -0.1), Vector3(2, 0, -0.5), Vector3(2, 0, -0.1)}) {
     CHECK(((way - reach.middle).array().abs() <= reach.margin).all());
@@ -88,7 +88,7 @@ TEST_CASE("a brick comes to rest on a sheet with four corners, and those over th
   const std::vector<MeshTriangle> table = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},
                                            {{Vector3(-1, -1, 0), Vector3(0, 1, 0), Vector3(-1, 1, 0)}, 1}};
   for (const double gap : {3e-4, 0.0, -1e-5}) {
-    const auto found = ahead.find(moving(brick, Vector3(-0.05, 0, 0.05 + gap), Vector3::Zero()), {}, kTime, table);
+    const auto found = ahead.find(flying(brick, Vector3(-0.05, 0, 0.05 + gap), Vector3::Zero()), {}, kStep, table);
     REQUIRE(found.size() == 1);
     const ContactManifold& manifold = found[0].manifold;
     REQUIRE(manifold.corner_count == 4);
