@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/ahead/meeting.hpp"
 #include "contact/manifold/convex_polygon.hpp"
 #include "proximity/tangent_plane.hpp"
 
@@ -17,6 +18,10 @@ constexpr double kLargestTurnBefore = 0.2;
 
 // From this multiple of the largest turn on, the lever is that of the largest turn; below it is in between, so that no force jumps.
 constexpr double kFarTooLarge = 2;
+
+// An impact that is faster than this, in smallest half-extents within the time, has one contact: quickstep's 20 iterations leave a
+// share of some 1e-3 of a velocity that several contacts stop together.
+constexpr double kOneContact = 100;
 
 // A ball around the centre that is in the body, as a share of the smallest half-extent: that of an octahedron is 0.577.
 constexpr double kInnerBall = 0.5;
@@ -101,8 +106,13 @@ void limit_turn(const MovingBody& body1, const MovingBody& body2, double time, d
                         std::min(0.0, manifold.deepest.gap);
   const double turn = time * (share * body1.motion.turn_rate + (1 - share) * body2.motion.turn_rate);
   const Impact impact{body1, body2, share, normal, approach, farthest, turn, std::max(0.0, height)};
-  const Vector3 arm = arm_of(nearest_place(manifold, contact - arm_of(contact)));
+  const Vector3 place = nearest_place(manifold, contact - arm_of(contact));
+  const Vector3 arm = arm_of(place);
   const Vector3 shift = (std::min(impact.part_for_small_turn(arm), impact.part_for_height(arm)) - 1) * arm;
+  if (approach > kOneContact * smaller_thickness(body1.shape, body2.shape)) {
+    manifold.deepest.contact = place;
+    manifold.corner_count = 0;
+  }
   manifold.deepest.contact += shift;
   for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
 }
