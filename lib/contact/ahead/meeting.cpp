@@ -9,9 +9,6 @@
 namespace supernormal {
 namespace {
 
-// An overlap by less than this share of the size on the way is no impact.
-constexpr double kGraze = 0.01;
-
 // A way that is shorter than this share of that overlap changes no contact: the poses of now will do.
 constexpr double kNoWay = 0.1;
 

@@ -7,6 +7,9 @@
 
 namespace supernormal {
 
+// An overlap by less than this share of the size on the way is no impact.
+inline constexpr double kGraze = 0.01;
+
 struct Meeting {
   double time = 0;      ///< s from now; 0: the poses of now will do
   Proximity there;      ///< of the bodies, moved without rotation for so long

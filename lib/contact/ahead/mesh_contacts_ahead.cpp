@@ -116,6 +116,7 @@ struct MeshContactsAhead::Search {
   double near;   // m; a gap up to this is a contact
   double reach;  // m
   double share;  // of the body in the motion of both
+  double graze;  // m; a body that is in the surface by more has met it
 };
 
 MeshContactsAhead::Reach MeshContactsAhead::reach_of(const MovingBody& body, const Motion& surface, double time) {
@@ -145,7 +146,9 @@ std::span<const MeshManifold> MeshContactsAhead::find(const MovingBody& body, co
                       settings,
                       near,
                       there.motion.velocity.norm() * time + near,
-                      share_of_first(body.motion, surface)};
+                      share_of_first(body.motion, surface),
+                      kGraze * size};
+  add_overlaps(search);
   double left = time;
   for (int impact = 0; impact < kMostImpacts; ++impact) {
     FirstImpact first(there, left, size, settings);
@@ -176,6 +179,16 @@ bool MeshContactsAhead::holds_back(const Vector3& velocity) const {
   });
 }
 
+/// A body that is in the surface already is held by the contacts of now, wherever it goes.
+void MeshContactsAhead::add_overlaps(const Search& search) {
+  const std::span<const MeshContact> contacts =
+      contacts_.find(search.body.shape, search.body.pose, search.triangles, search.settings);
+  evaluations_ += contacts_.evaluations();
+  for (const MeshContact& contact : contacts) {
+    if (contact.proximity.gap <= -search.graze) add(search, contact.proximity, contact.triangle, Vector3::Zero());
+  }
+}
+
 void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
   // The sweep refers to the body's shape and does not own it.
   const Rounded swept(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &search.body.shape), search.near);
@@ -192,7 +205,7 @@ void MeshContactsAhead::add(const Search& search, const Proximity& there, int tr
   limit_turn(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
     return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal &&
-           std::abs(other.manifold.deepest.gap - manifold.deepest.gap) < kSameGap * search.near;
+           other.manifold.deepest.gap < manifold.deepest.gap + kSameGap * search.near;
   });
   if (same == found_.end()) found_.push_back({manifold, triangle});
 }
