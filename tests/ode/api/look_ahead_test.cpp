@@ -1,16 +1,14 @@
 // Tests of the functions for contacts before overlap: what they refuse, and what they change.
 #include <doctest/doctest.h>
 
-#include <cstring>
-
 #include "ode/ode_world.hpp"
 
 using namespace supernormal::test;
 
 namespace {
 
-constexpr dReal kNan = std::numeric_limits<dReal>::quiet_NaN();
-constexpr dReal kInfinity = std::numeric_limits<dReal>::infinity();
+constexpr dReal kNoTime = std::numeric_limits<dReal>::quiet_NaN();
+constexpr dReal kEternity = std::numeric_limits<dReal>::infinity();
 
 dContact contact_of_depth(dReal depth) {
   dContact contact{};
@@ -32,7 +30,7 @@ TEST_CASE("a time that is none is refused, with its value and the range, and not
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Vec before = size_of_box(geom);
-  for (const dReal time : {dReal(-1), kNan, kInfinity, dReal(2e6)}) {
+  for (const dReal time : {dReal(-1), kNoTime, kEternity, dReal(2e6)}) {
     CHECK(snGeomSetLookAhead(geom, time) == 0);
     CHECK(refused_with("snGeomSetLookAhead: time = "));
     CHECK(refused_with("[0, 1000000"));
@@ -66,7 +64,7 @@ TEST_CASE("snContactLookAhead lets a gap close within the step, and leaves other
     CHECK(contact.geom.depth == depth);
     CHECK(contact.surface.mode == dContactApprox1);
   }
-  for (const dReal step : {dReal(0), dReal(-1), kNan, kInfinity}) {
+  for (const dReal step : {dReal(0), dReal(-1), kNoTime, kEternity}) {
     contact = contact_of_depth(dReal(-0.5));
     snContactLookAhead(&contact, step);
     CHECK(refused_with("snContactLookAhead: step = "));

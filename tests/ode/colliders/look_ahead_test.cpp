@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kExponents[] = {2, 4, 8, 20, 60};
 
-double exponent(Random& random) { return kExponents[static_cast<int>(random.uniform(0, 5))]; }
+double any_exponent(Random& random) { return kExponents[static_cast<int>(random.uniform(0, 5))]; }
 
 /// A number in [low, high] whose logarithm is evenly distributed.
 double log_uniform(Random& random, double low, double high) { return std::exp(random.uniform(std::log(low), std::log(high))); }
 
-dGeomID create(dSpaceID space, const Vec& half_axes, double delta, double epsilon) {
+dGeomID body_of(dSpaceID space, const Vec& half_axes, double delta, double epsilon) {
   return snCreateSuperellipsoid(space, dReal(half_axes[0]), dReal(half_axes[1]), dReal(half_axes[2]), dReal(delta), dReal(epsilon));
 }
 
@@ -40,7 +40,7 @@ class Front {
     } else if (wall == Wall::Box) {
       place(dCreateBox(space, kWide, kWide, dReal(thickness)), {0, 0, -thickness / 2});
     } else if (wall == Wall::Ours) {
-      place(create(space, {kWide / 2, kWide / 2, thickness / 2}, 60, 60), {0, 0, -thickness / 2});
+      place(body_of(space, {kWide / 2, kWide / 2, thickness / 2}, 60, 60), {0, 0, -thickness / 2});
     } else if (wall == Wall::Mesh) {
       mesh_ = dGeomTriMeshDataCreate();
       dGeomTriMeshDataBuildSingle(mesh_, vertices_.data(), 3 * sizeof(float), 4, indices_.data(), 6, 3 * sizeof(dTriIndex));
@@ -87,8 +87,8 @@ Flight shoot(Random& random, Wall wall, double spin, bool looks_ahead) {
   World world;
   dWorldSetGravity(world.id(), 0, 0, 0);
   const Front front(world.space(), wall, thickness);
-  const dGeomID geom = create(world.space(), {size, size * random.uniform(0.3, 1), size * random.uniform(0.3, 1)}, exponent(random),
-                              exponent(random));
+  const dGeomID geom = body_of(world.space(), {size, size * random.uniform(0.3, 1), size * random.uniform(0.3, 1)},
+                               any_exponent(random), any_exponent(random));
   const dBodyID body = world.add(geom, 2000);
   random.turn(geom);
   Flight flight;
@@ -170,7 +170,7 @@ TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
           World world;
           dWorldSetGravity(world.id(), 0, 0, 0);
           const Front front(world.space(), wall, 0.01);
-          const dGeomID geom = create(world.space(), {0.02, 0.015, 0.01}, flatness, flatness);
+          const dGeomID geom = body_of(world.space(), {0.02, 0.015, 0.01}, flatness, flatness);
           const dBodyID body = world.add(geom, 2000);
           place(geom, {0.3, 0.2, 0.0101 + 0.4 * speed * step});
           dBodySetLinearVel(body, 0, 0, dReal(-speed));
@@ -202,9 +202,9 @@ TEST_CASE("fly-bys with a clearance of a thousandth of the size keep their veloc
     world.surface.mu = dReal(0.5);
     const bool is_box = random.uniform(0, 1) < 0.5;
     const dGeomID fixed = is_box ? dCreateBox(world.space(), dReal(0.4), dReal(0.3), dReal(0.2))
-                                 : create(world.space(), {0.2, 0.15, 0.1}, exponent(random), exponent(random));
+                                 : body_of(world.space(), {0.2, 0.15, 0.1}, any_exponent(random), any_exponent(random));
     random.turn(fixed);
-    const dGeomID geom = create(world.space(), {0.03, 0.02, 0.01}, exponent(random), exponent(random));
+    const dGeomID geom = body_of(world.space(), {0.03, 0.02, 0.01}, any_exponent(random), any_exponent(random));
     const dBodyID body = world.add(geom, 1000);
     random.turn(geom);
     const Vec along = random.direction();
@@ -252,7 +252,7 @@ TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at 
         world.surface.mode = dContactApprox1;
         world.surface.mu = dReal(0.5);
         const Front front(world.space(), wall, 1);
-        const dGeomID geom = create(world.space(), lying.half_axes, lying.delta, lying.epsilon);
+        const dGeomID geom = body_of(world.space(), lying.half_axes, lying.delta, lying.epsilon);
         const dBodyID body = world.add(geom, 1000);
         if (lying.is_on_side) turn(body, {1, 0, 0}, std::numbers::pi / 2);
         place(geom, {0.1, 0.2, 1.02 * lying.height()});
@@ -283,7 +283,7 @@ TEST_CASE("on slopes below the angle of friction nothing creeps") {
         world.surface.mode = dContactApprox1;
         world.surface.mu = dReal(0.5);
         world.add_plane(incline);
-        const dGeomID geom = create(world.space(), lying.half_axes, lying.delta, lying.epsilon);
+        const dGeomID geom = body_of(world.space(), lying.half_axes, lying.delta, lying.epsilon);
         const dBodyID body = world.add(geom, 1000);
         turn(body, {0, 1, 0}, -incline);
         const double height = 1.0001 * lying.height();
@@ -313,7 +313,7 @@ TEST_CASE("a ball and a can roll down a slope as their closed forms say") {
       world.add_plane(incline);
       const double radius = 0.05;
       const dGeomID geom =
-          is_can ? create(world.space(), {radius, radius, 0.1}, 2, 60) : create(world.space(), {radius, radius, radius}, 2, 2);
+          is_can ? body_of(world.space(), {radius, radius, 0.1}, 2, 60) : body_of(world.space(), {radius, radius, radius}, 2, 2);
       dMass mass;
       REQUIRE(snMassSet(&mass, 1000, geom) == 1);
       const dBodyID body = world.add(geom, mass);
@@ -343,7 +343,7 @@ TEST_CASE("a geom beside its body's centre, and every space: the same") {
     for (const double speed : {5.0, 500.0}) {
       World world(make());
       const Front front(world.space(), Wall::Box, 0.01);
-      const dGeomID geom = create(world.space(), {0.02, 0.015, 0.01}, 60, 60);
+      const dGeomID geom = body_of(world.space(), {0.02, 0.015, 0.01}, 60, 60);
       const dBodyID body = world.add(geom, 2000);
       dGeomSetOffsetPosition(geom, dReal(0.005), 0, dReal(0.002));
       dBodySetPosition(body, 0, 0, dReal(0.02 + 0.5 * speed * 0.02));
@@ -361,7 +361,7 @@ TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets a
   World world;
   const Front front(world.space(), Wall::Box, 0.01);
   const dGeomID box = dSpaceGetGeom(world.space(), 0);
-  const dGeomID geom = create(world.space(), {0.1, 0.07, 0.05}, 60, 60);
+  const dGeomID geom = body_of(world.space(), {0.1, 0.07, 0.05}, 60, 60);
   const dBodyID body = world.add(geom, 1000);
   turn(body, {1, 2, 0}, 0.03);
   place(geom, {0, 0, 0.08});
@@ -381,7 +381,7 @@ TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets a
     World one;
     one.room = 1;
     const Front wall(one.space(), Wall::Ours, 0.01);
-    const dGeomID bullet = create(one.space(), {0.02, 0.015, 0.01}, exponent(random), exponent(random));
+    const dGeomID bullet = body_of(one.space(), {0.02, 0.015, 0.01}, any_exponent(random), any_exponent(random));
     const dBodyID of_bullet = one.add(bullet, 1000);
     random.turn(bullet);
     const double speed = log_uniform(random, 1, 1000);
@@ -399,7 +399,7 @@ TEST_CASE("a pair looks ahead by the larger time of the two, and both of two bul
     World world;
     dWorldSetGravity(world.id(), 0, 0, 0);
     const auto add = [&](double x, double velocity, double time) {
-      const dGeomID geom = create(world.space(), {0.02, 0.015, 0.01}, 8, 8);
+      const dGeomID geom = body_of(world.space(), {0.02, 0.015, 0.01}, 8, 8);
       const dBodyID body = world.add(geom, 1000);
       place(geom, {x, 0, 0});
       dBodySetLinearVel(body, dReal(velocity), 0, 0);
@@ -424,7 +424,7 @@ TEST_CASE("a batch has the same contacts as dCollide") {
   REQUIRE(snSetDefaultLookAhead(dReal(0.01)) == 1);
   dCreatePlane(world.space(), 0, 0, 1, 0);
   for (int k = 0; k < 40; ++k) {
-    const dGeomID geom = create(world.space(), {0.1, 0.07, 0.05}, exponent(random), exponent(random));
+    const dGeomID geom = body_of(world.space(), {0.1, 0.07, 0.05}, any_exponent(random), any_exponent(random));
     const dBodyID body = world.add(geom, 1000);
     random.turn(geom);
     place(geom, {random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(0.1, 0.8)});
