@@ -43,9 +43,9 @@ SUPERNORMAL_API double nearness(const Motion& motion, double time, double size);
 
 /// A body that moves.
 struct MovingBody {
-  const Shape& shape;
-  Pose pose;
-  Motion motion;
+  const Shape& shape;  ///< what it refers to must live as long
+  Pose pose;           ///< of now
+  Motion motion;       ///< from now on
 };
 
 /// The contacts of two bodies that may meet within `time` (s, positive and finite), or that a push may bring together in it.
