@@ -191,8 +191,8 @@ SUPERNORMAL_API int snSetDefaultLookAhead(dReal time);
 /** Turns a contact with depth < 0 into ODE's constraint that lets the gap close within `step` (s, > 0; that of the next dWorldStep
  * or dWorldQuickStep) and no more: its depth becomes 0, its surface gets dContactMotionN, and -gap/step is added to the motionN
  * that it has by that flag. Other contacts are left as they are. Call it when contact->surface is set. dContactBounce does not suit
- * a contact ahead: ODE would throw the body back before it touches. With a step that is refused (snLastError), or NULL, nothing is
- * changed. */
+ * a contact ahead: ODE would throw the body back before it touches. Set dContactApprox1: without it mu is a force, which acts
+ * before they touch. With a step that is refused (snLastError), or NULL, nothing is changed. */
 SUPERNORMAL_API void snContactLookAhead(dContact* contact, dReal step);
 
 /* --- queries of two bodies --------------------------------------------------------------------------------------------- */

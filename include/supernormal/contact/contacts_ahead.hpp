@@ -26,7 +26,7 @@ SUPERNORMAL_API ContactManifold find_manifold_of_gaps(const Shape& shape1, const
 SUPERNORMAL_API ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity);
 
 /// What is known of a body's motion in the time to come.
-struct Motion {
+struct MotionAhead {
   Vector3 velocity = Vector3::Zero();  ///< m/s; of the origin of the body's frame
   Vector3 centre = Vector3::Zero();    ///< m; the centre of mass, in the frame that the pose refers to
   Matrix3 turning = Matrix3::Zero();   ///< 1/m^2; the inverse of the inertia tensor times the mass, in the same frame
@@ -39,13 +39,13 @@ struct Motion {
 /// How much nearer to another body than its velocity says a body may come within `time` (s), m: by rotation, by forces, and by a
 /// push of one hundredth of its `size` (its smallest half-extent, m). Two bodies are looked at that come as near as the sum of
 /// both.
-SUPERNORMAL_API double nearness(const Motion& motion, double time, double size);
+SUPERNORMAL_API double nearness(const MotionAhead& motion, double time, double size);
 
 /// A body that moves.
-struct MovingBody {
+struct BodyAhead {
   const Shape& shape;  ///< what it refers to must live as long
   Pose pose;           ///< of now
-  Motion motion;       ///< from now on
+  MotionAhead motion;  ///< from now on
 };
 
 /// The contacts of two bodies that may meet within `time` (s, positive and finite), or that a push may bring together in it.
@@ -60,10 +60,10 @@ struct MovingBody {
 ///
 /// Contacts are those with a gap up to ContactManifold::reach; Status::Apart if there are none. Where the bodies are moved out of
 /// the range of poses, the manifold is that of the poses of now. Where a motion is not finite, both count as standing still.
-SUPERNORMAL_API ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& body2, double time,
+SUPERNORMAL_API ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& body2, double time,
                                                     const Settings& settings, const Proximity& now);
 
 /// The same for a body and a plane that stands still; `now` is from find_plane_proximity(). No query is needed beyond that.
-SUPERNORMAL_API ContactManifold find_plane_contacts_ahead(const MovingBody& body, double time, const Proximity& now);
+SUPERNORMAL_API ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, const Proximity& now);
 
 }  // namespace supernormal

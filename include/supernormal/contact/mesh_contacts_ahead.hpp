@@ -33,11 +33,11 @@ class SUPERNORMAL_API MeshContactsAhead {
 
   /// The triangles that find() has to get are those that touch the body's box (body_box.hpp), moved by `middle` and widened by
   /// `margin`. `surface` is the motion of the surface, whose velocity is that at the body.
-  static Reach reach_of(const MovingBody& body, const Motion& surface, double time);
+  static Reach reach_of(const BodyAhead& body, const MotionAhead& surface, double time);
 
   /// The distinct contacts, the smallest gap first. Those with a gap above ContactManifold::reach are none. Valid until the next
   /// query; empty when the pose is not finite, or its rotation none (Pose).
-  std::span<const MeshManifold> find(const MovingBody& body, const Motion& surface, double time,
+  std::span<const MeshManifold> find(const BodyAhead& body, const MotionAhead& surface, double time,
                                      std::span<const MeshTriangle> triangles, const Settings& settings = {});
 
   /// Evaluations of the support function and the gap function in the last query.

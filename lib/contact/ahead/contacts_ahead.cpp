@@ -13,7 +13,7 @@ namespace {
 
 /// Takes a manifold at the poses after `time` back to those of now. A contact keeps its place on the bodies, on each as much as it
 /// has its share in the motion.
-void take_back(ContactManifold& manifold, const MovingBody& body1, const MovingBody& body2, double time, double share,
+void take_back(ContactManifold& manifold, const BodyAhead& body1, const BodyAhead& body2, double time, double share,
                double gap_now) {
   const Vector3 way1 = time * body1.motion.velocity;
   const Vector3 way2 = time * body2.motion.velocity;
@@ -38,9 +38,9 @@ ContactManifold none(const Proximity& now, int evaluations) {
 
 }  // namespace
 
-double nearness(const Motion& motion, double time, double size) { return nearness_of_both(motion, {}, time, size); }
+double nearness(const MotionAhead& motion, double time, double size) { return nearness_of_both(motion, {}, time, size); }
 
-ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& body2, double time, const Settings& settings,
+ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& body2, double time, const Settings& settings,
                                     const Proximity& now) {
   if (now.status == Status::InvalidInput) return now;
   if (!is_finite(body1.motion) || !is_finite(body2.motion)) {
@@ -53,8 +53,8 @@ ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& b
   if (now.gap > reach) return none(now, now.evaluations);
   const Meeting meeting = find_meeting(body1, body2, time, size, settings, now);
   if (!meeting.hits && meeting.time > 0 && meeting.there.gap > near) return none(now, meeting.evaluations);
-  const MovingBody there1 = moved(body1, meeting.time);
-  const MovingBody there2 = moved(body2, meeting.time);
+  const BodyAhead there1 = moved(body1, meeting.time);
+  const BodyAhead there2 = moved(body2, meeting.time);
   ContactManifold manifold = find_manifold_of_gaps(there1.shape, there1.pose, there2.shape, there2.pose, meeting.there, share);
   take_back(manifold, body1, body2, meeting.time, share, now.gap);
   manifold.deepest.evaluations = meeting.evaluations;
@@ -64,7 +64,7 @@ ContactManifold find_contacts_ahead(const MovingBody& body1, const MovingBody& b
 }
 
 // The tangent plane is the same wherever the body is moved, and its gap shrinks evenly: the impact need not be looked for.
-ContactManifold find_plane_contacts_ahead(const MovingBody& body, double time, const Proximity& now) {
+ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, const Proximity& now) {
   if (now.status == Status::InvalidInput) return now;
   if (!is_finite(body.motion)) return find_plane_contacts_ahead({body.shape, body.pose, {}}, time, now);
   const double size = body.shape.half_extents().minCoeff();

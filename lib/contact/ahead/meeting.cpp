@@ -27,11 +27,11 @@ double smaller_thickness(const Shape& shape1, const Shape& shape2) {
   return thickness2 < kMinLength ? thickness1 : std::min(thickness1, thickness2);
 }
 
-MovingBody moved(const MovingBody& body, double time) {
+BodyAhead moved(const BodyAhead& body, double time) {
   return {body.shape, {body.pose.position + time * body.motion.velocity, body.pose.rotation}, body.motion};
 }
 
-Meeting find_meeting(const MovingBody& body1, const MovingBody& body2, double time, double size, const Settings& settings,
+Meeting find_meeting(const BodyAhead& body1, const BodyAhead& body2, double time, double size, const Settings& settings,
                      const Proximity& now) {
   const double graze = kGraze * size;
   const Vector3 velocity = body1.motion.velocity - body2.motion.velocity;
@@ -39,8 +39,8 @@ Meeting find_meeting(const MovingBody& body1, const MovingBody& body2, double ti
   if (of_now.hits || velocity.norm() * time <= kNoWay * graze) return of_now;
   Meeting meeting = of_now;
   const auto go_to = [&](double later) {
-    const MovingBody there1 = moved(body1, later);
-    const MovingBody there2 = moved(body2, later);
+    const BodyAhead there1 = moved(body1, later);
+    const BodyAhead there2 = moved(body2, later);
     const Vector3 normal = body1.pose.rotation.transpose() * meeting.there.normal;
     meeting.time = later;
     meeting.there = find_proximity(there1.shape, there1.pose, there2.shape, there2.pose, settings, &normal);

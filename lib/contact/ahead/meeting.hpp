@@ -21,7 +21,7 @@ struct Meeting {
 double smaller_thickness(const Shape& shape1, const Shape& shape2);
 
 /// The body after `time` at its velocity, without rotation.
-MovingBody moved(const MovingBody& body, double time);
+BodyAhead moved(const BodyAhead& body, double time);
 
 /// Where the bodies overlap by a small share of `size` (m) for the first time on the way along their velocities, if they do within
 /// `time`, and otherwise where they are after it. An overlap by less is passed over: so a body does not hit the edge of the next
@@ -31,7 +31,7 @@ MovingBody moved(const MovingBody& body, double time);
 /// each normal), and no tangent to it lies above it: so Newton's steps do not pass the first time at which it has a given value.
 ///
 /// If the way is not worth a step or leads out of the range of poses, the answer is that of now.
-Meeting find_meeting(const MovingBody& body1, const MovingBody& body2, double time, double size, const Settings& settings,
+Meeting find_meeting(const BodyAhead& body1, const BodyAhead& body2, double time, double size, const Settings& settings,
                      const Proximity& now);
 
 }  // namespace supernormal

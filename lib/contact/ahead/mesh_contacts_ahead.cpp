@@ -29,7 +29,7 @@ constexpr double kSameGap = 1e-3;
 /// The first impact of a body on triangles that it meets from outside.
 class FirstImpact {
  public:
-  FirstImpact(const MovingBody& body, double time, double size, const Settings& settings)
+  FirstImpact(const BodyAhead& body, double time, double size, const Settings& settings)
       : body_(&body), size_(size), settings_(&settings), time_(time) {}
 
   void look_at(const MeshTriangle& triangle) {
@@ -57,7 +57,7 @@ class FirstImpact {
 
  private:
   bool meets(const Polytope& triangle, const Vector3& middle) {
-    const MovingBody there{triangle, {middle, Matrix3::Identity()}, {}};
+    const BodyAhead there{triangle, {middle, Matrix3::Identity()}, {}};
     const Proximity now = find_proximity(body_->shape, body_->pose, triangle, there.pose, *settings_);
     evaluations_ += now.evaluations;
     if (now.status == Status::InvalidInput) return false;
@@ -70,7 +70,7 @@ class FirstImpact {
     return true;
   }
 
-  const MovingBody* body_;
+  const BodyAhead* body_;
   double size_;
   const Settings* settings_;
   double time_;
@@ -107,9 +107,9 @@ Vector3 along_wall(const Vector3& velocity, const Vector3& normal) {
 }  // namespace
 
 struct MeshContactsAhead::Search {
-  const MovingBody& body;  // where it is on its way
-  const MovingBody& now;
-  const Motion& surface;
+  const BodyAhead& body;  // where it is on its way
+  const BodyAhead& now;
+  const MotionAhead& surface;
   double time;  // s
   std::span<const MeshTriangle> triangles;
   const Settings& settings;
@@ -119,7 +119,7 @@ struct MeshContactsAhead::Search {
   double graze;  // m; a body that is in the surface by more has met it
 };
 
-MeshContactsAhead::Reach MeshContactsAhead::reach_of(const MovingBody& body, const Motion& surface, double time) {
+MeshContactsAhead::Reach MeshContactsAhead::reach_of(const BodyAhead& body, const MotionAhead& surface, double time) {
   if (!is_finite(body.motion) || !is_finite(surface)) return reach_of({body.shape, body.pose, {}}, {}, time);
   const Vector3 half_way = 0.5 * time * (body.motion.velocity - surface.velocity);
   const double size = body.shape.half_extents().minCoeff();
@@ -127,7 +127,7 @@ MeshContactsAhead::Reach MeshContactsAhead::reach_of(const MovingBody& body, con
   return {half_way, half_way.norm() + nearness_of_both(body.motion, surface, time, size)};
 }
 
-std::span<const MeshManifold> MeshContactsAhead::find(const MovingBody& body, const Motion& surface, double time,
+std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, const MotionAhead& surface, double time,
                                                       std::span<const MeshTriangle> triangles, const Settings& settings) {
   if (!is_finite(body.motion) || !is_finite(surface)) {
     return find({body.shape, body.pose, {}}, {}, time, triangles, settings);
@@ -136,7 +136,7 @@ std::span<const MeshManifold> MeshContactsAhead::find(const MovingBody& body, co
   evaluations_ = 0;
   const double size = body.shape.half_extents().minCoeff();
   const double near = nearness_of_both(body.motion, surface, time, size);
-  MovingBody there = body;
+  BodyAhead there = body;
   there.motion.velocity -= surface.velocity;
   const Search search{there,
                       body,

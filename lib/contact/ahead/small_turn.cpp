@@ -38,14 +38,14 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
 }
 
 /// How far a ball in the body, around its centre, is behind the plane through `place`, m; `normal` points out of the body.
-double height_of(const MovingBody& body, const Vector3& normal, const Vector3& place) {
+double height_of(const BodyAhead& body, const Vector3& normal, const Vector3& place) {
   return normal.dot(place - body.motion.centre) - kInnerBall * body.shape.half_extents().minCoeff();
 }
 
 /// What is to be stopped.
 struct Impact {
-  const MovingBody& body1;
-  const MovingBody& body2;
+  const BodyAhead& body1;
+  const BodyAhead& body2;
   double share;     // of body 1 in the motion of both
   Vector3 normal;   // unit, from body 1 to body 2
   double approach;  // m; how much nearer the centres would come than the contacts let the bodies
@@ -88,7 +88,7 @@ struct Impact {
 
 }  // namespace
 
-void limit_turn(const MovingBody& body1, const MovingBody& body2, double time, double share, ContactManifold& manifold) {
+void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
   const Vector3& normal = manifold.deepest.normal;
   const double closing = normal.dot(body1.motion.velocity - body2.motion.velocity);
   const double gained = time * std::max(body1.motion.acceleration, body2.motion.acceleration);
@@ -108,13 +108,16 @@ void limit_turn(const MovingBody& body1, const MovingBody& body2, double time, d
   const Impact impact{body1, body2, share, normal, approach, farthest, turn, std::max(0.0, height)};
   const Vector3 place = nearest_place(manifold, contact - arm_of(contact));
   const Vector3 arm = arm_of(place);
-  const Vector3 shift = (std::min(impact.part_for_small_turn(arm), impact.part_for_height(arm)) - 1) * arm;
+  const auto cut_from = [&](const Vector3& lever) {
+    return Vector3((std::min(impact.part_for_small_turn(lever), impact.part_for_height(lever)) - 1) * lever);
+  };
+  const Vector3 shift = cut_from(arm);
+  for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
+  manifold.deepest.contact += cut_from(arm_of(contact));  // with room for one it acts alone
   if (approach > kOneContact * smaller_thickness(body1.shape, body2.shape)) {
-    manifold.deepest.contact = place;
+    manifold.deepest.contact = place + shift;
     manifold.corner_count = 0;
   }
-  manifold.deepest.contact += shift;
-  for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
 }
 
 }  // namespace supernormal

@@ -12,6 +12,6 @@ namespace supernormal {
 /// leaves the centre the share a^2 / (a^2 + k^2) of its velocity, k the radius of gyration. Where the way is long beside the body,
 /// that share takes the centre through a wall, and the body turns by many radians. With a lever so small that the turn is small,
 /// the body stops before the wall. The turn that it has lost is one that no step of this length could follow.
-void limit_turn(const MovingBody& body1, const MovingBody& body2, double time, double share, ContactManifold& manifold);
+void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold);
 
 }  // namespace supernormal

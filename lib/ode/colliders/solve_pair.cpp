@@ -20,7 +20,7 @@ struct PosedShape {
   double radius;  // m; no point of the shape is farther from its origin, where bodies are looked at ahead
 };
 
-MovingBody moving(const PosedShape& posed) {
+BodyAhead moving(const PosedShape& posed) {
   return {posed.shape, posed.pose, motion_of(posed.geom, posed.pose.position, posed.radius)};
 }
 

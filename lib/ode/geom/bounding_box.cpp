@@ -22,7 +22,7 @@ constexpr double kRoundingUnits = 8;
 double rounding_of(double magnitude) { return kRoundingUnits * double{std::numeric_limits<dReal>::epsilon()} * magnitude; }
 
 /// Widens the box to where the body may be met within the time for which it looks ahead.
-void cover_motion(const Body& body, const Motion& motion, BoundingBox& box) {
+void cover_motion(const Body& body, const MotionAhead& motion, BoundingBox& box) {
   const double near = nearness(motion, body.look_ahead(), body.size());
   const Vector3 way = body.look_ahead() * motion.velocity;
   box.low += way.cwiseMin(0) - Vector3::Constant(near);
@@ -53,7 +53,7 @@ bool is_above_plane(dGeomID geom, const Body& body, const Pose& pose, dGeomID pl
   const double gap = find_plane_proximity(body.shape(), pose, normal, plane[3]).gap;
   double reach = 0;
   if (body.look_ahead() > 0) {
-    const Motion motion = motion_of(geom, pose.position, body.radius());
+    const MotionAhead motion = motion_of(geom, pose.position, body.radius());
     const double closing = std::max(0.0, -normal.dot(motion.velocity));
     reach = closing * body.look_ahead() + nearness(motion, body.look_ahead(), body.size());
   }

@@ -31,8 +31,8 @@ Matrix3 random_rotation(Random& random) {
 }
 
 /// A body of mass 1 that moves without turning.
-MovingBody moving(const Shape& shape, const Pose& pose, const Vector3& velocity) {
-  Motion motion;
+BodyAhead moving(const Shape& shape, const Pose& pose, const Vector3& velocity) {
+  MotionAhead motion;
   motion.velocity = velocity;
   motion.centre = pose.position;
   motion.mobility = 1;
@@ -41,13 +41,13 @@ MovingBody moving(const Shape& shape, const Pose& pose, const Vector3& velocity)
   return {shape, pose, motion};
 }
 
-MovingBody standing(const Shape& shape, const Pose& pose) {
-  MovingBody body{shape, pose, {}};
+BodyAhead standing(const Shape& shape, const Pose& pose) {
+  BodyAhead body{shape, pose, {}};
   body.motion.centre = pose.position;
   return body;
 }
 
-ContactManifold find(const MovingBody& body1, const MovingBody& body2) {
+ContactManifold find(const BodyAhead& body1, const BodyAhead& body2) {
   const Proximity now = find_proximity(body1.shape, body1.pose, body2.shape, body2.pose);
   return find_contacts_ahead(body1, body2, kTime, {}, now);
 }
@@ -63,7 +63,7 @@ TEST_CASE("a ball that flies at a wall: one contact with the gap of now, on the 
   const Box wall(Vector3(1, 1, 0.01));
   for (const double speed : {1.0, 10.0, 1000.0}) {
     const double gap = 0.7 * speed * kTime;
-    const MovingBody body = moving(ball, {Vector3(0.1, 0.2, 0.06 + gap), Matrix3::Identity()}, Vector3(0, 0, -speed));
+    const BodyAhead body = moving(ball, {Vector3(0.1, 0.2, 0.06 + gap), Matrix3::Identity()}, Vector3(0, 0, -speed));
     const ContactManifold manifold = find(body, standing(wall, {}));
     REQUIRE(has_contact(manifold));
     CHECK(manifold.corner_count == 0);
@@ -80,7 +80,7 @@ TEST_CASE("the normal is that of the impact, not that of now") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(0.5, 0.5, 0.5));
   // The nearest feature is the edge x = z = 0.5, and the ball flies past it on to the top.
-  const MovingBody body = moving(ball, {Vector3(1, 0, 0.7), Matrix3::Identity()}, Vector3(-90, 0, -16));
+  const BodyAhead body = moving(ball, {Vector3(1, 0, 0.7), Matrix3::Identity()}, Vector3(-90, 0, -16));
   const ContactManifold manifold = find(body, standing(wall, {}));
   REQUIRE(has_contact(manifold));
   CHECK((manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-6);
@@ -103,8 +103,8 @@ TEST_CASE("random pairs: no impact is missed, and what passes by has no contact"
     const Pose pose1{Vector3(uniform(random, 0.12, 0.4), uniform(random, -0.15, 0.15), uniform(random, -0.15, 0.15)),
                      random_rotation(random)};
     const Pose pose2{Vector3::Zero(), random_rotation(random)};
-    const MovingBody body1 = moving(shape1, pose1, Vector3(-uniform(random, 1, 80), 0, 0));
-    const MovingBody body2 = moving(shape2, pose2, Vector3(0, uniform(random, -5, 5), 0));
+    const BodyAhead body1 = moving(shape1, pose1, Vector3(-uniform(random, 1, 80), 0, 0));
+    const BodyAhead body2 = moving(shape2, pose2, Vector3(0, uniform(random, -5, 5), 0));
     const ContactManifold manifold = find(body1, body2);
     double least = std::numeric_limits<double>::infinity();
     double last = 0;
@@ -138,7 +138,7 @@ TEST_CASE("a fast impact at one end acts nearer to the centre of mass") {
   const Ellipsoid needle(Vector3(0.01, 0.01, 0.1));
   const Matrix3 slanted = Eigen::AngleAxisd(0.8, Vector3::UnitY()).toRotationMatrix();
   const auto lever_at = [&](double speed) {
-    MovingBody body = moving(needle, {Vector3(0, 0, 0.5), slanted}, Vector3(0, 0, -speed));
+    BodyAhead body = moving(needle, {Vector3(0, 0, 0.5), slanted}, Vector3(0, 0, -speed));
     body.motion.turning = Matrix3::Identity() / 2e-3;
     const Proximity now = find_plane_proximity(needle, body.pose, Vector3::UnitZ(), 0);
     body.pose.position.z() -= now.gap;

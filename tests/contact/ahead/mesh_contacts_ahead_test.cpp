@@ -23,8 +23,8 @@ std::vector<MeshTriangle> corner() {
   return {{{a, b, c}, 0}, {{a, c, d}, 1}, {{b, e, f}, 2}, {{b, f, c}, 3}};
 }
 
-MovingBody flying(const Shape& shape, const Vector3& position, const Vector3& velocity) {
-  Motion motion;
+BodyAhead flying(const Shape& shape, const Vector3& position, const Vector3& velocity) {
+  MotionAhead motion;
   motion.velocity = velocity;
   motion.centre = position;
   motion.mobility = 1;
@@ -38,7 +38,7 @@ TEST_CASE("a ball that hits the floor slides on into the wall behind") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
   // Straight on it would pass below the floor, and below the wall.
-  const MovingBody ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
+  const BodyAhead ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
   const auto found = ahead.find(ball, {}, kStep, triangles);
   REQUIRE(found.size() == 2);
   CHECK((found[0].manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-6);
@@ -65,7 +65,7 @@ TEST_CASE("from behind there is no impact, and what moves away or is too slow ha
 TEST_CASE("the surface moves as well") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
-  Motion surface;
+  MotionAhead surface;
   surface.velocity = Vector3(0, 0, 20);
   const auto found = ahead.find(flying(kBall, Vector3(0, 0, 0.15), Vector3::Zero()), surface, kStep, triangles);
   REQUIRE(found.size() == 1);
@@ -74,7 +74,7 @@ TEST_CASE("the surface moves as well") {
 
 TEST_CASE("the triangles that count are within the reach, and no others") {
   MeshContactsAhead ahead;
-  const MovingBody ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
+  const BodyAhead ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(ball, {}, kStep);
   // Every place on the way, and those of the way along the floor, are within the box.
   for (const Vector3& way : {Vector3(0, 0, 0), Vector3(0.4, 0, -0.1), Vector3(2, 0, -0.5), Vector3(2, 0, -0.1)}) {

@@ -199,6 +199,7 @@ TEST_CASE("fly-bys with a clearance of a thousandth of the size keep their veloc
     const double speed = log_uniform(random, 1, 1000);
     World world;
     dWorldSetGravity(world.id(), 0, 0, 0);
+    world.surface.mode = dContactApprox1;  // without it friction is a force that acts before they touch
     world.surface.mu = dReal(0.5);
     const bool is_box = random.uniform(0, 1) < 0.5;
     const dGeomID fixed = is_box ? dCreateBox(world.space(), dReal(0.4), dReal(0.3), dReal(0.2))
@@ -290,13 +291,13 @@ TEST_CASE("on slopes below the angle of friction nothing creeps") {
         place(geom, {-height * std::sin(incline), 0, height * std::cos(incline)});
         REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
         const int steps = static_cast<int>(1 / step);
-        for (int k = 0; k < steps; ++k) world.quick_step(step);
+        for (int k = 0; k < 2 * steps; ++k) world.quick_step(step);
         const Vec before = to_vec(dBodyGetPosition(body));
         for (int k = 0; k < steps; ++k) world.quick_step(step);
         CAPTURE(lying.name);
         CAPTURE(degrees);
         CAPTURE(step);
-        CHECK(norm(to_vec(dBodyGetPosition(body)) - before) / (steps * step) < within_rounding(5e-9, 1));  // m/s
+        CHECK(norm(to_vec(dBodyGetPosition(body)) - before) / (steps * step) < within_rounding(1e-8, 1));  // m/s
       }
     }
   }

@@ -128,7 +128,7 @@ Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
   return {kept.contacts, triangles};
 }
 
-Motion in_frame(Motion world, const Pose& frame) {
+MotionAhead in_frame(MotionAhead world, const Pose& frame) {
   const Matrix3 to_frame = frame.rotation.transpose();
   world.velocity = to_frame * world.velocity;
   world.centre = to_frame * (world.centre - frame.position);
@@ -140,8 +140,8 @@ Motion in_frame(Motion world, const Pose& frame) {
 void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, dGeomID ours, dGeomID heightfield) {
   const Body& body = require_body(ours);
   const Vector3 origin = to_vector(dGeomGetPosition(ours));
-  const MovingBody moving{visitor.shape, visitor.pose, in_frame(motion_of(ours, origin, body.radius()), frame)};
-  const Motion surface = in_frame(motion_of(heightfield, origin, body.radius()), frame);
+  const BodyAhead moving{visitor.shape, visitor.pose, in_frame(motion_of(ours, origin, body.radius()), frame)};
+  const MotionAhead surface = in_frame(motion_of(heightfield, origin, body.radius()), frame);
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(moving, surface, body.look_ahead());
   Visitor all = visitor;
   all.centre += reach.middle;
