@@ -93,6 +93,7 @@ using SupportPoints = std::array<SupportPoint, 4>;
 struct SupportPolygon::View {
   const Shape& shape;
   const Pose& pose;
+  Matrix3 to_body;
   Vector3 normal;
   Vector3 support_point;        // m
   Vector3 support_point_there;  // m; in the frame that the pose refers to
@@ -101,8 +102,9 @@ struct SupportPolygon::View {
   View(const Shape& body, const Pose& pose_of_body, const Vector3& n, const Vector3& point)
       : shape(body),
         pose(pose_of_body),
-        normal(pose.rotation.transpose() * n),
-        support_point(pose.rotation.transpose() * (point - pose.position)),
+        to_body(pose.rotation.transpose()),
+        normal(to_body * n),
+        support_point(to_body * (point - pose.position)),
         support_point_there(point),
         axes(axes_in_plane(normal)) {}
 };
