@@ -49,7 +49,6 @@ struct Impact {
   double share;     // of body 1 in the motion of both
   Vector3 normal;   // unit, from body 1 to body 2
   double approach;  // m; how much nearer the centres would come than the contacts let the bodies
-  double farthest;  // m; the same with all that gravity and forces add
   double turn;      // radians; in which the bodies are already
   double height;    // m; by so much the centres may come nearer at any attitude
 
@@ -79,7 +78,7 @@ struct Impact {
     const double lever = arm.norm();
     const double gyration = squared_gyration(arm);
     const double of_turn = turn * gyration;
-    const double discriminant = of_turn * of_turn + 4 * (farthest - height) * height * gyration;
+    const double discriminant = of_turn * of_turn + 4 * (approach - height) * height * gyration;
     if (!(lever > 0 && discriminant >= 0)) return 1;
     const double allowed = 2 * height * gyration / (of_turn + std::sqrt(discriminant));
     return allowed < lever ? allowed / lever : 1;
@@ -92,10 +91,8 @@ void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, dou
   const Vector3& normal = manifold.deepest.normal;
   const double closing = normal.dot(body1.motion.velocity - body2.motion.velocity);
   const double gained = time * std::max(body1.motion.acceleration, body2.motion.acceleration);
-  const double farthest = (closing + gained) * time - manifold.deepest.gap;
-  if (!(farthest > 0)) return;
-  // What accelerates bodies at rest is held up by all their contacts together: it does not turn them.
-  const double approach = std::max(0.0, (closing + std::min(closing, gained)) * time - manifold.deepest.gap);
+  const double approach = (closing + gained) * time - manifold.deepest.gap;
+  if (!(approach > 0)) return;
   const Vector3 centre = share * body1.motion.centre + (1 - share) * body2.motion.centre;
   const auto arm_of = [&](const Vector3& place) {
     const Vector3 way = place - centre;
@@ -105,7 +102,7 @@ void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, dou
   const double height = share * height_of(body1, normal, contact) + (1 - share) * height_of(body2, -normal, contact) +
                         std::min(0.0, manifold.deepest.gap);
   const double turn = time * (share * body1.motion.turn_rate + (1 - share) * body2.motion.turn_rate);
-  const Impact impact{body1, body2, share, normal, approach, farthest, turn, std::max(0.0, height)};
+  const Impact impact{body1, body2, share, normal, approach, turn, std::max(0.0, height)};
   const Vector3 place = nearest_place(manifold, contact - arm_of(contact));
   const Vector3 arm = arm_of(place);
   const auto cut_from = [&](const Vector3& lever) {
