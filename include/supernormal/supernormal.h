@@ -166,6 +166,35 @@ SUPERNORMAL_API int snSetDefaultSolver(snSolver solver, dReal tolerance, int max
  * On: the same scene, built and run in the same order by one thread, gives the same digits in every run. */
 SUPERNORMAL_API void snSetWarmStart(int on);
 
+/* --- contacts before overlap ------------------------------------------------------------------------------------------- */
+
+/** How far dCollide looks ahead for this geom: `time` in s, in [0, 1e6]. 0 (default): off, contacts are those of overlaps. Take the
+ * step of the simulation. With a time > 0 dCollide also returns contacts of pairs that may meet within it, each with depth = -gap <
+ * 0; hand them to snContactLookAhead before dJointCreateContact. So nothing tunnels through what it would hit within a step, and
+ * what rests comes in by next to nothing, at longer steps (lib/guide.md, "Contacts before overlap").
+ *
+ * dCollide takes velocities and forces from the bodies of the geoms (dGeomGetBody); a geom without one stands still. It moves both
+ * without rotation to where they meet, and takes the normals from there: what passes by has no contact. Rotation, gravity, forces
+ * and one hundredth of the smallest half-extent are added to how near a pair must come. A pair uses the larger time of its two
+ * geoms. All classes are met ahead but dRay; on a dTriMesh or dHeightfield the body slides on from face to face.
+ *
+ * The bounding box covers the motion of the geom's own body within its own time, so that spaces name the pair. A moving dBox or
+ * other geom of ODE has the box of now, and is met ahead when it comes into ours. Inside a dGeomTransform nothing is covered. ODE
+ * computes a box when its geom has moved, as every step moves it. After giving a velocity to a body that has not moved since the
+ * last dSpaceCollide, call dGeomMoved or this function again. Like dGeomMoved it is not for near callbacks. Returns 1; 0 (and
+ * snLastError) when refused. */
+SUPERNORMAL_API int snGeomSetLookAhead(dGeomID geom, dReal time);
+
+/** Sets the time for the geoms created from now on, in every thread. */
+SUPERNORMAL_API int snSetDefaultLookAhead(dReal time);
+
+/** Turns a contact with depth < 0 into ODE's constraint that lets the gap close within `step` (s, > 0; that of the next dWorldStep
+ * or dWorldQuickStep) and no more: its depth becomes 0, its surface gets dContactMotionN, and -gap/step is added to the motionN
+ * that it has by that flag. Other contacts are left as they are. Call it when contact->surface is set. dContactBounce does not suit
+ * a contact ahead: ODE would throw the body back before it touches. Set dContactApprox1: without it mu is a force, which acts
+ * before they touch. With a step that is refused (snLastError), or NULL, nothing is changed. */
+SUPERNORMAL_API void snContactLookAhead(dContact* contact, dReal step);
+
 /* --- queries of two bodies --------------------------------------------------------------------------------------------- */
 
 /** The answer to a query of two geoms. */

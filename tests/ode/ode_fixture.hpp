@@ -28,6 +28,7 @@ class OdeSession {
   ~OdeSession() {
     snSetWarmStart(1);
     snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-9), 1000);
+    snSetDefaultLookAhead(0);
     snClose();
     dCloseODE();
   }

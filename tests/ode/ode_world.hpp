@@ -52,13 +52,13 @@ class World {
   void add_plane(double incline = 0) const { dCreatePlane(space_, dReal(-std::sin(incline)), 0, dReal(std::cos(incline)), 0); }
 
   void quick_step(double dt) {
-    make_contacts();
+    make_contacts(dt);
     dWorldQuickStep(id_, dReal(dt));
     dJointGroupEmpty(joints_);
   }
   /// Steps with ODE's exact solver.
   void exact_step(double dt) {
-    make_contacts();
+    make_contacts(dt);
     dWorldStep(id_, dReal(dt));
     dJointGroupEmpty(joints_);
   }
@@ -72,7 +72,8 @@ class World {
   double depth = 0;              ///< m, the deepest contact of the last step
 
  private:
-  void make_contacts() {
+  void make_contacts(double dt) {
+    step_ = dt;
     contacts = 0;
     depth = 0;
     dSpaceCollide(space_, this, near_callback);
@@ -86,6 +87,7 @@ class World {
       dContact& contact = found[static_cast<std::size_t>(i)];
       contact.surface = world.surface;
       world.depth = std::max(world.depth, double{contact.geom.depth});
+      snContactLookAhead(&contact, dReal(world.step_));
       dJointAttach(dJointCreateContact(world.id_, world.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
     }
     world.contacts += count;
@@ -95,6 +97,7 @@ class World {
   dWorldID id_;
   dSpaceID space_;
   dJointGroupID joints_;
+  double step_ = 0;  // s
 };
 
 /// The angular momentum R I R^T w about the body's centre of mass, world frame, kg m^2/s.

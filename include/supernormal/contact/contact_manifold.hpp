@@ -12,7 +12,8 @@ namespace supernormal {
 /// One of the points that a flat contact rests on.
 struct ManifoldCorner {
   Vector3 point = Vector3::Zero();  ///< m; in the frame of the query
-  double depth = 0;                 ///< m; depth of the overlap at `point`, from 0 to that of the deepest point
+  double depth = 0;                 ///< m; depth of the overlap at `point`, from 0 to that of the deepest point; with contacts
+                                    ///< ahead (contacts_ahead.hpp) it is negative where the bodies are apart
 };
 
 /// The deepest point of an overlap and, where the bodies are flat, the corners of the region on which they rest.
@@ -38,7 +39,9 @@ struct ContactManifold {
   int corner_count = 0;                               ///< 0 or 4, some of which may be at the same place; see reduced_to()
   double same_place = 0;                              ///< m; corners that are nearer to each other are one contact
   double margin = 0;                                  ///< m; the bodies are apart by no more than this at a corner
-  int evaluations = 0;                                ///< boundary points of one body that finding the corners took
+  double reach = 0;     ///< m; what has a larger gap is no contact; 0 but for contacts ahead (contacts_ahead.hpp)
+  double shallow = 0;   ///< m; a corner this much above the deepest weighs least where two are united; 0: the depth of the overlap
+  int evaluations = 0;  ///< boundary points of one body that finding the corners took
 };
 
 /// The manifold of two bodies whose proximity is known. Corners are only looked for when the bodies overlap; they lie in the
@@ -51,7 +54,8 @@ SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, 
 
 /// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places, deepest first, or the
 /// deepest point alone where there are none. The first has the depth of the overlap. With room for two or three, neighbours are
-/// united at a place between them. The result is as continuous as the manifold.
+/// united at a place between them. The result is as continuous as the
+/// manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 
 }  // namespace supernormal

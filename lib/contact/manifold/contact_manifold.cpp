@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
-#include "contact/manifold/convex_polygon.hpp"
+#include "contact/manifold/common_corners.hpp"
 #include "contact/manifold/support_polygon.hpp"
-#include "contact/manifold/unit_root.hpp"
-#include "shapes/validation.hpp"
 
 namespace supernormal {
 namespace {
@@ -15,116 +14,42 @@ namespace {
 // A depth below this share of the smallest half-extent is rounding.
 constexpr double kLeastDepth = 1e-12;
 
-// Corners that are nearer to each other than this share of the body's extent are one; from twice that on they are two, and in
-// between they move together.
-constexpr double kSamePlace = 0.01;
-
 // Two corners that are nearer than this share of that length differ by rounding only.
 constexpr double kMoved = 0.01;
-
-// A line of contact is this much wider than nothing, relative to the body's smaller extent along the plane.
-constexpr double kThinnest = 1e-3;
-
-// Corners are looked for from so many times the reach of the region: far enough to find those of a square that is turned by
-// 25 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
-constexpr double kLookFrom = 1.5;
 
 // Two corners are equally deep when their depths differ by less than this share.
 constexpr double kSameDepth = 1e-9;
 
-// A corner of depth 0 has this share of the deepest point's depth as its weight where two are united.
+// A corner of depth 0 has this share of the deepest point's depth as its weight where two are united; with contacts ahead, one
+// that is ContactManifold::shallow above the deepest has this share of that.
 constexpr double kLeastShare = 0.01;
 
-// Plates and segments have no thickness to be deep in, nor have shapes that are thinner than a body of ours may be.
 bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
-  const double thickness = shape.half_extents().minCoeff();
-  return is_answer && !shape.is_round() && thickness >= kMinLength && -proximity.gap > kLeastDepth * thickness;
+  return is_answer && may_have_corners(shape) && -proximity.gap > kLeastDepth * shape.half_extents().minCoeff();
 }
 
-/// Points on which the bodies may rest, and how far the faces lean away from one another there, m.
-struct CornerList {
-  std::array<Vector3, ContactManifold::kMaxCorners> points;
-  std::array<double, ContactManifold::kMaxCorners> leans;
-
-  /// Faces count as flat between their corners: what counts is by how much a corner leans more than another. A corner that leans by
-  /// more than `depth`, where it does not lean, and `largest_lean` (m) is drawn in towards the deepest point, to where the faces
-  /// lean by as much.
-  void write(double largest_lean, double depth, ContactManifold& manifold) const {
-    const double least = *std::min_element(leans.begin(), leans.end());
-    const Vector3& deepest = manifold.deepest.contact;
-    const double left_at_deepest = std::max(0.0, depth + largest_lean + std::min(0.0, least));
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const double lean = leans[k] - least;
-      const double left = depth + largest_lean - lean;
-      const double share = left < 0 ? left_at_deepest / (left_at_deepest - left) : 1;
-      manifold.corners[k] = {deepest + share * (points[k] - deepest), std::max(0.0, depth - share * lean)};
-    }
-    manifold.corner_count = ContactManifold::kMaxCorners;
+/// Faces count as flat between their corners: what counts is by how much a corner leans more than another. A corner that leans by
+/// more than `depth`, where it does not lean, and `largest_lean` (m) is drawn in towards the deepest point, to where the faces
+/// lean by as much.
+void write(const CornerList& corners, double largest_lean, double depth, ContactManifold& manifold) {
+  const double least = *std::min_element(corners.leans.begin(), corners.leans.end());
+  const Vector3& deepest = manifold.deepest.contact;
+  const double left_at_deepest = std::max(0.0, depth + largest_lean + std::min(0.0, least));
+  for (std::size_t k = 0; k < corners.points.size(); ++k) {
+    const double lean = corners.leans[k] - least;
+    const double left = depth + largest_lean - lean;
+    const double share = left < 0 ? left_at_deepest / (left_at_deepest - left) : 1;
+    manifold.corners[k] = {deepest + share * (corners.points[k] - deepest), std::max(0.0, depth - share * lean)};
   }
-};
-
-/// A support polygon in the coordinates of the contact, counter-clockwise.
-class Side {
- public:
-  Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below)
-      : axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
-    const Vector2 support_point = frame.project(polygon.support_point());
-    // A line gets a width, so that two of them have a region in common.
-    const Vector2 thin = kThinnest * polygon.size() * axis_;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t vertex = sees_it_from_below ? 3 - k : k;
-      const Vector2 beside = vertex == 0 || vertex == 3 ? thin : Vector2(-thin);
-      outline_.add(support_point + frame.plane.project(polygon.vertices()[vertex]) + (polygon.is_long() ? beside : Vector2(0, 0)));
-    }
-  }
-
-  const ConvexPolygon& outline() const { return outline_; }
-
-  /// The direction of the axes, the same for all four of them, as a complex number whose length grows as the body gets smaller.
-  Vector2 direction() const { return fourth_power(axis_) / (area_ * area_); }
-
- private:
-  ConvexPolygon outline_;
-  Vector2 axis_;
-  double area_;
-};
-
-/// The common directions of the axes of both bodies, in which the smaller body has more weight.
-std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
-  const Vector2 sum = side1.direction() + side2.direction();
-  const Vector2 first = sum.squaredNorm() > 0 ? direction_of_fourth_power(sum) : Vector2(Vector2::UnitX());
-  return {first, Vector2(-first.y(), first.x())};
-}
-
-/// The intersection of both polygons, which may be empty.
-ConvexPolygon common_region(const ConvexPolygon& outline1, const ConvexPolygon& outline2) {
-  const bool thinner = outline1.area() < outline2.area();  // an edge of a box has no area
-  return thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
-}
-
-/// Finds four corners of a region that is not empty.
-CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side& side2, const ContactFrame& frame,
-                      const Vector2& lean) {
-  double squared_reach = 0;
-  for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
-  const double reach = std::sqrt(squared_reach);
-  const auto [u, v] = common_axes(side1, side2);
-  const std::array<Vector2, 4> diagonals = {u + v, v - u, -u - v, u - v};
-  CornerList corners;
-  for (std::size_t k = 0; k < diagonals.size(); ++k) {
-    const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonals[k]);
-    corners.points[k] = frame.lift(corner);
-    corners.leans[k] = lean.dot(corner);
-  }
-  return corners;
+  manifold.corner_count = ContactManifold::kMaxCorners;
 }
 
 /// Moves both corners to one place between them, with the depth of the deeper one, so that the deepest contact stays as deep as
-/// the overlap. The deeper of two has more weight: where the body leans, its place matters.
-void unite(ManifoldCorner& corner, ManifoldCorner& other, double least_depth) {
-  const double weight = corner.depth + least_depth;
-  const double weight_of_other = other.depth + least_depth;
+/// the overlap. The deeper of two has more weight: where the body leans, its place matters. Corners up to `floor` have the least.
+void unite(ManifoldCorner& corner, ManifoldCorner& other, double floor, double least_weight) {
+  const double weight = std::max(0.0, corner.depth - floor) + least_weight;
+  const double weight_of_other = std::max(0.0, other.depth - floor) + least_weight;
   const double share = weight_of_other / (weight + weight_of_other);
   corner.point += share * (other.point - corner.point);
   corner.depth = std::max(corner.depth, other.depth);
@@ -167,10 +92,11 @@ void remove_repeated(ContactManifold& manifold) {
 
 /// Sorts the corners by depth. Those that are equally deep but for rounding stay in order around the contact, because quickstep's
 /// forces depend on the order.
-void put_deepest_first(std::span<ManifoldCorner> corners) {
-  double depth = 0;
+void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
+  double depth = corners.front().depth;
   for (const ManifoldCorner& corner : corners) depth = std::max(depth, corner.depth);
-  const auto units_above = [&](const ManifoldCorner& corner) { return std::round((depth - corner.depth) / (kSameDepth * depth)); };
+  const double unit = kSameDepth * std::max(depth, shallow);
+  const auto units_above = [&](const ManifoldCorner& corner) { return std::round((depth - corner.depth) / unit); };
   // By insertion: std::stable_sort would ask for memory.
   for (auto next = corners.begin(); next != corners.end(); ++next) {
     const auto place = std::upper_bound(
@@ -193,16 +119,8 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth);
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
-  const bool is_on_edge2 = polygon2.is_long() && !polygon1.is_long();
-  const ContactFrame frame{TangentPlane(proximity.normal, is_on_edge2 ? polygon2.axis() : polygon1.axis()), proximity.contact};
-  const Side side1(polygon1, frame, false);
-  const Side side2(polygon2, frame, true);
-  const ConvexPolygon region = common_region(side1.outline(), side2.outline());
-  if (region.size() > 0) {
-    const Vector2 lean = frame.plane.project(polygon1.slope() + polygon2.slope());
-    corners_of(region, side1, side2, frame, lean)
-        .write(std::min(polygon1.largest_lean(), polygon2.largest_lean()), depth, manifold);
-  }
+  const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, proximity.contact);
+  if (corners) write(*corners, std::min(polygon1.largest_lean(), polygon2.largest_lean()), depth, manifold);
   manifold.same_place = kSamePlace * std::min(polygon1.size(), polygon2.size());
   manifold.margin = std::max(0.0, polygon1.largest_separation() + polygon2.largest_separation() - depth);
   return manifold;
@@ -220,13 +138,7 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
   const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, depth);
   manifold.evaluations = polygon.evaluations();
   if (!polygon.has_width()) return manifold;
-  CornerList corners;
-  for (std::size_t k = 0; k < 4; ++k) {
-    corners.leans[k] = polygon.slope().dot(polygon.vertices()[k]);
-    // On the face, whose rounding does not count: a body that rolls on a line has the radius of its equator.
-    corners.points[k] = stands_on + polygon.vertices()[k] - std::max(0.0, corners.leans[k]) * proximity.normal;
-  }
-  corners.write(polygon.largest_lean(), depth, manifold);
+  write(corners_over_plane(polygon, proximity.normal), polygon.largest_lean(), depth, manifold);
   manifold.same_place = kSamePlace * polygon.size();
   manifold.margin = std::max(0.0, polygon.largest_separation() - depth);
   return manifold;
@@ -239,13 +151,15 @@ ContactManifold reduced_to(ContactManifold manifold, int room) {
   if (room < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
-  const double least_depth = -kLeastShare * manifold.deepest.gap;
-  if (room < 4) unite(corners[0], corners[1], least_depth);
-  if (room < 3) unite(corners[2], corners[3], least_depth);
+  const double depth = -manifold.deepest.gap;
+  const double shallow = std::max(depth, manifold.shallow);
+  const double least_weight = kLeastShare * shallow;
+  if (room < 4) unite(corners[0], corners[1], depth - shallow, least_weight);
+  if (room < 3) unite(corners[2], corners[3], depth - shallow, least_weight);
   draw_together(corners, manifold.same_place);
   remove_repeated(manifold);
-  put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)});
-  corners[0].depth = -manifold.deepest.gap;  // but for rounding it is
+  put_deepest_first({corners.begin(), static_cast<std::size_t>(manifold.corner_count)}, manifold.shallow);
+  corners[0].depth = depth;  // but for rounding it is
   return manifold;
 }
 

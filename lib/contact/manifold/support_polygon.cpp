@@ -89,19 +89,38 @@ using SupportPoints = std::array<SupportPoint, 4>;
 
 }  // namespace
 
+/// A body and its tangent plane in the body's frame.
+struct SupportPolygon::View {
+  const Shape& shape;
+  const Pose& pose;
+  Matrix3 to_body;
+  Vector3 normal;
+  Vector3 support_point;        // m
+  Vector3 support_point_there;  // m; in the frame that the pose refers to
+  std::array<Vector3, 2> axes;
+
+  View(const Shape& body, const Pose& pose_of_body, const Vector3& n, const Vector3& point)
+      : shape(body),
+        pose(pose_of_body),
+        to_body(pose.rotation.transpose()),
+        normal(to_body * n),
+        support_point(to_body * (point - pose.position)),
+        support_point_there(point),
+        axes(axes_in_plane(normal)) {}
+};
+
 /// The points of a body whose normals are tilted against n by up to the same angle, in units of the half-extents.
 class SupportPolygon::Tilts {
  public:
-  Tilts(const Shape& shape, const Vector3& n, const std::array<Vector3, 2>& axes, const Vector3& support_point, double height,
-        const std::array<double, 2>& extents, double tangent)
-      : shape_(&shape),
-        n_(n),
-        axes_(axes),
-        support_point_(support_point),
-        rolling_radius_(shape.rolling_radius()),
+  Tilts(const View& view, double height, const std::array<double, 2>& extents, const std::array<double, 2>& tangents)
+      : shape_(&view.shape),
+        n_(view.normal),
+        axes_(view.axes),
+        support_point_(view.support_point),
+        rolling_radius_(view.shape.rolling_radius()),
         extents_(extents),
-        largest_({tangent * height / extents[0], tangent * height / extents[1]}),
-        half_extents_(shape.half_extents()),
+        largest_({tangents[0] * height / extents[0], tangents[1] * height / extents[1]}),
+        half_extents_(view.shape.half_extents()),
         ends_of_body_(points_of(kAxes)),
         ends_(without_ball(ends_of_body_, kAxes)) {}
 
@@ -214,30 +233,46 @@ class SupportPolygon::Tilts {
   SupportPoints ends_;  // without the ball
 };
 
-SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth)
-    : support_point_(support_point) {
-  const Matrix3 to_body = pose.rotation.transpose();
-  const Vector3 normal = to_body * n;
-  const Vector3 support = to_body * (support_point - pose.position);
-  const std::array<Vector3, 2> axes = axes_in_plane(normal);
-  axes_ = {pose.rotation * axes[0], pose.rotation * axes[1]};
-  const Vector3 half_extents = shape.half_extents();
+SupportPolygon::SupportPolygon(const View& view)
+    : support_point_(view.support_point_there), axes_({view.pose.rotation * view.axes[0], view.pose.rotation * view.axes[1]}) {
+  const Vector3 half_extents = view.shape.half_extents();
   // The extents are those of the ellipsoid with the body's half-extents.
   const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
-  extents_ = {extent(axes[0]), extent(axes[1])};
-  height_ = extent(normal);
-  const auto tilts_of = [&](double tangent) {
-    evaluations_ += 4;
-    return Tilts(shape, normal, axes, support, height_, extents_, tangent);
-  };
+  extents_ = {extent(view.axes[0]), extent(view.axes[1])};
+  height_ = extent(view.normal);
+}
+
+SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth)
+    : SupportPolygon(View(shape, pose, n, support_point), depth) {}
+
+SupportPolygon::SupportPolygon(const View& view, double depth) : SupportPolygon(view) {
   // Of a tall body the height says nothing of how far it may lean.
   const double least_extent = std::min({height_, extents_[0], extents_[1]});
   reach_ = std::max(depth, std::min(kReach * least_extent + kReachOfDepth * depth, kLargestReach * least_extent));
   const double tangent = tangent_of_tilt(reach_, height_);
-  const Tilts tilts = tilts_of(tangent);
+  find(view, {tangent, tangent});
+}
+
+SupportPolygon SupportPolygon::of_tilt(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point,
+                                       double tilt) {
+  const View view(shape, pose, n, support_point);
+  SupportPolygon polygon(view);
+  polygon.reach_ = HUGE_VAL;
+  polygon.find(view, {tilt * polygon.extents_[0] / polygon.height_, tilt * polygon.extents_[1] / polygon.height_});
+  return polygon;
+}
+
+// `tangents` are the tilts along both axes, in half-heights over half-extents.
+void SupportPolygon::find(const View& view, const std::array<double, 2>& tangents) {
+  const auto tilts_of = [&](const std::array<double, 2>& of_tilts) {
+    evaluations_ += 4;
+    return Tilts(view, height_, extents_, of_tilts);
+  };
+  const Tilts tilts = tilts_of(tangents);
   widths_ = widths_seen_by(tilts);
-  if (tangent > kNear && std::min(widths_[0], widths_[1]) < 1) {
-    const std::array<double, 2> from_near = widths_seen_by(tilts_of(kNear));
+  if (std::max(tangents[0], tangents[1]) > kNear && std::min(widths_[0], widths_[1]) < 1) {
+    const Tilts near = tilts_of({std::min(tangents[0], kNear), std::min(tangents[1], kNear)});
+    const std::array<double, 2> from_near = widths_seen_by(near);
     widths_ = {std::max(widths_[0], from_near[0]), std::max(widths_[1], from_near[1])};
   }
   const Tilt slope = tilts.slope();

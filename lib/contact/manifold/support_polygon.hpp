@@ -29,6 +29,10 @@ class SupportPolygon {
   /// is the depth of the overlap, m.
   SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth);
 
+  /// The same with one tilt along both axes, whatever the depth: for contacts whose gaps are known. Its vertices are those of the
+  /// tilts, however far they are from the plane, and largest_lean() says nothing.
+  static SupportPolygon of_tilt(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double tilt);
+
   /// Whether there is more than the support point.
   bool has_width() const { return widths_[0] > 0 || widths_[1] > 0; }
 
@@ -60,7 +64,12 @@ class SupportPolygon {
 
  private:
   class Tilts;
+  struct View;
 
+  explicit SupportPolygon(const View& view);
+  SupportPolygon(const View& view, double depth);
+
+  void find(const View& view, const std::array<double, 2>& tangents);
   std::array<double, 2> widths_seen_by(const Tilts& tilts);
   void place_vertices(const Tilts& tilts);
   void turn_across();

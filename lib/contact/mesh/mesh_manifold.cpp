@@ -93,7 +93,7 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
 void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles) {
   if (manifold.corner_count == 0) return;
   const double depth = -manifold.deepest.gap;
-  Floor floor{-manifold.deepest.normal, manifold.deepest.point2, depth};
+  Floor floor{-manifold.deepest.normal, manifold.deepest.point2, std::max(0.0, depth)};
   std::array<double, ContactManifold::kMaxCorners> shares{};
   bool is_on_face = false;
   double on_floor = 1;

@@ -11,11 +11,11 @@ namespace supernormal::ode {
 namespace {
 
 // ODE's assertions abort on a normal that is not a unit vector or not a number, so every contact is checked here.
-bool is_contact(const Proximity& proximity) {
+bool is_contact(const Proximity& proximity, double reach) {
   if (proximity.status == Status::Apart || proximity.status == Status::InvalidInput) return false;
-  const bool overlap = proximity.gap <= 0 && std::isfinite(proximity.gap);
+  const bool is_within_reach = proximity.gap <= reach && std::isfinite(proximity.gap);
   const bool unit_normal = std::abs(proximity.normal.squaredNorm() - 1) < 1e-6;
-  return overlap && unit_normal && proximity.contact.allFinite();
+  return is_within_reach && unit_normal && proximity.contact.allFinite();
 }
 
 /// Writes one contact, which must satisfy is_contact(), after the `count` that are there, if there is room, and returns how many
@@ -39,13 +39,13 @@ int append_contact(const Proximity& proximity, const ContactArray& out, int coun
 /// Writes the corners of a reduced manifold from number `first` on; the deepest point, number 0, if there are none.
 int append_from(int first, const ContactManifold& manifold, const ContactArray& out, int count, int side2) {
   Proximity contact = manifold.deepest;
-  if (!is_contact(contact)) return count;
+  if (!is_contact(contact, manifold.reach)) return count;
   if (manifold.corner_count == 0) return first == 0 ? append_contact(contact, out, count, side2) : count;
   for (int k = first; k < manifold.corner_count; ++k) {
     const ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
     contact.gap = -corner.depth;
     contact.contact = corner.point;
-    if (is_contact(contact)) count = append_contact(contact, out, count, side2);
+    if (is_contact(contact, manifold.reach)) count = append_contact(contact, out, count, side2);
   }
   return count;
 }

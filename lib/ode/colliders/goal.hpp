@@ -13,8 +13,11 @@ enum class Goal {
   CertifiedDistance,  ///< with a proof that the depth of overlapping bodies is the smallest
 };
 
+/// Whether the query is one of dCollide.
+inline bool is_for_contacts(Goal goal) { return goal == Goal::OneContact || goal == Goal::Contacts; }
+
 inline Settings for_goal(Settings settings, Goal goal) {
-  settings.stop_when_apart = goal == Goal::OneContact || goal == Goal::Contacts;
+  settings.stop_when_apart = is_for_contacts(goal);
   settings.certify_depth = goal == Goal::CertifiedDistance;
   return settings;
 }

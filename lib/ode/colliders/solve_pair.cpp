@@ -4,31 +4,45 @@
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/look_ahead.hpp"
 #include "ode/geom/solver_settings.hpp"
 #include "ode/runtime/statistics.hpp"
+#include "supernormal/contact/contacts_ahead.hpp"
 #include "supernormal/proximity/solve.hpp"
 
 namespace supernormal::ode {
 namespace {
 
 struct PosedShape {
+  dGeomID geom;
   const Shape& shape;
   const Pose& pose;
+  double radius;  // m; no point of the shape is farther from its origin, where bodies are looked at ahead
 };
 
+BodyAhead moving(const PosedShape& posed) {
+  return {posed.shape, posed.pose, motion_of(posed.geom, posed.pose.position, posed.radius)};
+}
+
 /// Solves for two shapes. `last.pose` must be set; the remembered normals are in the frame with the attitude `frame`, and `size`
-/// is passed on to recall_normal().
-ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, Goal goal, const Matrix3& frame,
-                      double size, const Remembered& remembered, LastNormal& last) {
+/// is passed on to recall_normal(). Contacts are looked for `time` ahead.
+ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, Goal goal, double time,
+                      const Matrix3& frame, double size, const Remembered& remembered, LastNormal& last) {
   Vector3 first_normal;
   const bool is_warm = recall_normal(remembered, last.pose, size, first_normal);
   // The solver takes the normal in the frame of the first shape.
   if (is_warm && &frame != &one.pose.rotation) first_normal = one.pose.rotation.transpose() * (frame * first_normal);
-  const Proximity result =
-      find_proximity(one.shape, one.pose, other.shape, other.pose, for_goal(settings, goal), is_warm ? &first_normal : nullptr);
-  count_query(result, is_warm);
+  const bool looks_ahead = time > 0 && is_for_contacts(goal);
+  const Settings asked = for_goal(settings, looks_ahead ? Goal::Distance : goal);
+  const Proximity result = find_proximity(one.shape, one.pose, other.shape, other.pose, asked, is_warm ? &first_normal : nullptr);
   last.is_known = result.status != Status::InvalidInput;
   last.normal.noalias() = frame.transpose() * result.normal;
+  if (looks_ahead) {
+    ContactManifold ahead = find_contacts_ahead(moving(one), moving(other), time, asked, result);
+    count_query(ahead.deepest, is_warm);
+    return ahead;
+  }
+  count_query(result, is_warm);
   return goal == Goal::Contacts ? find_contact_manifold(one.shape, one.pose, other.shape, other.pose, result)
                                 : ContactManifold(result);
 }
@@ -52,9 +66,11 @@ ContactManifold BodyPair::solve(const Remembered& remembered, Goal goal, LastNor
   const Pose pose1 = pose_of(geom1_);
   const Pose pose2 = pose_of(geom2_);
   last.pose = RelativePose::of(pose1, pose2);
-  ContactManifold manifold =
-      ode::solve({body1_->shape(), pose1}, {body2_->shape(), pose2}, combined(body1_->settings(), body2_->settings()), goal,
-                 pose1.rotation, std::min(body1_->size(), body2_->size()), remembered, last);
+  const double time = std::max(body1_->look_ahead(), body2_->look_ahead());
+  const PosedShape one{geom1_, body1_->shape(), pose1, time > 0 ? body1_->radius() : 0};
+  const PosedShape other{geom2_, body2_->shape(), pose2, time > 0 ? body2_->radius() : 0};
+  ContactManifold manifold = ode::solve(one, other, combined(body1_->settings(), body2_->settings()), goal, time, pose1.rotation,
+                                        std::min(body1_->size(), body2_->size()), remembered, last);
   if (is_swapped_) {
     manifold.deepest.normal = -manifold.deepest.normal;
     manifold.deepest.point1.swap(manifold.deepest.point2);
@@ -68,8 +84,11 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goa
   LastNormal last;
   last.pose = RelativePose::of(collider.pose, pose);
   const PairKey key = PairKey::of_direction(body.serial(), last.pose.offset, collider.kind);
-  ContactManifold manifold = solve({body.shape(), pose}, {collider.shape, collider.pose}, body.settings(), goal,
-                                   collider.pose.rotation, body.size(), reserve_entry(key), last);
+  const double time = body.look_ahead();
+  const PosedShape one{ours, body.shape(), pose, time > 0 ? body.radius() : 0};
+  const PosedShape other{collider.geom, collider.shape, collider.pose, time > 0 ? collider.shape.half_extents().norm() : 0};
+  ContactManifold manifold =
+      solve(one, other, body.settings(), goal, time, collider.pose.rotation, body.size(), reserve_entry(key), last);
   last.remember(key);
   return manifold;
 }

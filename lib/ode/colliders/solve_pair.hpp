@@ -51,6 +51,7 @@ class BodyPair {
 
 /// One of ODE's own geoms as a shape of the core.
 struct ColliderShape {
+  dGeomID geom;
   const Shape& shape;
   Pose pose;
   std::uint32_t kind;  ///< collider_kind()

@@ -51,6 +51,13 @@ class Body {
   const Settings& settings() const { return settings_; }
   void set_settings(const Settings& settings) { settings_ = settings; }
 
+  /// s; contacts of pairs that may meet within this time are found too; 0: overlaps only.
+  double look_ahead() const { return look_ahead_; }
+  void set_look_ahead(double time);
+
+  /// No point of shape() is farther from its origin, m. It is kept while look_ahead() is not 0.
+  double radius() const;
+
   /// Null for a body of another kind.
   const SuperellipsoidParameters* superellipsoid() const { return std::get_if<SuperellipsoidParameters>(&parameters_); }
   const SuperovoidParameters* superovoid() const { return std::get_if<SuperovoidParameters>(&parameters_); }
@@ -75,6 +82,8 @@ class Body {
   double size_;                                                                              // m
   std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // monostate: a user-defined body
   Settings settings_;
+  double look_ahead_ = 0;  // s
+  double radius_ = 0;      // m; 0: not known
   std::uint32_t serial_;
   void (*release_)(void*) = nullptr;
   void* user_ = nullptr;

@@ -1,12 +1,15 @@
 #include "ode/geom/bounding_box.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
+#include "ode/geom/look_ahead.hpp"
 #include "ode/support/last_error.hpp"
+#include "supernormal/contact/contacts_ahead.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/shapes/bounding_box.hpp"
 
@@ -18,9 +21,19 @@ constexpr double kRoundingUnits = 8;
 
 double rounding_of(double magnitude) { return kRoundingUnits * double{std::numeric_limits<dReal>::epsilon()} * magnitude; }
 
+/// Widens the box to where the body may be met within the time for which it looks ahead.
+void cover_motion(const Body& body, const MotionAhead& motion, BoundingBox& box) {
+  const double near = nearness(motion, body.look_ahead(), body.size());
+  const Vector3 way = body.look_ahead() * motion.velocity;
+  box.low += way.cwiseMin(0) - Vector3::Constant(near);
+  box.high += way.cwiseMax(0) + Vector3::Constant(near);
+}
+
 int write_finite_aabb(dGeomID geom, dReal* aabb) {
   const Pose pose = pose_of(geom);
-  const BoundingBox box = find_bounding_box(require_body(geom).shape(), pose);
+  const Body& body = require_body(geom);
+  BoundingBox box = find_bounding_box(body.shape(), pose);
+  if (body.look_ahead() > 0) cover_motion(body, motion_of(geom, pose.position, body.radius()), box);
   for (int axis = 0; axis < 3; ++axis) {
     const double position = pose.position[axis];
     const double low = box.low[axis];
@@ -33,12 +46,18 @@ int write_finite_aabb(dGeomID geom, dReal* aabb) {
   return 1;
 }
 
-bool is_above_plane(const Body& body, const Pose& pose, dGeomID plane_geom) {
+bool is_above_plane(dGeomID geom, const Body& body, const Pose& pose, dGeomID plane_geom) {
   dVector4 plane;
   dGeomPlaneGetParams(plane_geom, plane);
   const Vector3 normal = to_vector(plane);
   const double gap = find_plane_proximity(body.shape(), pose, normal, plane[3]).gap;
-  return gap > rounding_of(pose.position.lpNorm<1>() + std::abs(double{plane[3]}) + std::abs(gap));
+  double reach = 0;
+  if (body.look_ahead() > 0) {
+    const MotionAhead motion = motion_of(geom, pose.position, body.radius());
+    const double closing = std::max(0.0, -normal.dot(motion.velocity));
+    reach = closing * body.look_ahead() + nearness(motion, body.look_ahead(), body.size());
+  }
+  return gap - reach > rounding_of(pose.position.lpNorm<1>() + std::abs(double{plane[3]}) + std::abs(gap));
 }
 
 // Tries one separating plane, perpendicular to the line from the body's origin to the nearest point of the box (which is then the
@@ -74,8 +93,9 @@ int test_aabb(dGeomID geom, dGeomID other, dReal other_aabb[6]) {
     if (other_class == geom_class()) return 1;
     const Body& body = require_body(geom);
     const Pose pose = pose_of(geom);
-    const bool apart = other_class == dPlaneClass ? is_above_plane(body, pose, other) : is_outside_box(body, pose, other_aabb);
-    return apart ? 0 : 1;
+    if (other_class == dPlaneClass) return is_above_plane(geom, body, pose, other) ? 0 : 1;
+    // The box of a body that looks ahead covers its way, and the plane that this test tries does not.
+    return body.look_ahead() == 0 && is_outside_box(body, pose, other_aabb) ? 0 : 1;
   });
 }
 

@@ -5,7 +5,8 @@
 
 namespace supernormal::ode {
 
-/// dGetAABBFn: the smallest box along the world's axes, in any attitude, widened by rounding only.
+/// dGetAABBFn: the smallest box along the world's axes, in any attitude, widened by rounding only, and by the way of a body that
+/// looks ahead.
 void compute_aabb(dGeomID geom, dReal aabb[6]);
 
 /// dAABBTestFn: 0 when a plane proves that `geom` and `other`, whose box is `other_aabb`, are apart.

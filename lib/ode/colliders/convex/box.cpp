@@ -12,8 +12,9 @@ ContactManifold query_box(dGeomID ours, dGeomID collider, Goal goal) {
   dVector3 lengths;
   dGeomBoxGetLengths(collider, lengths);
   const Box box(0.5 * to_vector(lengths));
-  const ColliderShape shape{box, pose_of(collider), collider_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
+  const ColliderShape shape{collider, box, pose_of(collider), collider_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
   ContactManifold manifold = solve_pair(ours, shape, goal);
+  if (manifold.reach > 0) return manifold;  // contacts ahead are on the body that moves
   // The contact is moved onto the box, where ODE's own contacts of dSphere and dBox are.
   const Vector3 onto_box = 0.5 * manifold.deepest.gap * manifold.deepest.normal;
   manifold.deepest.contact += onto_box;

@@ -13,7 +13,7 @@ ContactManifold query_capsule(dGeomID ours, dGeomID collider, Goal goal) {
   dReal length = 0;
   dGeomCapsuleGetParams(collider, &radius, &length);
   const Capsule capsule(radius, 0.5 * double{length});
-  const ColliderShape shape{capsule, pose_of(collider), collider_kind(dCapsuleClass, {radius, length})};
+  const ColliderShape shape{collider, capsule, pose_of(collider), collider_kind(dCapsuleClass, {radius, length})};
   return solve_pair(ours, shape, goal);
 }
 

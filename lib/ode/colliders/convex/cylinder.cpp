@@ -13,7 +13,7 @@ ContactManifold query_cylinder(dGeomID ours, dGeomID collider, Goal goal) {
   dReal length = 0;
   dGeomCylinderGetParams(collider, &radius, &length);
   const Cylinder cylinder(radius, 0.5 * double{length});
-  const ColliderShape shape{cylinder, pose_of(collider), collider_kind(dCylinderClass, {radius, length})};
+  const ColliderShape shape{collider, cylinder, pose_of(collider), collider_kind(dCylinderClass, {radius, length})};
   return solve_pair(ours, shape, goal);
 }
 

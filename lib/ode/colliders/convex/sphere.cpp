@@ -14,7 +14,7 @@ namespace supernormal::ode {
 ContactManifold query_sphere(dGeomID ours, dGeomID collider, Goal goal) {
   const Sphere sphere(dGeomSphereGetRadius(collider));
   const Pose pose{to_vector(dGeomGetPosition(collider)), rotation_of(ours)};
-  return solve_pair(ours, {sphere, pose, collider_kind(dSphereClass, {})}, goal);
+  return solve_pair(ours, {collider, sphere, pose, collider_kind(dSphereClass, {})}, goal);
 }
 
 }  // namespace supernormal::ode

@@ -9,10 +9,12 @@
 #include "ode/colliders/no_answer.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/look_ahead.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
+#include "supernormal/contact/mesh_contacts_ahead.hpp"
 #include "supernormal/impact/mesh_time_of_impact.hpp"
 #include "supernormal/proximity/plane.hpp"
 
@@ -66,6 +68,7 @@ struct Visitor {
 struct Scratch {
   HeightfieldPatch patch;
   MeshContacts mesh;
+  MeshContactsAhead mesh_ahead;
   std::vector<Proximity> contacts;
   std::vector<LocatedManifold> manifolds;
 };
@@ -127,6 +130,48 @@ Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
   return {kept.contacts, triangles};
 }
 
+MotionAhead in_frame(MotionAhead world, const Pose& frame) {
+  const Matrix3 to_frame = frame.rotation.transpose();
+  world.velocity = to_frame * world.velocity;
+  world.centre = to_frame * (world.centre - frame.position);
+  world.turning = to_frame * world.turning * frame.rotation;
+  return world;
+}
+
+/// Finds the contacts ahead of a body, in scratch(), in the world frame.
+void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, dGeomID ours, dGeomID heightfield) {
+  const Body& body = require_body(ours);
+  const Vector3 origin = to_vector(dGeomGetPosition(ours));
+  const BodyAhead moving{visitor.shape, visitor.pose, in_frame(motion_of(ours, origin, body.radius()), frame)};
+  const MotionAhead surface = in_frame(motion_of(heightfield, origin, body.radius()), frame);
+  const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(moving, surface, body.look_ahead());
+  Visitor all = visitor;
+  all.centre += reach.middle;
+  all.extents.array() += reach.margin;
+  if (is_above_all(probe, all)) return;
+  Scratch& kept = scratch();
+  const std::span<const MeshTriangle> triangles = kept.patch.read(probe, all.region());
+  const std::span<const MeshManifold> found = kept.mesh_ahead.find(moving, surface, body.look_ahead(), triangles, visitor.settings);
+  Proximity first;
+  first.status = found.empty() ? Status::Apart : found.front().manifold.deepest.status;
+  first.evaluations = kept.mesh_ahead.evaluations();
+  count_query(first, false);
+  for (const MeshManifold& contact : found) kept.manifolds.push_back({to_world(contact.manifold, frame), -1});
+}
+
+/// Finds the contacts of the overlap, in scratch(), in the world frame.
+void look_at_overlap(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, int room) {
+  const Found found = find_contacts(probe, visitor);
+  for (const Proximity& contact : found.contacts) {
+    ContactManifold manifold = contact;
+    if (room > 1) {
+      manifold = find_plane_contact_manifold(visitor.shape, visitor.pose, contact);
+      draw_in_corners(manifold, found.triangles);
+    }
+    scratch().manifolds.push_back({to_world(manifold, frame), -1});
+  }
+}
+
 // The nearest triangle of those below the body is at least as far away as the nearest of all, which is therefore below the body
 // widened by that distance.
 Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
@@ -180,19 +225,12 @@ int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContact
     const Visitor visitor(require_body(ours), pose_of(ours), frame);
     HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
     if (!visitor.is_finite()) refuse_pair(ours, collider);
-    if (is_above_all(probe, visitor)) return 0;
     const ContactArray out{ours, collider, flags, contacts, skip};
-    const Found found = find_contacts(probe, visitor);
     std::vector<LocatedManifold>& manifolds = scratch().manifolds;
     manifolds.clear();
-    for (const Proximity& contact : found.contacts) {
-      ContactManifold manifold = contact;
-      if (out.room() > 1) {
-        manifold = find_plane_contact_manifold(visitor.shape, visitor.pose, contact);
-        draw_in_corners(manifold, found.triangles);
-      }
-      manifolds.push_back({to_world(manifold, frame), -1});
-    }
+    if (require_body(ours).look_ahead() > 0) look_ahead(probe, visitor, frame, ours, collider);
+    // What is wholly below the surface has nothing ahead of it but the way up.
+    if (manifolds.empty() && !is_above_all(probe, visitor)) look_at_overlap(probe, visitor, frame, out.room());
     return write_contacts(manifolds, out);
   });
 }

@@ -11,11 +11,13 @@
 #include "ode/colliders/trimesh/mesh_candidates.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
+#include "ode/geom/look_ahead.hpp"
 #include "ode/runtime/statistics.hpp"
 #include "ode/support/last_error.hpp"
 #include "proximity/usable_pose.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
+#include "supernormal/contact/mesh_contacts_ahead.hpp"
 #include "supernormal/impact/mesh_time_of_impact.hpp"
 
 namespace supernormal::ode {
@@ -28,6 +30,7 @@ constexpr double kMargin = 1e-6;
 struct Scratch {
   MeshCandidates candidates;
   MeshContacts contacts;
+  MeshContactsAhead contacts_ahead;
   std::vector<LocatedManifold> manifolds;
 };
 
@@ -60,14 +63,54 @@ struct Visit {
   }
 };
 
+/// Counts a query that found `all`, the smallest gap first, as one.
+void count_query_of(const Proximity* first, int evaluations) {
+  Proximity all;
+  all.status = first == nullptr ? Status::Apart : first->status;
+  all.evaluations = evaluations;
+  count_query(all, false);
+}
+
 std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const MeshTriangle> triangles) {
   const std::span<const MeshContact> found =
       scratch().contacts.find(visit.body.shape(), visit.pose, triangles, visit.body.settings());
-  Proximity all;
-  all.status = found.empty() ? Status::Apart : found.front().proximity.status;
-  all.evaluations = scratch().contacts.evaluations();
-  count_query(all, false);
+  count_query_of(found.empty() ? nullptr : &found.front().proximity, scratch().contacts.evaluations());
   return found;
+}
+
+/// Finds the contacts ahead, in scratch().
+void look_ahead(const Visit& visit) {
+  const double time = visit.body.look_ahead();
+  const BodyAhead body{visit.body.shape(), visit.pose, motion_of(visit.geom, visit.pose.position, visit.body.radius())};
+  const MotionAhead surface = motion_of(visit.mesh, visit.pose.position, visit.body.radius());
+  const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(body, surface, time);
+  BodyBox box = visit.box.widened(reach.margin);
+  box.centre += visit.pose.rotation.transpose() * reach.middle;
+  const std::span<const MeshTriangle> triangles = scratch().candidates.find(visit.mesh, visit.geom, box, visit.pose, true);
+  MeshContactsAhead& ahead = scratch().contacts_ahead;
+  const std::span<const MeshManifold> found = ahead.find(body, surface, time, triangles, visit.body.settings());
+  count_query_of(found.empty() ? nullptr : &found.front().manifold.deepest, ahead.evaluations());
+  for (const MeshManifold& contact : found) scratch().manifolds.push_back({contact.manifold, contact.triangle});
+}
+
+/// Finds the contacts of the overlap, in scratch(); with corners if there is room for more than one.
+void look_at_overlap(const Visit& visit, int room) {
+  const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
+  std::vector<LocatedManifold>& manifolds = scratch().manifolds;
+  std::span<const MeshTriangle> near;
+  double margin = -1;  // margin within which the triangles were searched
+  for (const MeshContact& contact : found) {
+    manifolds.push_back({contact.proximity, contact.triangle});
+    if (room < 2) continue;
+    ContactManifold& manifold = manifolds.back().manifold;
+    manifold = find_plane_contact_manifold(visit.body.shape(), visit.pose, contact.proximity);
+    if (manifold.corner_count == 0) continue;
+    if (manifold.margin > margin) {
+      margin = manifold.margin;
+      near = visit.triangles_within(margin);
+    }
+    draw_in_corners(manifold, near);
+  }
 }
 
 /// Distances from the body's centre to the nearest and the farthest point of the mesh's box.
@@ -153,24 +196,13 @@ int collide_with_trimesh(dGeomID ours, dGeomID collider, int flags, dContactGeom
     const Visit visit(ours, collider);
     if (!visit.is_usable()) refuse_pair(ours, collider);
     const ContactArray out{ours, collider, flags, contacts, skip};
-    const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
-    std::vector<LocatedManifold>& manifolds = scratch().manifolds;
-    manifolds.clear();
-    std::span<const MeshTriangle> near;
-    double margin = -1;  // margin within which the triangles were searched
-    for (const MeshContact& contact : found) {
-      manifolds.push_back({contact.proximity, contact.triangle});
-      if (out.room() < 2) continue;
-      ContactManifold& manifold = manifolds.back().manifold;
-      manifold = find_plane_contact_manifold(visit.body.shape(), visit.pose, contact.proximity);
-      if (manifold.corner_count == 0) continue;
-      if (manifold.margin > margin) {
-        margin = manifold.margin;
-        near = visit.triangles_within(margin);
-      }
-      draw_in_corners(manifold, near);
+    scratch().manifolds.clear();
+    if (visit.body.look_ahead() > 0) {
+      look_ahead(visit);
+    } else {
+      look_at_overlap(visit, out.room());
     }
-    return write_contacts(manifolds, out);
+    return write_contacts(scratch().manifolds, out);
   });
 }
 

@@ -1,0 +1,80 @@
+#include "supernormal/contact/contacts_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/ahead/meeting.hpp"
+#include "contact/ahead/nearness.hpp"
+#include "contact/ahead/small_turn.hpp"
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+namespace {
+
+/// Takes a manifold at the poses after `time` back to those of now. A contact keeps its place on the bodies, on each as much as it
+/// has its share in the motion.
+void take_back(ContactManifold& manifold, const BodyAhead& body1, const BodyAhead& body2, double time, double share,
+               double gap_now) {
+  const Vector3 way1 = time * body1.motion.velocity;
+  const Vector3 way2 = time * body2.motion.velocity;
+  const Vector3 way = share * way1 + (1 - share) * way2;
+  const double closed = manifold.deepest.normal.dot(way1 - way2);
+  // Bodies that are apart now do not overlap now, whatever the tangent planes at the impact say.
+  const double greatest_depth = std::max(0.0, -gap_now);
+  const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
+  manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
+  manifold.deepest.point1 -= way1;
+  manifold.deepest.point2 -= way2;
+  manifold.deepest.contact -= way;
+  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - way, depth_now(corner.depth)};
+}
+
+ContactManifold none(const Proximity& now, int evaluations) {
+  ContactManifold manifold(now);
+  manifold.deepest.status = Status::Apart;
+  manifold.deepest.evaluations = evaluations;
+  return manifold;
+}
+
+}  // namespace
+
+double nearness(const MotionAhead& motion, double time, double size) { return nearness_of_both(motion, {}, time, size); }
+
+ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& body2, double time, const Settings& settings,
+                                    const Proximity& now) {
+  if (now.status == Status::InvalidInput) return now;
+  if (!is_finite(body1.motion) || !is_finite(body2.motion)) {
+    return find_contacts_ahead({body1.shape, body1.pose, {}}, {body2.shape, body2.pose, {}}, time, settings, now);
+  }
+  const double share = share_of_first(body1.motion, body2.motion);
+  const double size = smaller_thickness(body1.shape, body2.shape);
+  const double near = nearness_of_both(body1.motion, body2.motion, time, size);
+  const double reach = (body1.motion.velocity - body2.motion.velocity).norm() * time + near;
+  if (now.gap > reach) return none(now, now.evaluations);
+  const Meeting meeting = find_meeting(body1, body2, time, size, settings, now);
+  if (!meeting.hits && meeting.time > 0 && meeting.there.gap > near) return none(now, meeting.evaluations);
+  const BodyAhead there1 = moved(body1, meeting.time);
+  const BodyAhead there2 = moved(body2, meeting.time);
+  ContactManifold manifold = find_manifold_of_gaps(there1.shape, there1.pose, there2.shape, there2.pose, meeting.there, share);
+  take_back(manifold, body1, body2, meeting.time, share, now.gap);
+  manifold.deepest.evaluations = meeting.evaluations;
+  manifold.reach = reach;
+  limit_turn(body1, body2, time, share, manifold);
+  return manifold;
+}
+
+// The tangent plane is the same wherever the body is moved, and its gap shrinks evenly: the impact need not be looked for.
+ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, const Proximity& now) {
+  if (now.status == Status::InvalidInput) return now;
+  if (!is_finite(body.motion)) return find_plane_contacts_ahead({body.shape, body.pose, {}}, time, now);
+  const double size = body.shape.half_extents().minCoeff();
+  const double closing = std::max(0.0, body.motion.velocity.dot(now.normal));
+  const double reach = closing * time + nearness(body.motion, time, size);
+  if (now.gap > reach) return none(now, now.evaluations);
+  ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now);
+  manifold.reach = reach;
+  limit_turn(body, {body.shape, body.pose, {}}, time, 1, manifold);
+  return manifold;
+}
+
+}  // namespace supernormal

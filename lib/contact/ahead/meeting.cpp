@@ -1,0 +1,62 @@
+#include "contact/ahead/meeting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapes/validation.hpp"
+#include "supernormal/proximity/solve.hpp"
+
+namespace supernormal {
+namespace {
+
+// A way that is shorter than this share of that overlap changes no contact: the poses of now will do.
+constexpr double kNoWay = 0.1;
+
+// An impact is known well enough from this share of the overlap on.
+constexpr double kMet = 0.9;
+
+// Newton's steps end after two or three, and where they do not, the bodies count as meeting where they got to.
+constexpr int kMostSteps = 30;
+
+}  // namespace
+
+double smaller_thickness(const Shape& shape1, const Shape& shape2) {
+  const double thickness1 = shape1.half_extents().minCoeff();
+  const double thickness2 = shape2.half_extents().minCoeff();
+  if (thickness1 < kMinLength) return thickness2;
+  return thickness2 < kMinLength ? thickness1 : std::min(thickness1, thickness2);
+}
+
+BodyAhead moved(const BodyAhead& body, double time) {
+  return {body.shape, {body.pose.position + time * body.motion.velocity, body.pose.rotation}, body.motion};
+}
+
+Meeting find_meeting(const BodyAhead& body1, const BodyAhead& body2, double time, double size, const Settings& settings,
+                     const Proximity& now) {
+  const double graze = kGraze * size;
+  const Vector3 velocity = body1.motion.velocity - body2.motion.velocity;
+  const Meeting of_now{0, now, now.gap <= -graze, now.evaluations};
+  if (of_now.hits || velocity.norm() * time <= kNoWay * graze) return of_now;
+  Meeting meeting = of_now;
+  const auto go_to = [&](double later) {
+    const BodyAhead there1 = moved(body1, later);
+    const BodyAhead there2 = moved(body2, later);
+    const Vector3 normal = body1.pose.rotation.transpose() * meeting.there.normal;
+    meeting.time = later;
+    meeting.there = find_proximity(there1.shape, there1.pose, there2.shape, there2.pose, settings, &normal);
+    meeting.evaluations += meeting.there.evaluations;
+    meeting.hits = meeting.there.gap <= -kMet * graze;
+    return meeting.there.status != Status::InvalidInput;
+  };
+  for (int step = 0; !meeting.hits; ++step) {
+    const double closing = velocity.dot(meeting.there.normal);
+    const double left = meeting.there.gap + graze;
+    if (!(closing > 0 && closing * (time - meeting.time) > left)) break;
+    if (!go_to(meeting.time + left / closing)) return of_now;
+    if (step == kMostSteps) meeting.hits = true;
+  }
+  if (!meeting.hits && !go_to(time)) return of_now;
+  return meeting;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,213 @@
+#include "supernormal/contact/mesh_contacts_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/ahead/meeting.hpp"
+#include "contact/ahead/nearness.hpp"
+#include "contact/ahead/small_turn.hpp"
+#include "contact/mesh/mesh_triangle.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/polytope.hpp"
+#include "supernormal/shapes/rounded.hpp"
+
+namespace supernormal {
+namespace {
+
+// After the first impact the body slides on along what it hit: into the wall behind the floor, and into the corner behind that.
+constexpr int kMostImpacts = 4;
+
+// A face that the body approaches by less than this share of its speed is slid along.
+constexpr double kAlong = 1e-9;
+
+// Two contacts whose normals differ by less than the first, and their gaps by less than this share of what is near, are those of
+// one face that was met at two places.
+constexpr double kSameNormal = 1e-6;
+constexpr double kSameGap = 1e-3;
+
+/// The first impact of a body on triangles that it meets from outside.
+class FirstImpact {
+ public:
+  FirstImpact(const BodyAhead& body, double time, double size, const Settings& settings)
+      : body_(&body), size_(size), settings_(&settings), time_(time) {}
+
+  void look_at(const MeshTriangle& triangle) {
+    if (!is_usable(triangle)) return;
+    const Vector3& velocity = body_->motion.velocity;
+    const std::array<Vector3, 3>& v = triangle.vertices;
+    const Vector3 inward = -(v[1] - v[0]).cross(v[2] - v[0]).normalized();
+    const double closing = inward.dot(velocity);
+    if (!(closing > kAlong * velocity.norm())) return;
+    // The tangent plane that is parallel to the face does not meet it later than the body does.
+    ++evaluations_;
+    const Matrix3& rotation = body_->pose.rotation;
+    const double gap = inward.dot(v[0] - body_->pose.position) - body_->shape.support(rotation.transpose() * inward);
+    if (gap >= closing * time_) return;
+    const Vector3 middle = (v[0] + v[1] + v[2]) / 3;
+    const std::array<Vector3, 3> corners = {v[0] - middle, v[1] - middle, v[2] - middle};
+    if (meets(Polytope(corners), middle)) triangle_ = triangle.index;
+  }
+
+  bool hits() const { return hits_; }
+  const Proximity& there() const { return there_; }  ///< at the impact
+  double time() const { return time_; }              ///< s; of the impact, or the whole time
+  int triangle() const { return triangle_; }
+  int evaluations() const { return evaluations_; }
+
+ private:
+  bool meets(const Polytope& triangle, const Vector3& middle) {
+    const BodyAhead there{triangle, {middle, Matrix3::Identity()}, {}};
+    const Proximity now = find_proximity(body_->shape, body_->pose, triangle, there.pose, *settings_);
+    evaluations_ += now.evaluations;
+    if (now.status == Status::InvalidInput) return false;
+    const Meeting meeting = find_meeting(*body_, there, time_, size_, *settings_, now);
+    evaluations_ += meeting.evaluations - now.evaluations;
+    if (!meeting.hits) return false;
+    hits_ = true;
+    time_ = meeting.time;
+    there_ = meeting.there;
+    return true;
+  }
+
+  const BodyAhead* body_;
+  double size_;
+  const Settings* settings_;
+  double time_;
+  bool hits_ = false;
+  Proximity there_;
+  int triangle_ = 0;
+  int evaluations_ = 0;
+};
+
+/// The contact of a body of which the one of a swept body tells.
+Proximity without_sweep(Proximity swept, double radius) {
+  swept.gap += radius;
+  swept.point1 -= radius * swept.normal;
+  swept.contact -= radius * swept.normal;
+  return swept;
+}
+
+/// Takes a manifold at the end of the body's `way` over the surface back to where the body is now. What is apart there was no
+/// overlap before, whatever the tangent plane says.
+void take_back(ContactManifold& manifold, const Vector3& way, double share) {
+  const double closed = manifold.deepest.normal.dot(way);
+  const double greatest_depth = std::max(0.0, -manifold.deepest.gap);
+  const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
+  manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
+  manifold.deepest.contact -= share * way;
+  for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - share * way, depth_now(corner.depth)};
+}
+
+/// The velocity along a wall that is met with `normal`.
+Vector3 along_wall(const Vector3& velocity, const Vector3& normal) {
+  return velocity - std::max(0.0, velocity.dot(normal)) * normal;
+}
+
+}  // namespace
+
+struct MeshContactsAhead::Search {
+  const BodyAhead& body;  // where it is on its way
+  const BodyAhead& now;
+  const MotionAhead& surface;
+  double time;  // s
+  std::span<const MeshTriangle> triangles;
+  const Settings& settings;
+  double near;   // m; a gap up to this is a contact
+  double reach;  // m
+  double share;  // of the body in the motion of both
+  double graze;  // m; a body that is in the surface by more has met it
+};
+
+MeshContactsAhead::Reach MeshContactsAhead::reach_of(const BodyAhead& body, const MotionAhead& surface, double time) {
+  if (!is_finite(body.motion) || !is_finite(surface)) return reach_of({body.shape, body.pose, {}}, {}, time);
+  const Vector3 half_way = 0.5 * time * (body.motion.velocity - surface.velocity);
+  const double size = body.shape.half_extents().minCoeff();
+  // The places on the way along a wall are on the sphere around the way without the wall (Thales).
+  return {half_way, half_way.norm() + nearness_of_both(body.motion, surface, time, size)};
+}
+
+std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, const MotionAhead& surface, double time,
+                                                      std::span<const MeshTriangle> triangles, const Settings& settings) {
+  if (!is_finite(body.motion) || !is_finite(surface)) {
+    return find({body.shape, body.pose, {}}, {}, time, triangles, settings);
+  }
+  found_.clear();
+  evaluations_ = 0;
+  const double size = body.shape.half_extents().minCoeff();
+  const double near = nearness_of_both(body.motion, surface, time, size);
+  BodyAhead there = body;
+  there.motion.velocity -= surface.velocity;
+  const Search search{there,
+                      body,
+                      surface,
+                      time,
+                      triangles,
+                      settings,
+                      near,
+                      there.motion.velocity.norm() * time + near,
+                      share_of_first(body.motion, surface),
+                      kGraze * size};
+  add_overlaps(search);
+  double left = time;
+  for (int impact = 0; impact < kMostImpacts; ++impact) {
+    FirstImpact first(there, left, size, settings);
+    for (const MeshTriangle& triangle : triangles) first.look_at(triangle);
+    evaluations_ += first.evaluations();
+    left -= first.time();
+    there.pose.position += first.time() * there.motion.velocity;
+    const Vector3 way = there.pose.position - body.pose.position;
+    add_contacts(search, way);
+    if (!first.hits()) break;
+    if (!holds_back(there.motion.velocity)) add(search, first.there(), first.triangle(), way);
+    for (const MeshManifold& found : found_) {
+      const ContactManifold& manifold = found.manifold;
+      const double gap_there = manifold.deepest.gap - manifold.deepest.normal.dot(way);
+      if (gap_there <= 0) there.motion.velocity = along_wall(there.motion.velocity, manifold.deepest.normal);
+    }
+  }
+  std::sort(found_.begin(), found_.end(), [](const MeshManifold& one, const MeshManifold& other) {
+    return one.manifold.deepest.gap < other.manifold.deepest.gap;
+  });
+  return found_;
+}
+
+/// Whether one of the contacts is in the way of the velocity.
+bool MeshContactsAhead::holds_back(const Vector3& velocity) const {
+  return std::any_of(found_.begin(), found_.end(), [&](const MeshManifold& found) {
+    return found.manifold.deepest.normal.dot(velocity) > kAlong * velocity.norm();
+  });
+}
+
+/// A body that is in the surface already is held by the contacts of now, wherever it goes.
+void MeshContactsAhead::add_overlaps(const Search& search) {
+  const std::span<const MeshContact> contacts =
+      contacts_.find(search.body.shape, search.body.pose, search.triangles, search.settings);
+  evaluations_ += contacts_.evaluations();
+  for (const MeshContact& contact : contacts) {
+    if (contact.proximity.gap <= -search.graze) add(search, contact.proximity, contact.triangle, Vector3::Zero());
+  }
+}
+
+void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
+  // The sweep refers to the body's shape and does not own it.
+  const Rounded swept(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &search.body.shape), search.near);
+  const std::span<const MeshContact> contacts = contacts_.find(swept, search.body.pose, search.triangles, search.settings);
+  evaluations_ += contacts_.evaluations();
+  for (const MeshContact& contact : contacts) add(search, without_sweep(contact.proximity, search.near), contact.triangle, way);
+}
+
+void MeshContactsAhead::add(const Search& search, const Proximity& there, int triangle, const Vector3& way) {
+  ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there);
+  draw_in_corners(manifold, search.triangles);
+  take_back(manifold, way, search.share);
+  manifold.reach = search.reach;
+  limit_turn(search.now, {search.now.shape, search.now.pose, search.surface}, search.time, search.share, manifold);
+  const auto same = std::find_if(found_.begin(), found_.end(), [&](const MeshManifold& other) {
+    return (other.manifold.deepest.normal - there.normal).norm() < kSameNormal &&
+           other.manifold.deepest.gap < manifold.deepest.gap + kSameGap * search.near;
+  });
+  if (same == found_.end()) found_.push_back({manifold, triangle});
+}
+
+}  // namespace supernormal

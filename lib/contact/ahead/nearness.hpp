@@ -1,0 +1,35 @@
+// Which bodies are near enough to be brought together, and how two share in their motion.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "supernormal/contact/contacts_ahead.hpp"
+
+namespace supernormal {
+
+// A push of the same step may bring bodies together that are no farther apart than this share of the smaller one's half-extent.
+inline constexpr double kSlack = 0.01;
+
+/// How far rotation carries a point of the body within `time`, m: no farther than to the other side.
+inline double turn_of(const MotionAhead& motion, double time) { return motion.arm * std::min(2.0, motion.turn_rate * time); }
+
+/// How much nearer than their velocities say two bodies may come within `time`, m.
+inline double nearness_of_both(const MotionAhead& motion1, const MotionAhead& motion2, double time, double size) {
+  const double acceleration = std::max(motion1.acceleration, motion2.acceleration);
+  return turn_of(motion1, time) + turn_of(motion2, time) + acceleration * time * time + kSlack * size;
+}
+
+inline bool is_finite(const MotionAhead& motion) {
+  return motion.velocity.allFinite() && motion.centre.allFinite() && motion.turning.allFinite() &&
+         std::isfinite(motion.turn_rate) && std::isfinite(motion.arm) && std::isfinite(motion.acceleration) &&
+         std::isfinite(motion.mobility);
+}
+
+/// The share of body 1 in the motion of both.
+inline double share_of_first(const MotionAhead& motion1, const MotionAhead& motion2) {
+  const double sum = motion1.mobility + motion2.mobility;
+  return sum > 0 ? motion1.mobility / sum : 0.5;
+}
+
+}  // namespace supernormal

@@ -1,0 +1,102 @@
+#include "contact/manifold/common_corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/manifold/convex_polygon.hpp"
+#include "contact/manifold/unit_root.hpp"
+#include "shapes/validation.hpp"
+
+namespace supernormal {
+namespace {
+
+// A line of contact is this much wider than nothing, relative to the body's smaller extent along the plane.
+constexpr double kThinnest = 1e-3;
+
+// Corners are looked for from so many times the reach of the region: far enough to find those of a square that is turned by
+// 25 degrees, near enough to move along an edge, and not to jump, when it is turned by 45.
+constexpr double kLookFrom = 1.5;
+
+/// A support polygon in the coordinates of the contact, counter-clockwise.
+class Side {
+ public:
+  Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below)
+      : axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
+    const Vector2 support_point = frame.project(polygon.support_point());
+    // A line gets a width, so that two of them have a region in common.
+    const Vector2 thin = kThinnest * polygon.size() * axis_;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t vertex = sees_it_from_below ? 3 - k : k;
+      const Vector2 beside = vertex == 0 || vertex == 3 ? thin : Vector2(-thin);
+      outline_.add(support_point + frame.plane.project(polygon.vertices()[vertex]) + (polygon.is_long() ? beside : Vector2(0, 0)));
+    }
+  }
+
+  const ConvexPolygon& outline() const { return outline_; }
+
+  /// The direction of the axes, the same for all four of them, as a complex number whose length grows as the body gets smaller.
+  Vector2 direction() const { return fourth_power(axis_) / (area_ * area_); }
+
+ private:
+  ConvexPolygon outline_;
+  Vector2 axis_;
+  double area_;
+};
+
+/// The common directions of the axes of both bodies, in which the smaller body has more weight.
+std::array<Vector2, 2> common_axes(const Side& side1, const Side& side2) {
+  const Vector2 sum = side1.direction() + side2.direction();
+  const Vector2 first = sum.squaredNorm() > 0 ? direction_of_fourth_power(sum) : Vector2(Vector2::UnitX());
+  return {first, Vector2(-first.y(), first.x())};
+}
+
+/// The intersection of both polygons, which may be empty.
+ConvexPolygon common_region(const ConvexPolygon& outline1, const ConvexPolygon& outline2) {
+  const bool thinner = outline1.area() < outline2.area();  // an edge of a box has no area
+  return thinner ? outline1.intersected(outline2) : outline2.intersected(outline1);
+}
+
+/// Finds four corners of a region that is not empty.
+CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side& side2, const ContactFrame& frame,
+                      const Vector2& lean) {
+  double squared_reach = 0;
+  for (int k = 0; k < region.size(); ++k) squared_reach = std::max(squared_reach, region[k].squaredNorm());
+  const double reach = std::sqrt(squared_reach);
+  const auto [u, v] = common_axes(side1, side2);
+  const std::array<Vector2, 4> diagonals = {u + v, v - u, -u - v, u - v};
+  CornerList corners;
+  for (std::size_t k = 0; k < diagonals.size(); ++k) {
+    const Vector2 corner = region.nearest_to(kLookFrom * reach * diagonals[k]);
+    corners.points[k] = frame.lift(corner);
+    corners.leans[k] = lean.dot(corner);
+  }
+  return corners;
+}
+
+}  // namespace
+
+bool may_have_corners(const Shape& shape) { return !shape.is_round() && shape.half_extents().minCoeff() >= kMinLength; }
+
+std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, const SupportPolygon& polygon2, const Vector3& normal,
+                                              const Vector3& origin) {
+  const bool is_on_edge2 = polygon2.is_long() && !polygon1.is_long();
+  const ContactFrame frame{TangentPlane(normal, is_on_edge2 ? polygon2.axis() : polygon1.axis()), origin};
+  const Side side1(polygon1, frame, false);
+  const Side side2(polygon2, frame, true);
+  const ConvexPolygon region = common_region(side1.outline(), side2.outline());
+  if (region.size() == 0) return std::nullopt;
+  const Vector2 lean = frame.plane.project(polygon1.slope() + polygon2.slope());
+  return corners_of(region, side1, side2, frame, lean);
+}
+
+CornerList corners_over_plane(const SupportPolygon& polygon, const Vector3& normal) {
+  CornerList corners;
+  for (std::size_t k = 0; k < corners.points.size(); ++k) {
+    corners.leans[k] = polygon.slope().dot(polygon.vertices()[k]);
+    // On the face, whose rounding does not count: a body that rolls on a line has the radius of its equator.
+    corners.points[k] = polygon.support_point() + polygon.vertices()[k] - std::max(0.0, corners.leans[k]) * normal;
+  }
+  return corners;
+}
+
+}  // namespace supernormal

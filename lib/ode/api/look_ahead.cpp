@@ -1,0 +1,55 @@
+// Contacts before overlap.
+#include "ode/geom/look_ahead.hpp"
+
+#include <cmath>
+
+#include "ode/geom/body.hpp"
+#include "ode/support/last_error.hpp"
+#include "ode/support/require.hpp"
+#include "supernormal/supernormal.h"
+
+namespace supernormal::ode {
+namespace {
+
+// The longest time that bodies are looked ahead of, s: far beyond any step, and short enough that no way is infinite.
+constexpr double kLongestTime = 1e6;
+
+double require_time(double time) { return require_in("time", time, 0, kLongestTime, "s"); }
+
+/// With a normal velocity that the surface has already, the gap may close as much faster.
+void turn_into_constraint(dContact& contact, double step) {
+  if (!(contact.geom.depth < 0)) return;
+  const double of_surface = (contact.surface.mode & dContactMotionN) != 0 ? double{contact.surface.motionN} : 0;
+  contact.surface.motionN = static_cast<dReal>(of_surface + contact.geom.depth / step);
+  contact.surface.mode |= dContactMotionN;
+  contact.geom.depth = 0;
+}
+
+}  // namespace
+}  // namespace supernormal::ode
+
+using namespace supernormal::ode;
+
+extern "C" int snGeomSetLookAhead(dGeomID geom, dReal time) {
+  return guarded("snGeomSetLookAhead", 0, [&] {
+    Body& body = require_body(geom);
+    body.set_look_ahead(require_time(time));
+    dGeomMoved(geom);  // the bounding box is another
+    return 1;
+  });
+}
+
+extern "C" int snSetDefaultLookAhead(dReal time) {
+  return guarded("snSetDefaultLookAhead", 0, [&] {
+    set_default_look_ahead(require_time(time));
+    return 1;
+  });
+}
+
+extern "C" void snContactLookAhead(dContact* contact, dReal step) {
+  guarded("snContactLookAhead", 0, [&] {
+    require_not_null("contact", contact);
+    turn_into_constraint(*contact, require_positive("step", step, "s"));
+    return 1;
+  });
+}

@@ -1,0 +1,61 @@
+#include "ode/geom/look_ahead.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <atomic>
+
+#include "ode/geom/convert.hpp"
+
+namespace supernormal::ode {
+namespace {
+
+std::atomic<double> default_time{0};
+
+/// m/s^2; what gravity and the forces that were added since the last step do to the body.
+double acceleration_of(dBodyID body, double mobility) {
+  Vector3 acceleration = mobility * to_vector(dBodyGetForce(body));
+  if (dBodyGetGravityMode(body) != 0) {
+    dVector3 gravity;
+    dWorldGetGravity(dBodyGetWorld(body), gravity);
+    acceleration += to_vector(gravity);
+  }
+  return acceleration.norm();
+}
+
+/// 1/m^2; the inverse of the inertia tensor times the mass, in the world frame.
+Matrix3 turning_of(dBodyID body, const dMass& mass) {
+  const Matrix3 rotation = to_rotation(dBodyGetRotation(body));
+  return double{mass.mass} * (rotation * to_rotation(mass.I).inverse() * rotation.transpose());
+}
+
+}  // namespace
+
+double default_look_ahead() { return default_time.load(std::memory_order_relaxed); }
+
+void set_default_look_ahead(double time) { default_time.store(time, std::memory_order_relaxed); }
+
+// The body's centre moves straight on, and the origin of the geom about it: along the tangent, and beside it by no more than twice
+// its distance from the centre times the angle.
+MotionAhead motion_of(dGeomID geom, const Vector3& origin, double radius) {
+  MotionAhead motion;
+  motion.centre = origin;
+  const dBodyID body = dGeomGetBody(geom);
+  if (body == nullptr) return motion;
+  motion.centre = to_vector(dBodyGetPosition(body));
+  if (dBodyIsKinematic(body) == 0) {
+    dMass mass;
+    dBodyGetMass(body, &mass);
+    motion.mobility = 1 / double{mass.mass};
+    motion.turning = turning_of(body, mass);
+  }
+  if (dBodyIsEnabled(body) == 0) return motion;
+  const Vector3 turn = to_vector(dBodyGetAngularVel(body));
+  const Vector3 from_centre = origin - motion.centre;
+  motion.velocity = to_vector(dBodyGetLinearVel(body)) + turn.cross(from_centre);
+  motion.turn_rate = turn.norm();
+  motion.arm = radius + 2 * from_centre.norm();
+  if (motion.mobility > 0) motion.acceleration = acceleration_of(body, motion.mobility);
+  return motion;
+}
+
+}  // namespace supernormal::ode

@@ -1,0 +1,172 @@
+// Tests of contacts that are found before the bodies overlap.
+#include "supernormal/contact/contacts_ahead.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "supernormal/proximity/plane.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+using namespace supernormal;
+
+namespace {
+
+using Random = std::mt19937_64;
+
+constexpr double kTime = 0.01;  // s
+
+double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+
+Matrix3 random_rotation(Random& random) {
+  std::normal_distribution<double> normal;
+  return Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+}
+
+/// A body of mass 1 that moves without turning.
+BodyAhead moving(const Shape& shape, const Pose& pose, const Vector3& velocity) {
+  MotionAhead motion;
+  motion.velocity = velocity;
+  motion.centre = pose.position;
+  motion.mobility = 1;
+  const double size = shape.half_extents().minCoeff();
+  motion.turning = Matrix3::Identity() / (0.4 * size * size);
+  return {shape, pose, motion};
+}
+
+BodyAhead standing(const Shape& shape, const Pose& pose) {
+  BodyAhead body{shape, pose, {}};
+  body.motion.centre = pose.position;
+  return body;
+}
+
+ContactManifold find(const BodyAhead& body1, const BodyAhead& body2) {
+  const Proximity now = find_proximity(body1.shape, body1.pose, body2.shape, body2.pose);
+  return find_contacts_ahead(body1, body2, kTime, {}, now);
+}
+
+bool has_contact(const ContactManifold& manifold) {
+  return manifold.deepest.status != Status::Apart && manifold.deepest.gap <= manifold.reach;
+}
+
+}  // namespace
+
+TEST_CASE("a ball that flies at a wall: one contact with the gap of now, on the ball, with the wall's normal") {
+  const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
+  const Box wall(Vector3(1, 1, 0.01));
+  for (const double speed : {1.0, 10.0, 1000.0}) {
+    const double gap = 0.7 * speed * kTime;
+    const BodyAhead body = moving(ball, {Vector3(0.1, 0.2, 0.06 + gap), Matrix3::Identity()}, Vector3(0, 0, -speed));
+    const ContactManifold manifold = find(body, standing(wall, {}));
+    REQUIRE(has_contact(manifold));
+    CHECK(manifold.corner_count == 0);
+    CHECK(manifold.deepest.gap == doctest::Approx(gap));
+    CHECK((manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-9);
+    CHECK((manifold.deepest.contact - Vector3(0.1, 0.2, 0.01 + gap)).norm() < 1e-6 * gap + 1e-9);
+    // The same ball that leaves, or is slower, has none.
+    CHECK(!has_contact(find(moving(ball, body.pose, Vector3(0, 0, speed)), standing(wall, {}))));
+    CHECK(!has_contact(find(moving(ball, body.pose, Vector3(0, 0, -0.5 * speed)), standing(wall, {}))));
+  }
+}
+
+TEST_CASE("the normal is that of the impact, not that of now") {
+  const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
+  const Box wall(Vector3(0.5, 0.5, 0.5));
+  // The nearest feature is the edge x = z = 0.5, and the ball flies past it on to the top.
+  const BodyAhead body = moving(ball, {Vector3(1, 0, 0.7), Matrix3::Identity()}, Vector3(-90, 0, -16));
+  const ContactManifold manifold = find(body, standing(wall, {}));
+  REQUIRE(has_contact(manifold));
+  CHECK((manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-6);
+  CHECK(manifold.deepest.gap == doctest::Approx(0.15));
+}
+
+TEST_CASE("random pairs: no impact is missed, and what passes by has no contact") {
+  Random random(5);
+  int impacts = 0;
+  int passes = 0;
+  for (int pair = 0; pair < 1500; ++pair) {
+    const double exponents[] = {2, 3, 8, 60};
+    const auto draw = [&] {
+      const Vector3 half(uniform(random, 0.02, 0.06), uniform(random, 0.02, 0.06), uniform(random, 0.02, 0.06));
+      return Superellipsoid(half, exponents[random() % 4], exponents[random() % 4]);
+    };
+    const Superellipsoid shape1 = draw();
+    const Superellipsoid shape2 = draw();
+    const double size = std::min(shape1.half_extents().minCoeff(), shape2.half_extents().minCoeff());
+    const Pose pose1{Vector3(uniform(random, 0.12, 0.4), uniform(random, -0.15, 0.15), uniform(random, -0.15, 0.15)),
+                     random_rotation(random)};
+    const Pose pose2{Vector3::Zero(), random_rotation(random)};
+    const BodyAhead body1 = moving(shape1, pose1, Vector3(-uniform(random, 1, 80), 0, 0));
+    const BodyAhead body2 = moving(shape2, pose2, Vector3(0, uniform(random, -5, 5), 0));
+    const ContactManifold manifold = find(body1, body2);
+    double least = std::numeric_limits<double>::infinity();
+    double last = 0;
+    for (int k = 0; k <= 100; ++k) {
+      const double time = kTime * k / 100;
+      last = find_proximity(shape1, {pose1.position + time * body1.motion.velocity, pose1.rotation}, shape2,
+                            {pose2.position + time * body2.motion.velocity, pose2.rotation})
+                 .gap;
+      least = std::min(least, last);
+    }
+    if (least < -0.0101 * size) {
+      ++impacts;
+      REQUIRE(has_contact(manifold));
+      // The way along the normal is longer than the gap: the contact is in the way, and it is no later than the impact.
+      const double closing = manifold.deepest.normal.dot(body1.motion.velocity - body2.motion.velocity);
+      CHECK(closing * kTime > manifold.deepest.gap);
+      CHECK(manifold.deepest.gap <= find_proximity(shape1, pose1, shape2, pose2).gap + 1e-9);
+    } else if (least > 0) {
+      passes += last > 0.01 * size ? 1 : 0;
+      if (last > 0.01 * size) CHECK(!has_contact(manifold));
+      // A contact with what is near at the end does not hold back the free motion.
+      const double closing = manifold.deepest.normal.dot(body1.motion.velocity - body2.motion.velocity);
+      if (has_contact(manifold)) CHECK(closing * kTime <= manifold.deepest.gap + 1e-12);
+    }
+  }
+  CHECK(impacts > 300);
+  CHECK(passes > 300);
+}
+
+TEST_CASE("a fast impact at one end acts nearer to the centre of mass") {
+  const Ellipsoid needle(Vector3(0.01, 0.01, 0.1));
+  const Matrix3 slanted = Eigen::AngleAxisd(0.8, Vector3::UnitY()).toRotationMatrix();
+  const auto lever_at = [&](double speed) {
+    BodyAhead body = moving(needle, {Vector3(0, 0, 0.5), slanted}, Vector3(0, 0, -speed));
+    body.motion.turning = Matrix3::Identity() / 2e-3;
+    const Proximity now = find_plane_proximity(needle, body.pose, Vector3::UnitZ(), 0);
+    body.pose.position.z() -= now.gap;
+    body.motion.centre = body.pose.position;
+    const Proximity touching = find_plane_proximity(needle, body.pose, Vector3::UnitZ(), 0);
+    return std::abs(find_plane_contacts_ahead(body, kTime, touching).deepest.contact.x());
+  };
+  const double free = lever_at(0.1);
+  CHECK(free > 0.06);            // its own point
+  CHECK(lever_at(0.5) == free);  // turns by less than 0.1 rad
+  CHECK(lever_at(100) < 0.001);  // would turn by 12 rad
+  // In between, the lever does not jump.
+  double before = free;
+  for (double speed = 0.5; speed < 10; speed *= 1.01) {
+    const double lever = lever_at(speed);
+    CHECK(lever <= before + 1e-12);
+    CHECK(before - lever < 0.1 * free);
+    before = lever;
+  }
+}
+
+TEST_CASE("nothing is found from numbers that are none, and nothing is lost") {
+  const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
+  const Box wall(Vector3(1, 1, 0.01));
+  const Pose touching{Vector3(0, 0, 0.06 - 1e-4), Matrix3::Identity()};
+  for (const double odd : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
+    const ContactManifold manifold = find(moving(ball, touching, Vector3(odd, 0, 0)), standing(wall, {}));
+    CHECK(manifold.deepest.gap == doctest::Approx(-1e-4));
+    CHECK(has_contact(manifold));
+  }
+}

@@ -1,0 +1,102 @@
+// Tests of the contacts with a surface of triangles that a body is about to meet.
+#include "supernormal/contact/mesh_contacts_ahead.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+using namespace supernormal;
+
+namespace {
+
+constexpr double kStep = 0.01;  // s
+
+const Ellipsoid kBall(Vector3(0.05, 0.05, 0.05));
+
+/// A floor z = 0 for x < 1 and a wall x = 1 above it.
+std::vector<MeshTriangle> corner() {
+  const Vector3 a(-3, -3, 0), b(1, -3, 0), c(1, 3, 0), d(-3, 3, 0), e(1, -3, 3), f(1, 3, 3);
+  return {{{a, b, c}, 0}, {{a, c, d}, 1}, {{b, e, f}, 2}, {{b, f, c}, 3}};
+}
+
+BodyAhead flying(const Shape& shape, const Vector3& position, const Vector3& velocity) {
+  MotionAhead motion;
+  motion.velocity = velocity;
+  motion.centre = position;
+  motion.mobility = 1;
+  motion.turning = Matrix3::Identity() / 1e-3;
+  return {shape, {position, Matrix3::Identity()}, motion};
+}
+
+}  // namespace
+
+TEST_CASE("a ball that hits the floor slides on into the wall behind") {
+  MeshContactsAhead ahead;
+  const std::vector<MeshTriangle> triangles = corner();
+  // Straight on it would pass below the floor, and below the wall.
+  const BodyAhead ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
+  const auto found = ahead.find(ball, {}, kStep, triangles);
+  REQUIRE(found.size() == 2);
+  CHECK((found[0].manifold.deepest.normal + Vector3::UnitZ()).norm() < 1e-6);
+  CHECK(found[0].manifold.deepest.gap == doctest::Approx(0.1));
+  CHECK(found[0].triangle < 2);
+  CHECK((found[1].manifold.deepest.normal - Vector3::UnitX()).norm() < 1e-6);
+  CHECK(found[1].manifold.deepest.gap == doctest::Approx(0.95));
+  CHECK(found[1].triangle >= 2);
+}
+
+TEST_CASE("from behind there is no impact, and what moves away or is too slow has no contact") {
+  MeshContactsAhead ahead;
+  const std::vector<MeshTriangle> triangles = corner();
+  const auto has_contact = [&](const Vector3& position, const Vector3& velocity) {
+    const auto found = ahead.find(flying(kBall, position, velocity), {}, kStep, triangles);
+    return !found.empty() && found.front().manifold.deepest.gap <= found.front().manifold.reach;
+  };
+  CHECK(has_contact(Vector3(0, 0, 0.15), Vector3(0, 0, -50)));
+  CHECK(!has_contact(Vector3(0, 0, 0.15), Vector3(0, 0, 50)));
+  CHECK(!has_contact(Vector3(0, 0, 0.15), Vector3(0, 0, -5)));
+  CHECK(!has_contact(Vector3(0, 0, -0.15), Vector3(0, 0, 5)));
+}
+
+TEST_CASE("the surface moves as well") {
+  MeshContactsAhead ahead;
+  const std::vector<MeshTriangle> triangles = corner();
+  MotionAhead surface;
+  surface.velocity = Vector3(0, 0, 20);
+  const auto found = ahead.find(flying(kBall, Vector3(0, 0, 0.15), Vector3::Zero()), surface, kStep, triangles);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].manifold.deepest.gap == doctest::Approx(0.1));
+}
+
+TEST_CASE("the triangles that count are within the reach, and no others") {
+  MeshContactsAhead ahead;
+  const BodyAhead ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
+  const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(ball, {}, kStep);
+  // Every place on the way, and those of the way along the floor, are within the box.
+  for (const Vector3& way : {Vector3(0, 0, 0), Vector3(0.4, 0, -0.1), Vector3(2, 0, -0.5), Vector3(2, 0, -0.1)}) {
+    CHECK(((way - reach.middle).array().abs() <= reach.margin).all());
+  }
+}
+
+TEST_CASE("a brick comes to rest on a sheet with four corners, and those over the border are drawn in") {
+  const Superellipsoid brick({0.1, 0.07, 0.05}, 60, 60);
+  MeshContactsAhead ahead;
+  const std::vector<MeshTriangle> table = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},
+                                           {{Vector3(-1, -1, 0), Vector3(0, 1, 0), Vector3(-1, 1, 0)}, 1}};
+  for (const double gap : {3e-4, 0.0, -1e-5}) {
+    const auto found = ahead.find(flying(brick, Vector3(-0.05, 0, 0.05 + gap), Vector3::Zero()), {}, kStep, table);
+    REQUIRE(found.size() == 1);
+    const ContactManifold& manifold = found[0].manifold;
+    REQUIRE(manifold.corner_count == 4);
+    double right = -1;
+    for (const ManifoldCorner& corner : manifold.corners) {
+      CHECK(corner.depth == doctest::Approx(-gap).epsilon(1e-6));
+      right = std::max(right, corner.point.x());
+    }
+    CHECK(std::abs(right) < 1e-3);
+  }
+}

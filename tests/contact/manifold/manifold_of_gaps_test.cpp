@@ -1,0 +1,133 @@
+// Tests of the manifold of bodies that are apart, by the gaps of its corners.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "supernormal/contact/contacts_ahead.hpp"
+#include "supernormal/proximity/plane.hpp"
+#include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/box.hpp"
+#include "supernormal/shapes/ellipsoid.hpp"
+#include "supernormal/shapes/superellipsoid.hpp"
+
+using namespace supernormal;
+
+namespace {
+
+const Superellipsoid kBrick({0.1, 0.07, 0.05}, 60, 60);
+
+Matrix3 turned(double angle, const Vector3& axis) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
+
+/// The contacts of a body that is `gap` above the plane z = 0.
+ContactManifold above_floor(const Shape& shape, const Matrix3& rotation, double gap) {
+  Pose pose{Vector3(0.3, -0.2, 0), rotation};
+  pose.position.z() = gap - find_plane_proximity(shape, pose, Vector3::UnitZ(), 0).gap;
+  const Proximity proximity = find_plane_proximity(shape, pose, Vector3::UnitZ(), 0);
+  return reduced_to(find_plane_manifold_of_gaps(shape, pose, proximity), 8);
+}
+
+}  // namespace
+
+TEST_CASE("a level brick above a floor has four corners with the gap of the brick") {
+  for (const double gap : {0.1, 1e-3, 0.0, -1e-4}) {
+    const ContactManifold manifold = above_floor(kBrick, Matrix3::Identity(), gap);
+    REQUIRE(manifold.corner_count == 4);
+    for (int k = 0; k < 4; ++k) {
+      const ManifoldCorner& corner = manifold.corners[static_cast<std::size_t>(k)];
+      CHECK(corner.depth == doctest::Approx(-gap).epsilon(1e-9));
+      CHECK(std::abs(corner.point.x() - 0.3) == doctest::Approx(0.1).epsilon(0.1));
+      CHECK(std::abs(corner.point.y() + 0.2) == doctest::Approx(0.07).epsilon(0.1));
+    }
+  }
+}
+
+TEST_CASE("what a face leans is the gap of its corners, the nearest first") {
+  for (const double angle : {0.001, 0.01, 0.05}) {
+    const ContactManifold manifold = above_floor(kBrick, turned(angle, Vector3::UnitY()), 1e-3);
+    REQUIRE(manifold.corner_count == 4);
+    CHECK(manifold.corners[0].depth == doctest::Approx(-1e-3));
+    CHECK(manifold.corners[1].depth == doctest::Approx(-1e-3));
+    for (const std::size_t far : {2U, 3U}) {
+      const double length = std::abs(manifold.corners[far].point.x() - manifold.corners[0].point.x());
+      CHECK(length > 0.18);
+      CHECK(-manifold.corners[far].depth == doctest::Approx(1e-3 + length * std::tan(angle)).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("round bodies have one contact, a can on its side two, a standing one four") {
+  const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
+  const Superellipsoid round({0.1, 0.07, 0.05}, 4, 4);
+  const Superellipsoid can({0.05, 0.05, 0.2}, 2, 60);
+  const Matrix3 on_side = turned(std::numbers::pi / 2, Vector3(1, 0.3, 0));
+  for (const double gap : {0.02, 1e-5, -1e-5}) {
+    CHECK(above_floor(ball, Matrix3::Identity(), gap).corner_count == 0);
+    CHECK(above_floor(round, Matrix3::Identity(), gap).corner_count == 0);
+    CHECK(above_floor(can, on_side, gap).corner_count == 2);
+    CHECK(above_floor(can, Matrix3::Identity(), gap).corner_count == 4);
+  }
+}
+
+TEST_CASE("corners do not move as the gap goes through nothing") {
+  for (const double angle : {0.0, 0.03}) {
+    const Matrix3 rotation = turned(angle, Vector3(1, 2, 0));
+    const ContactManifold before = above_floor(kBrick, rotation, 1e-9);
+    const ContactManifold after = above_floor(kBrick, rotation, -1e-9);
+    REQUIRE(before.corner_count == after.corner_count);
+    for (int k = 0; k < before.corner_count; ++k) {
+      const auto index = static_cast<std::size_t>(k);
+      CHECK((before.corners[index].point - after.corners[index].point).norm() < 1e-8);
+      CHECK(std::abs(before.corners[index].depth - after.corners[index].depth) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("two bodies: the corners of what their faces have in common, on the body that has the share, and the same when swapped") {
+  const Box table(Vector3(0.5, 0.5, 0.1));
+  const Pose pose1;
+  const Pose pose2{Vector3(0.45, 0, 0.17), Matrix3::Identity()};  // it hangs over by half of its length; gap 0.02
+  const Proximity proximity = find_proximity(table, pose1, kBrick, pose2);
+  REQUIRE(proximity.gap == doctest::Approx(0.02));
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const ContactManifold manifold = reduced_to(find_manifold_of_gaps(table, pose1, kBrick, pose2, proximity, share), 8);
+    REQUIRE(manifold.corner_count == 4);
+    double right = 0;
+    for (const ManifoldCorner& corner : manifold.corners) {
+      CHECK(corner.depth == doctest::Approx(-0.02));
+      CHECK(corner.point.z() == doctest::Approx(0.12 - share * 0.02));
+      right = std::max(right, corner.point.x());
+    }
+    CHECK(right == doctest::Approx(0.5));  // the border of the table
+    const Proximity other = find_proximity(kBrick, pose2, table, pose1);
+    const ContactManifold swapped = reduced_to(find_manifold_of_gaps(kBrick, pose2, table, pose1, other, 1 - share), 8);
+    REQUIRE(swapped.corner_count == 4);
+    for (const ManifoldCorner& corner : manifold.corners) {
+      const bool has_it = std::any_of(swapped.corners.begin(), swapped.corners.end(), [&](const ManifoldCorner& twin) {
+        return (twin.point - corner.point).norm() < 1e-6 && std::abs(twin.depth - corner.depth) < 1e-9;
+      });
+      CHECK(has_it);
+    }
+  }
+}
+
+TEST_CASE("with less room the nearest corner keeps its gap") {
+  const ContactManifold all = above_floor(kBrick, turned(0.02, Vector3(1, 2, 0)), 1e-3);
+  REQUIRE(all.corner_count == 4);
+  Pose pose{Vector3(0, 0, 0), turned(0.02, Vector3(1, 2, 0))};
+  pose.position.z() = 1e-3 - find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0).gap;
+  const Proximity proximity = find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0);
+  const ContactManifold manifold = find_plane_manifold_of_gaps(kBrick, pose, proximity);
+  for (int room = 1; room <= 5; ++room) {
+    const ContactManifold reduced = reduced_to(manifold, room);
+    CHECK(reduced.corner_count == (room == 1 ? 0 : std::min(room, 4)));
+    CHECK(reduced.deepest.gap == doctest::Approx(1e-3));
+    for (int k = 0; k < reduced.corner_count; ++k) {
+      const double depth = reduced.corners[static_cast<std::size_t>(k)].depth;
+      CHECK(depth <= -1e-3 + 1e-12);
+      if (k > 0) CHECK(depth <= reduced.corners[static_cast<std::size_t>(k - 1)].depth + 1e-12);
+    }
+  }
+}

@@ -1,0 +1,131 @@
+// Tests of the functions for contacts before overlap: what they refuse, and what they change.
+#include <doctest/doctest.h>
+
+#include "ode/ode_world.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr dReal kNoTime = std::numeric_limits<dReal>::quiet_NaN();
+constexpr dReal kEternity = std::numeric_limits<dReal>::infinity();
+
+dContact contact_of_depth(dReal depth) {
+  dContact contact{};
+  contact.geom.depth = depth;
+  contact.surface.mode = dContactApprox1;
+  contact.surface.mu = dReal(0.5);
+  return contact;
+}
+
+Vec size_of_box(dGeomID geom) {
+  dReal aabb[6];
+  dGeomGetAABB(geom, aabb);
+  return {double{aabb[1]} - aabb[0], double{aabb[3]} - aabb[2], double{aabb[5]} - aabb[4]};
+}
+
+}  // namespace
+
+TEST_CASE("a time that is none is refused, with its value and the range, and nothing changes") {
+  OdeSession session;
+  const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
+  const Vec before = size_of_box(geom);
+  for (const dReal time : {dReal(-1), kNoTime, kEternity, dReal(2e6)}) {
+    CHECK(snGeomSetLookAhead(geom, time) == 0);
+    CHECK(refused_with("snGeomSetLookAhead: time = "));
+    CHECK(refused_with("is outside [0, 1e+06] s"));
+    CHECK(snSetDefaultLookAhead(time) == 0);
+    CHECK(refused_with("snSetDefaultLookAhead: time = "));
+  }
+  CHECK(size_of_box(geom) == before);
+  const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
+  CHECK(size_of_box(other) == before);
+  const Geom sphere(dCreateSphere(nullptr, 1));
+  CHECK(snGeomSetLookAhead(sphere, dReal(0.01)) == 0);
+  CHECK(refused_with("a dSphere"));
+  CHECK(snGeomSetLookAhead(nullptr, dReal(0.01)) == 0);
+}
+
+TEST_CASE("snContactLookAhead lets a gap close within the step, and leaves other contacts alone") {
+  dContact contact = contact_of_depth(dReal(-0.5));
+  snContactLookAhead(&contact, dReal(0.25));
+  CHECK(contact.geom.depth == 0);
+  CHECK(contact.surface.mode == (dContactApprox1 | dContactMotionN));
+  CHECK(contact.surface.motionN == -2);
+  // A surface that comes out already, as a piston does.
+  contact = contact_of_depth(dReal(-0.5));
+  contact.surface.mode |= dContactMotionN;
+  contact.surface.motionN = 3;
+  snContactLookAhead(&contact, dReal(0.25));
+  CHECK(contact.surface.motionN == 1);
+  for (const dReal depth : {dReal(0), dReal(0.1)}) {
+    contact = contact_of_depth(depth);
+    snContactLookAhead(&contact, dReal(0.25));
+    CHECK(contact.geom.depth == depth);
+    CHECK(contact.surface.mode == dContactApprox1);
+  }
+  for (const dReal step : {dReal(0), dReal(-1), kNoTime, kEternity}) {
+    contact = contact_of_depth(dReal(-0.5));
+    snContactLookAhead(&contact, step);
+    CHECK(refused_with("snContactLookAhead: step = "));
+    CHECK(contact.geom.depth == dReal(-0.5));
+    CHECK(contact.surface.mode == dContactApprox1);
+  }
+  snContactLookAhead(nullptr, dReal(0.01));
+  CHECK(refused_with("snContactLookAhead: contact = NULL"));
+}
+
+TEST_CASE("the box covers the motion within the time, and is that of the body alone again without it") {
+  OdeSession session;
+  World world;
+  dWorldSetGravity(world.id(), 0, 0, 0);
+  const dGeomID geom = snCreateEllipsoid(world.space(), 1, 1, 1);
+  const dBodyID body = world.add(geom, 1000);
+  const Vec still = size_of_box(geom);
+  dBodySetLinearVel(body, 100, 0, 0);
+  REQUIRE(snGeomSetLookAhead(geom, dReal(0.1)) == 1);
+  CHECK(size_of_box(geom)[0] == doctest::Approx(12.02));  // and one hundredth of the half-extent on both sides
+  CHECK(size_of_box(geom)[1] == doctest::Approx(2.02));
+  // ODE keeps the box until the geom is moved, or said to be.
+  dBodySetLinearVel(body, 0, 200, 0);
+  CHECK(size_of_box(geom)[1] == doctest::Approx(2.02));
+  dGeomMoved(geom);
+  CHECK(size_of_box(geom)[1] == doctest::Approx(22.02));
+  dBodySetLinearVel(body, 0, 0, 0);
+  dBodySetAngularVel(body, 0, 0, 1);
+  dGeomMoved(geom);
+  CHECK(size_of_box(geom)[1] > 2.2);
+  dBodySetAngularVel(body, 0, 0, 1000);  // no farther than to the other side
+  dGeomMoved(geom);
+  CHECK(size_of_box(geom)[1] < 14);
+  REQUIRE(snGeomSetLookAhead(geom, 0) == 1);
+  CHECK(size_of_box(geom) == still);
+}
+
+TEST_CASE("without look-ahead no contact has a negative depth, and the contacts are the same bits as ever") {
+  OdeSession session;
+  Random random(11);
+  const Geom floor(dCreatePlane(nullptr, 0, 0, 1, 0));
+  const Geom box(dCreateBox(nullptr, 2, 2, 2));
+  place(box, {0, 0, -1});
+  const Geom brick(snCreateSuperellipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3), 20, 20));
+  const Geom other(snCreateSuperellipsoid(nullptr, 1, 1, 1, 8, 8));
+  place(other, {0, 0, -1});
+  snSetWarmStart(0);
+  int with_contacts = 0;
+  for (int k = 0; k < 300; ++k) {
+    random.turn(brick);
+    place(brick, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.2, 0.6)});
+    for (const dGeomID collider : {dGeomID(floor), dGeomID(box), dGeomID(other)}) {
+      const std::vector<dContactGeom> plain = collide(brick, collider);
+      for (const dContactGeom& contact : plain) CHECK(contact.depth >= 0);
+      REQUIRE(snGeomSetLookAhead(brick, dReal(0.01)) == 1);
+      const std::vector<dContactGeom> ahead = collide(brick, collider);
+      if (!plain.empty()) CHECK(ahead.size() >= 1);  // never less safe
+      with_contacts += ahead.empty() ? 0 : 1;
+      REQUIRE(snGeomSetLookAhead(brick, 0) == 1);
+      CHECK(same_bits(collide(brick, collider), plain));
+    }
+  }
+  CHECK(with_contacts > 300);
+}

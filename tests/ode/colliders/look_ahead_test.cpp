@@ -1,0 +1,450 @@
+// Tests of worlds with contacts before overlap: nothing tunnels, what rests stays up, what passes by is not held back.
+#include <doctest/doctest.h>
+
+#include "ode/ode_world.hpp"
+
+using namespace supernormal::test;
+
+namespace {
+
+constexpr double kExponents[] = {2, 4, 8, 20, 60};
+
+double any_exponent(Random& random) { return kExponents[static_cast<int>(random.uniform(0, 5))]; }
+
+/// A number in [low, high] whose logarithm is evenly distributed.
+double log_uniform(Random& random, double low, double high) { return std::exp(random.uniform(std::log(low), std::log(high))); }
+
+dGeomID body_of(dSpaceID space, const Vec& half_axes, double delta, double epsilon) {
+  return snCreateSuperellipsoid(space, dReal(half_axes[0]), dReal(half_axes[1]), dReal(half_axes[2]), dReal(delta), dReal(epsilon));
+}
+
+/// How deep the body is below z = 0, m.
+double depth_below(dGeomID geom) {
+  const dVector3 down = {0, 0, -1};
+  dVector3 lowest;
+  REQUIRE(snGeomSupport(geom, down, lowest) == 1);
+  return -double{lowest[2]};
+}
+
+enum class Wall { Plane, Box, Ours, Mesh, Heightfield };
+
+constexpr Wall kWalls[] = {Wall::Plane, Wall::Box, Wall::Ours, Wall::Mesh, Wall::Heightfield};
+
+/// A wall whose front is z = 0, for as long as this lives.
+class Front {
+ public:
+  Front(dSpaceID space, Wall wall, double thickness) {
+    constexpr dReal kWide = 400;
+    if (wall == Wall::Plane) {
+      dCreatePlane(space, 0, 0, 1, 0);
+    } else if (wall == Wall::Box) {
+      place(dCreateBox(space, kWide, kWide, dReal(thickness)), {0, 0, -thickness / 2});
+    } else if (wall == Wall::Ours) {
+      place(body_of(space, {kWide / 2, kWide / 2, thickness / 2}, 60, 60), {0, 0, -thickness / 2});
+    } else if (wall == Wall::Mesh) {
+      mesh_ = dGeomTriMeshDataCreate();
+      dGeomTriMeshDataBuildSingle(mesh_, vertices_.data(), 3 * sizeof(float), 4, indices_.data(), 6, 3 * sizeof(dTriIndex));
+      geom_ = dCreateTriMesh(space, mesh_, nullptr, nullptr, nullptr);
+    } else {
+      field_ = dGeomHeightfieldDataCreate();
+      dGeomHeightfieldDataBuildDouble(field_, heights_.data(), 0, kWide, kWide, 9, 9, 1, 0, dReal(thickness), 0);
+      geom_ = dCreateHeightfield(space, field_, 1);
+      dMatrix3 upright;
+      dRFromAxisAndAngle(upright, 1, 0, 0, dReal(std::numbers::pi / 2));
+      dGeomSetRotation(geom_, upright);
+    }
+  }
+  ~Front() {
+    if (geom_ != nullptr) dGeomDestroy(geom_);
+    if (mesh_ != nullptr) dGeomTriMeshDataDestroy(mesh_);
+    if (field_ != nullptr) dGeomHeightfieldDataDestroy(field_);
+  }
+  Front(const Front&) = delete;
+  Front(Front&&) = delete;
+  Front& operator=(const Front&) = delete;
+  Front& operator=(Front&&) = delete;
+
+ private:
+  dGeomID geom_ = nullptr;  // what has data
+  dTriMeshDataID mesh_ = nullptr;
+  dHeightfieldDataID field_ = nullptr;
+  std::array<float, 12> vertices_ = {-200, -200, 0, 200, -200, 0, 200, 200, 0, -200, 200, 0};
+  std::array<dTriIndex, 6> indices_ = {0, 1, 2, 0, 2, 3};
+  std::array<double, 81> heights_{};
+};
+
+struct Flight {
+  bool is_through = false;
+  double speed_along = 0;  // m/s, less that before the impact
+  double speed = 0;        // m/s, before
+};
+
+/// Shoots a body at a wall without friction, and looks for its middle in or behind the wall.
+Flight shoot(Random& random, Wall wall, double spin, bool looks_ahead) {
+  const double step = log_uniform(random, 1e-3, 50e-3);
+  const double size = log_uniform(random, 2e-3, 50e-3);
+  const double thickness = log_uniform(random, 1e-3, 0.1);
+  World world;
+  dWorldSetGravity(world.id(), 0, 0, 0);
+  const Front front(world.space(), wall, thickness);
+  const dGeomID geom = body_of(world.space(), {size, size * random.uniform(0.3, 1), size * random.uniform(0.3, 1)},
+                               any_exponent(random), any_exponent(random));
+  const dBodyID body = world.add(geom, 2000);
+  random.turn(geom);
+  Flight flight;
+  flight.speed = log_uniform(random, 1, 1000);
+  const double angle = random.uniform(0, 1.4);
+  const double heading = random.uniform(0, 2 * std::numbers::pi);
+  const double across = flight.speed * std::cos(angle);
+  const double along = flight.speed * std::sin(angle);
+  dBodySetLinearVel(body, dReal(along * std::cos(heading)), dReal(along * std::sin(heading)), dReal(-across));
+  const Vec axis = random.direction();
+  dBodySetAngularVel(body, dReal(spin * axis[0]), dReal(spin * axis[1]), dReal(spin * axis[2]));
+  place(geom, {0, 0, 1.8 * size + random.uniform(0, 1.5) * across * step});
+  if (looks_ahead) REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+  for (int k = 0; k < 8; ++k) {
+    world.quick_step(step);
+    flight.is_through = flight.is_through || dBodyGetPosition(body)[2] < 0;
+  }
+  const dReal* const v = dBodyGetLinearVel(body);
+  flight.speed_along = std::hypot(double{v[0]}, double{v[1]}) - along;
+  return flight;
+}
+
+struct Lying {
+  const char* name;
+  Vec half_axes;
+  double delta, epsilon;
+  bool is_on_side = false;
+  double height() const { return is_on_side ? half_axes[1] : half_axes[2]; }
+};
+
+const Lying kLying[] = {
+    {"brick 60", {0.1, 0.07, 0.05}, 60, 60},
+    {"brick 8", {0.1, 0.07, 0.05}, 8, 8},
+    {"brick 6", {0.1, 0.07, 0.05}, 6, 6},
+    {"coin", {0.1, 0.1, 0.02}, 2, 20},
+    {"plate", {0.1, 0.1, 0.002}, 200, 200},
+    {"can (2, 6)", {0.05, 0.05, 0.05}, 2, 6},
+    {"can (2, 9)", {0.05, 0.05, 0.1}, 2, 9},
+    {"can on its side", {0.05, 0.05, 0.05}, 2, 60, true},
+    {"long can on its side", {0.05, 0.05, 0.25}, 2, 60, true},
+};
+
+}  // namespace
+
+TEST_CASE("bullets: none is through a wall of any kind, at 1 to 1000 m/s and steps of 1 to 50 ms") {
+  OdeSession session;
+  for (const Wall wall : kWalls) {
+    Random random(static_cast<unsigned>(wall) + 1);
+    int through = 0;
+    for (int k = 0; k < 60; ++k) {
+      const Flight flight = shoot(random, wall, 0, true);
+      through += flight.is_through ? 1 : 0;
+      CHECK(std::abs(flight.speed_along) < within_rounding(1e-9, 10) * flight.speed);
+    }
+    INFO("wall " << static_cast<int>(wall));
+    CHECK(through == 0);
+  }
+  // They are bullets: many pass without it.
+  Random random(1);
+  int through = 0;
+  for (int k = 0; k < 60; ++k) through += shoot(random, Wall::Box, 0, false).is_through ? 1 : 0;
+  CHECK(through > 20);
+}
+
+TEST_CASE("bullets that spin at 300 rad/s: none is through") {
+  OdeSession session;
+  for (const Wall wall : kWalls) {
+    Random random(static_cast<unsigned>(wall) + 100);
+    for (int k = 0; k < 40; ++k) CHECK(!shoot(random, wall, 300, true).is_through);
+  }
+}
+
+TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
+  OdeSession session;
+  for (const double speed : {1.0, 10.0, 99.0}) {
+    for (const double step : {1e-3, 10e-3, 50e-3}) {
+      for (const Wall wall : kWalls) {
+        for (const double flatness : {2.0, 60.0}) {
+          World world;
+          dWorldSetGravity(world.id(), 0, 0, 0);
+          const Front front(world.space(), wall, 0.01);
+          const dGeomID geom = body_of(world.space(), {0.02, 0.015, 0.01}, flatness, flatness);
+          const dBodyID body = world.add(geom, 2000);
+          place(geom, {0.3, 0.2, 0.0101 + 0.4 * speed * step});
+          dBodySetLinearVel(body, 0, 0, dReal(-speed));
+          REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+          double deepest = 0;
+          for (int k = 0; k < 10; ++k) {
+            world.quick_step(step);
+            deepest = std::max(deepest, depth_below(geom));
+          }
+          CAPTURE(speed);
+          CAPTURE(step);
+          CAPTURE(static_cast<int>(wall));
+          CHECK(deepest < within_rounding(1e-6 * 0.01));
+          CHECK(depth_below(geom) > -1e-4);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("fly-bys with a clearance of a thousandth of the size keep their velocity") {
+  OdeSession session;
+  Random random(3);
+  for (int k = 0; k < 80; ++k) {
+    const double step = log_uniform(random, 1e-3, 50e-3);
+    const double speed = log_uniform(random, 1, 1000);
+    World world;
+    dWorldSetGravity(world.id(), 0, 0, 0);
+    world.surface.mode = dContactApprox1;  // without it friction is a force that acts before they touch
+    world.surface.mu = dReal(0.5);
+    const bool is_box = random.uniform(0, 1) < 0.5;
+    const dGeomID fixed = is_box ? dCreateBox(world.space(), dReal(0.4), dReal(0.3), dReal(0.2))
+                                 : body_of(world.space(), {0.2, 0.15, 0.1}, any_exponent(random), any_exponent(random));
+    random.turn(fixed);
+    const dGeomID geom = body_of(world.space(), {0.03, 0.02, 0.01}, any_exponent(random), any_exponent(random));
+    const dBodyID body = world.add(geom, 1000);
+    random.turn(geom);
+    const Vec along = random.direction();
+    const Vec any = random.direction();
+    Vec beside = any - dot(any, along) * along;
+    beside = (1 / norm(beside)) * beside;
+    // Where, across the flight, the smallest gap on the way is the clearance.
+    const auto gap_on_way = [&](double off) {
+      double low = -0.5;
+      double high = 0.5;
+      const auto gap_at = [&](double way) {
+        place(geom, off * beside + way * along);
+        snProximity proximity;
+        REQUIRE(snGeomProximity(fixed, geom, &proximity) == 1);
+        return double{proximity.gap};
+      };
+      for (int i = 0; i < 80; ++i) {
+        const double third = (high - low) / 3;
+        (gap_at(low + third) < gap_at(high - third) ? high : low) += gap_at(low + third) < gap_at(high - third) ? -third : third;
+      }
+      return gap_at(0.5 * (low + high));
+    };
+    double inside = 0;
+    double outside = 0.6;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (gap_on_way(middle) > 1e-5 ? outside : inside) = middle;
+    }
+    place(geom, outside * beside - (0.4 + random.uniform(0, 1) * speed * step) * along);
+    const Vec velocity = speed * along;
+    dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), dReal(velocity[2]));
+    REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+    const int steps = std::min(3 + static_cast<int>(1 / (speed * step)), 500);
+    for (int i = 0; i < steps; ++i) world.quick_step(step);
+    CHECK(norm(to_vec(dBodyGetLinearVel(body)) - velocity) < within_rounding(1e-9, 10) * speed);
+  }
+}
+
+TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at steps of 2 to 100 ms") {
+  OdeSession session;
+  for (const Wall wall : {Wall::Plane, Wall::Box, Wall::Mesh}) {
+    for (const Lying& lying : kLying) {
+      for (const double step : {0.002, 0.02, 0.1}) {
+        World world;
+        world.surface.mode = dContactApprox1;
+        world.surface.mu = dReal(0.5);
+        const Front front(world.space(), wall, 1);
+        const dGeomID geom = body_of(world.space(), lying.half_axes, lying.delta, lying.epsilon);
+        const dBodyID body = world.add(geom, 1000);
+        if (lying.is_on_side) turn(body, {1, 0, 0}, std::numbers::pi / 2);
+        place(geom, {0.1, 0.2, 1.02 * lying.height()});
+        REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+        const int steps = std::max(40, static_cast<int>(1 / step));
+        for (int k = 0; k < steps; ++k) world.quick_step(step);
+        CAPTURE(lying.name);
+        CAPTURE(step);
+        CAPTURE(static_cast<int>(wall));
+        CHECK(dBodyGetPosition(body)[2] == doctest::Approx(lying.height()).epsilon(0.01));
+        CHECK(depth_below(geom) < 0.01 * lying.height());
+        CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.01);
+      }
+    }
+  }
+}
+
+TEST_CASE("on slopes below the angle of friction nothing creeps") {
+  OdeSession session;
+  for (const Lying& lying : kLying) {
+    if (lying.is_on_side) continue;
+    const bool is_can = lying.half_axes[0] == lying.half_axes[1] && lying.half_axes[2] >= lying.half_axes[0];
+    for (const double degrees : {5.0, is_can ? 10.0 : 26.0}) {  // cans tip over before they slide
+      for (const double step : {0.002, 0.02}) {
+        const double incline = degrees * kDegree;
+        World world;
+        dWorldSetQuickStepNumIterations(world.id(), 100);
+        world.surface.mode = dContactApprox1;
+        world.surface.mu = dReal(0.5);
+        world.add_plane(incline);
+        const dGeomID geom = body_of(world.space(), lying.half_axes, lying.delta, lying.epsilon);
+        const dBodyID body = world.add(geom, 1000);
+        turn(body, {0, 1, 0}, -incline);
+        const double height = 1.0001 * lying.height();
+        place(geom, {-height * std::sin(incline), 0, height * std::cos(incline)});
+        REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+        const int steps = static_cast<int>(1 / step);
+        for (int k = 0; k < 2 * steps; ++k) world.quick_step(step);
+        const Vec before = to_vec(dBodyGetPosition(body));
+        for (int k = 0; k < steps; ++k) world.quick_step(step);
+        CAPTURE(lying.name);
+        CAPTURE(degrees);
+        CAPTURE(step);
+        CHECK(norm(to_vec(dBodyGetPosition(body)) - before) / (steps * step) < within_rounding(1e-8, 1));  // m/s
+      }
+    }
+  }
+}
+
+TEST_CASE("a ball and a can roll down a slope as their closed forms say") {
+  OdeSession session;
+  const double incline = 10 * kDegree;
+  for (const double step : {0.001, 0.005, 0.02}) {
+    for (const bool is_can : {false, true}) {
+      World world;
+      world.surface.mode = dContactApprox1;
+      world.surface.mu = 1;
+      world.add_plane(incline);
+      const double radius = 0.05;
+      const dGeomID geom =
+          is_can ? body_of(world.space(), {radius, radius, 0.1}, 2, 60) : body_of(world.space(), {radius, radius, radius}, 2, 2);
+      dMass mass;
+      REQUIRE(snMassSet(&mass, 1000, geom) == 1);
+      const dBodyID body = world.add(geom, mass);
+      if (is_can) turn(body, {1, 0, 0}, std::numbers::pi / 2);
+      place(geom, {-radius * std::sin(incline), 0, radius * std::cos(incline)});
+      REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+      const int steps = static_cast<int>(std::lround(1.0 / step));
+      for (int k = 0; k < steps; ++k) world.quick_step(step);
+      const double inertia = is_can ? mass.I[10] : mass.I[0];
+      const double exact = kGravity * std::sin(incline) / (1 + inertia / (mass.mass * radius * radius));
+      CHECK(norm(to_vec(dBodyGetLinearVel(body))) == doctest::Approx(exact).epsilon(1e-4));
+      CHECK(world.most_of_a_pair == (is_can ? 2 : 1));
+    }
+  }
+}
+
+TEST_CASE("a geom beside its body's centre, and every space: the same") {
+  OdeSession session;
+  dSpaceID (*const make_space[])() = {[] { return dSimpleSpaceCreate(nullptr); }, [] { return dHashSpaceCreate(nullptr); },
+                                      [] { return dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_ZXY); },
+                                      [] {
+                                        const dVector3 centre = {0, 0, 0};
+                                        const dVector3 extents = {500, 500, 500};
+                                        return dQuadTreeSpaceCreate(nullptr, centre, extents, 4);
+                                      }};
+  for (const auto& make : make_space) {
+    for (const double speed : {5.0, 500.0}) {
+      World world(make());
+      const Front front(world.space(), Wall::Box, 0.01);
+      const dGeomID geom = body_of(world.space(), {0.02, 0.015, 0.01}, 60, 60);
+      const dBodyID body = world.add(geom, 2000);
+      dGeomSetOffsetPosition(geom, dReal(0.005), 0, dReal(0.002));
+      dBodySetPosition(body, 0, 0, dReal(0.02 + 0.5 * speed * 0.02));
+      dBodySetLinearVel(body, dReal(speed), 0, dReal(-speed));
+      REQUIRE(snGeomSetLookAhead(geom, dReal(0.02)) == 1);
+      for (int k = 0; k < 20; ++k) world.quick_step(0.02);
+      CHECK(dGeomGetPosition(geom)[2] > 0);
+      CHECK(dGeomGetPosition(geom)[2] < 0.03);
+    }
+  }
+}
+
+TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets are stopped with room for one") {
+  OdeSession session;
+  World world;
+  const Front front(world.space(), Wall::Box, 0.01);
+  const dGeomID box = dSpaceGetGeom(world.space(), 0);
+  const dGeomID geom = body_of(world.space(), {0.1, 0.07, 0.05}, 60, 60);
+  const dBodyID body = world.add(geom, 1000);
+  turn(body, {1, 2, 0}, 0.03);
+  place(geom, {0, 0, 0.08});
+  dBodySetLinearVel(body, 0, 0, -10);
+  REQUIRE(snGeomSetLookAhead(geom, dReal(0.02)) == 1);
+  for (int room = 1; room < 8; ++room) {
+    const std::vector<dContactGeom> contacts = collide(geom, box, room);
+    CHECK(static_cast<int>(contacts.size()) == std::min(room, 4));
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      CHECK(contacts[k].depth < 0);
+      CHECK(contacts[k].depth <= contacts[0].depth);
+      CHECK(contacts[k].depth == doctest::Approx(contacts[0].depth).epsilon(1));
+    }
+  }
+  Random random(8);
+  for (int k = 0; k < 30; ++k) {
+    World one;
+    one.room = 1;
+    const Front wall(one.space(), Wall::Ours, 0.01);
+    const dGeomID bullet = body_of(one.space(), {0.02, 0.015, 0.01}, any_exponent(random), any_exponent(random));
+    const dBodyID of_bullet = one.add(bullet, 1000);
+    random.turn(bullet);
+    const double speed = log_uniform(random, 1, 1000);
+    place(bullet, {0, 0, 0.04 + random.uniform(0, 1) * speed * 0.02});
+    dBodySetLinearVel(of_bullet, 0, 0, dReal(-speed));
+    REQUIRE(snGeomSetLookAhead(bullet, dReal(0.02)) == 1);
+    for (int i = 0; i < 5; ++i) one.quick_step(0.02);
+    CHECK(dBodyGetPosition(of_bullet)[2] > 0);
+  }
+}
+
+TEST_CASE("a pair looks ahead by the larger time of the two, and both of two bullets are stopped") {
+  OdeSession session;
+  for (const double speed : {10.0, 300.0}) {
+    World world;
+    dWorldSetGravity(world.id(), 0, 0, 0);
+    const auto add = [&](double x, double velocity, double time) {
+      const dGeomID geom = body_of(world.space(), {0.02, 0.015, 0.01}, 8, 8);
+      const dBodyID body = world.add(geom, 1000);
+      place(geom, {x, 0, 0});
+      dBodySetLinearVel(body, dReal(velocity), 0, 0);
+      REQUIRE(snGeomSetLookAhead(geom, dReal(time)) == 1);
+      return body;
+    };
+    const dBodyID left = add(-0.5 * speed * 0.01 - 0.021, speed, 0.01);
+    const dBodyID right = add(0.5 * speed * 0.01 + 0.021, -speed, 0);
+    const std::vector<dContactGeom> contacts = collide(dBodyGetFirstGeom(left), dBodyGetFirstGeom(right));
+    REQUIRE(!contacts.empty());
+    CHECK(contacts[0].depth < 0);
+    REQUIRE(snGeomSetLookAhead(dBodyGetFirstGeom(right), dReal(0.01)) == 1);
+    for (int k = 0; k < 4; ++k) world.quick_step(0.01);
+    CHECK(dBodyGetPosition(left)[0] < dBodyGetPosition(right)[0]);
+  }
+}
+
+TEST_CASE("a batch has the same contacts as dCollide") {
+  OdeSession session;
+  World world;
+  Random random(4);
+  REQUIRE(snSetDefaultLookAhead(dReal(0.01)) == 1);
+  dCreatePlane(world.space(), 0, 0, 1, 0);
+  for (int k = 0; k < 40; ++k) {
+    const dGeomID geom = body_of(world.space(), {0.1, 0.07, 0.05}, any_exponent(random), any_exponent(random));
+    const dBodyID body = world.add(geom, 1000);
+    random.turn(geom);
+    place(geom, {random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(0.1, 0.8)});
+    const Vec v = random.direction();
+    dBodySetLinearVel(body, dReal(10 * v[0]), dReal(10 * v[1]), dReal(10 * v[2]));
+  }
+  snSetWarmStart(0);
+  struct Seen {
+    std::vector<dContactGeom> contacts;
+  } one_by_one, of_batch;
+  dSpaceCollide(world.space(), &one_by_one, [](void* seen, dGeomID g1, dGeomID g2) {
+    for (const dContactGeom& contact : collide(g1, g2)) static_cast<Seen*>(seen)->contacts.push_back(contact);
+  });
+  const snBatchID batch = snBatchCreate(2);
+  snBatchCollide(batch, world.space(), 8, &of_batch, nullptr,
+                 [](void* seen, dGeomID, dGeomID, const dContactGeom* first, int count) {
+                   static_cast<Seen*>(seen)->contacts.insert(static_cast<Seen*>(seen)->contacts.end(), first, first + count);
+                 });
+  snBatchDestroy(batch);
+  CHECK(one_by_one.contacts.size() > 40);
+  CHECK(same_bits(one_by_one.contacts, of_batch.contacts));
+}
