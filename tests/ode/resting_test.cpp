@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ode/mesh_fixture.hpp"
@@ -165,6 +166,45 @@ Residue residue_of_stack(const Brick& brick) {
   return residue(scene);
 }
 
+/// A body of radius 1/20 m that stands on a line or a face that is much smaller than itself.
+struct Stubby {
+  std::string name;
+  dGeomID (*create)(dSpaceID space, dReal radius);
+  bool is_lying;  // its z axis is level, not upright
+};
+
+dGeomID create_stubby_capsule(dSpaceID space, dReal radius) { return snCreateCapsule(space, radius, radius / 5); }
+dGeomID create_short_capsule(dSpaceID space, dReal radius) { return snCreateCapsule(space, radius, 3 * radius / 5); }
+dGeomID create_rounded_disc(dSpaceID space, dReal radius) {
+  const dReal half_axis = radius / 6;
+  const dGeomID geom = snCreateSuperellipsoid(space, half_axis, half_axis, half_axis, 2, 60);
+  REQUIRE(snGeomSetRounding(geom, 5 * half_axis) == 1);
+  return geom;
+}
+
+/// The angle (rad) by which a body that is dropped aslant leans when it has fallen asleep.
+double lean_asleep(const Stubby& what, const Tilt& tilt) {
+  World world{dSimpleSpaceCreate(nullptr)};
+  world.surface.mode = dContactApprox1;
+  world.surface.mu = dReal(0.5);
+  world.add_plane();
+  dWorldSetAutoDisableFlag(world.id(), 1);
+  const auto radius = dReal(0.05);
+  const dBodyID body = world.add(what.create(world.space(), radius), kDensity);
+  dQuaternion aslant;
+  dQuaternion lying;
+  dQuaternion both;
+  dQFromAxisAndAngle(aslant, dReal(tilt.axis[0]), dReal(tilt.axis[1]), dReal(tilt.axis[2]), dReal(tilt.angle));
+  dQFromAxisAndAngle(lying, 0, 1, 0, what.is_lying ? dReal(std::numbers::pi / 2) : 0);
+  dQMultiply0(both, aslant, lying);
+  dBodySetQuaternion(body, both);
+  dBodySetPosition(body, 0, 0, dReal(1.3) * radius);
+  for (int step = 0; step < kSteps && dBodyIsEnabled(body) != 0; ++step) world.quick_step(kStep);
+  CHECK(dBodyIsEnabled(body) == 0);
+  const double upwards = std::min(1.0, std::abs(double{dBodyGetRotation(body)[10]}));
+  return what.is_lying ? std::asin(upwards) : std::acos(upwards);
+}
+
 constexpr std::array<double, 4> kExponents = {8, 12, 20, 60};
 
 }  // namespace
@@ -182,6 +222,18 @@ TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
       CHECK(ours.longest <= 3 * box.longest);
       if (floor == Floor::Plane) CHECK(ours.first <= 2 * box.first);
     }
+  }
+}
+
+TEST_CASE("a body that stands on a small face or a short line leans no more than others when it falls asleep") {
+  const OdeSession session;
+  for (const Stubby& what : {Stubby{"capsule, half-length 0.1 radii", create_stubby_capsule, true},
+                             Stubby{"capsule, half-length 0.3 radii", create_short_capsule, true},
+                             Stubby{"disc, 5/6 rounded", create_rounded_disc, false}}) {
+    double largest = 0;
+    for (int k = 0; k < 24; ++k) largest = std::max(largest, lean_asleep(what, tilt_of_drop(k)));
+    MESSAGE(what.name, ": leans by up to ", largest, " rad");
+    CHECK(largest <= 0.005);
   }
 }
 

@@ -21,8 +21,11 @@ constexpr double kReachOfDepth = 12;
 // fall.
 constexpr double kLargestReach = 0.07;
 
-// Share of the reach by which a corner may lean more than another: with more of it, bodies rest leaning.
+// Share of the reach by which a corner may lean more than another: with more of it, bodies rest leaning. It is less where the
+// corners are nearer to the deepest point than so many least extents, as those of a stubby capsule are: the same rise is a larger
+// angle there.
 constexpr double kLean = 0.5;
+constexpr double kSmallPolygon = 0.5;
 
 // A face like |x|^e with this exponent has its vertices exactly at the reach; a flatter one has them nearer to its end.
 constexpr double kFaceExponent = 8;
@@ -247,8 +250,8 @@ SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vecto
 
 SupportPolygon::SupportPolygon(const View& view, double depth) : SupportPolygon(view) {
   // Of a tall body the height says nothing of how far it may lean.
-  const double least_extent = std::min({height_, extents_[0], extents_[1]});
-  reach_ = std::max(depth, std::min(kReach * least_extent + kReachOfDepth * depth, kLargestReach * least_extent));
+  least_extent_ = std::min({height_, extents_[0], extents_[1]});
+  reach_ = std::max(depth, std::min(kReach * least_extent_ + kReachOfDepth * depth, kLargestReach * least_extent_));
   const double tangent = tangent_of_tilt(reach_, height_);
   find(view, {tangent, tangent});
 }
@@ -282,7 +285,11 @@ void SupportPolygon::find(const View& view, const std::array<double, 2>& tangent
   turn_across();
 }
 
-double SupportPolygon::largest_lean() const { return kLean * reach_; }
+double SupportPolygon::largest_lean() const {
+  double farthest = 0;
+  for (const Vector3& vertex : vertices_) farthest = std::max(farthest, vertex.norm());
+  return kLean * reach_ * std::min(1.0, farthest / (kSmallPolygon * least_extent_));
+}
 
 // How flat the body is along both axes. The fraction is small where the body is flat and the plane is parallel to the face;
 // elsewhere the view from the face decides.

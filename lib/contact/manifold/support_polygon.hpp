@@ -78,6 +78,7 @@ class SupportPolygon {
   std::array<Vector3, 2> axes_;
   std::array<double, 2> extents_{};
   double height_ = 0;
+  double least_extent_ = 0;
   double reach_ = 0;
   std::array<double, 2> widths_{};
   Vector3 slope_ = Vector3::Zero();
