@@ -243,14 +243,14 @@ SupportPolygon::SupportPolygon(const View& view)
   const auto extent = [&](const Vector3& u) { return u.cwiseProduct(half_extents).norm(); };
   extents_ = {extent(view.axes[0]), extent(view.axes[1])};
   height_ = extent(view.normal);
+  // Of a tall body the height says nothing of how far it may lean.
+  least_extent_ = std::min({height_, extents_[0], extents_[1]});
 }
 
 SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth)
     : SupportPolygon(View(shape, pose, n, support_point), depth) {}
 
 SupportPolygon::SupportPolygon(const View& view, double depth) : SupportPolygon(view) {
-  // Of a tall body the height says nothing of how far it may lean.
-  least_extent_ = std::min({height_, extents_[0], extents_[1]});
   reach_ = std::max(depth, std::min(kReach * least_extent_ + kReachOfDepth * depth, kLargestReach * least_extent_));
   const double tangent = tangent_of_tilt(reach_, height_);
   find(view, {tangent, tangent});
