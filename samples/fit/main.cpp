@@ -38,6 +38,12 @@ struct Options {
   int threads = 1;
 };
 
+/// What is done next: at once, also into a pipe.
+void say(const std::string& step) {
+  std::printf("%s\n", step.c_str());
+  std::fflush(stdout);
+}
+
 /// The points that are fitted: of a mesh, as many random ones of its triangles as it has vertices, within bounds.
 fit::Cloud points_of(const fit::Data& data, bool uses_vertices) {
   if (data.triangles.empty() || uses_vertices) return data.vertices;
@@ -45,7 +51,8 @@ fit::Cloud points_of(const fit::Data& data, bool uses_vertices) {
   return fit::sample_triangles(data.vertices.points, data.triangles, count, 1);
 }
 
-fit::FitSettings settings_of(const Options& options, bool is_mesh) {
+fit::FitSettings settings_of(const Options& options, const fit::Data& data) {
+  const bool is_mesh = !data.triangles.empty();
   const std::map<std::string, std::optional<fit::Family>> families = {{"auto", std::nullopt},
                                                                       {"ellipsoid", fit::Family::Ellipsoid},
                                                                       {"superellipsoid", fit::Family::Superellipsoid},
@@ -56,7 +63,9 @@ fit::FitSettings settings_of(const Options& options, bool is_mesh) {
   // A mesh is the surface itself: what is far from the body is no outlier but another shape, and no noise.
   settings.rejects_outliers = options.outliers == "auto" ? !is_mesh : options.outliers == "reject";
   if (is_mesh && options.noise == "auto") settings.noise = fit::Noise::AlongNormal;
+  settings.is_whole = fit::is_closed(data);
   settings.threads = options.threads;
+  settings.progress = say;
   return settings;
 }
 
@@ -84,11 +93,10 @@ void write_results(const Options& options, const std::vector<fit::FittedBody>& f
   std::printf("\nwritten: %s.toml, .c and .svg\n", (folder / name).c_str());
 }
 
-std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options& options, bool is_mesh) {
+std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options& options, const fit::Data& data) {
   try {
-    return fit::fit_union(points, options.bodies, settings_of(options, is_mesh), [](int count, int largest) {
-      std::printf("looking for %d of at most %d bodies\n", count, largest);
-      std::fflush(stdout);
+    return fit::fit_union(points, options.bodies, settings_of(options, data), [](int count, int largest) {
+      say("looking for " + std::to_string(count) + " of at most " + std::to_string(largest) + " bodies");
     });
   } catch (const std::invalid_argument& error) {
     throw fit::InputError(options.path + ": " + error.what());
@@ -98,15 +106,9 @@ std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options&
 /// The data without the points that the fit left out, which are of no surface. A mesh is fitted by other points than its own.
 fit::Data without_outliers(fit::Data data, const std::vector<fit::FittedBody>& fitted) {
   if (!data.triangles.empty()) return data;
-  std::vector<bool> is_outlier(data.vertices.points.size(), false);
-  for (const fit::FittedBody& each : fitted) {
-    for (const std::size_t i : each.outliers) is_outlier[i] = true;
-  }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < is_outlier.size(); ++i) {
-    if (!is_outlier[i]) kept.push_back(i);
-  }
-  data.vertices = fit::selected(data.vertices, kept);
+  std::vector<std::size_t> outliers;
+  for (const fit::FittedBody& each : fitted) outliers.insert(outliers.end(), each.outliers.begin(), each.outliers.end());
+  data.vertices = fit::without(data.vertices, outliers);
   return data;
 }
 
@@ -122,12 +124,19 @@ const CLI::Validator kPositive(
 void run(const Options& options) {
   const fit::Data data = fit::read_data(options.path, options.scale);
   const bool is_mesh = !data.triangles.empty();
-  std::printf("%s: %zu points, %zu triangles\n", options.path.c_str(), data.vertices.points.size(), data.triangles.size());
-  if (!data.note.empty()) std::printf("%s\n", data.note.c_str());
+  say(options.path + ": " + std::to_string(data.vertices.points.size()) + " points, " + std::to_string(data.triangles.size()) +
+      " triangles");
+  if (!data.note.empty()) say(data.note);
   const fit::Cloud points = points_of(data, options.uses_vertices);
-  const std::vector<fit::FittedBody> fitted = fit_points(points, options, is_mesh);
+  const std::vector<fit::FittedBody> fitted = fit_points(points, options, data);
+  if (fitted.size() < static_cast<std::size_t>(options.bodies)) {
+    say(std::to_string(fitted.size()) + (fitted.size() == 1 ? " body fits" : " bodies fit") + " as well as " +
+        std::to_string(options.bodies) + ": more do not bring the points nearer by a tenth, noise and the sharpest edges apart");
+  }
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
+  if (!is_mesh) std::fputs(fit::describe_outliers(fitted, points).c_str(), stdout);
   if (options.is_quick) return;
+  say("comparing surfaces and volumes");
   std::vector<fit::Body> bodies(fitted.size());
   std::ranges::transform(fitted, bodies.begin(), &fit::FittedBody::body);
   const fit::FitError error = fit::find_error(bodies, without_outliers(data, fitted));

@@ -3,8 +3,15 @@
 #include <supernormal/supernormal.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <span>
 #include <sstream>
@@ -17,6 +24,7 @@
 #include "model/fit_union.hpp"
 #include "output/paste.hpp"
 #include "output/picture.hpp"
+#include "output/report.hpp"
 #include "samples/temporary_folder.hpp"
 #include "scene/catalogue.hpp"
 #include "study/truth.hpp"
@@ -45,6 +53,35 @@ Body placed_body(Family family, double delta, double epsilon, double taper = 0) 
           taper};
 }
 
+/// The points as a .ply with coordinates of this type, double, float or short.
+std::string ply_of(const std::vector<Vector3>& points, const std::string& format, const std::string& type) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "ply\nformat " << format << " 1.0\nelement vertex " << points.size() << '\n';
+  for (const char axis : {'x', 'y', 'z'}) text << "property " << type << ' ' << axis << '\n';
+  text << "end_header\n";
+  const auto write = [&](auto number) {
+    std::array<char, sizeof number> bytes{};
+    std::memcpy(bytes.data(), &number, sizeof number);
+    if ((format == "binary_big_endian") == (std::endian::native == std::endian::little)) std::ranges::reverse(bytes);
+    text.write(bytes.data(), sizeof number);
+  };
+  for (const Vector3& x : points) {
+    for (int i = 0; i < 3; ++i) {
+      if (format == "ascii") {
+        text << x[i] << (i == 2 ? '\n' : ' ');
+      } else if (type == "double") {
+        write(x[i]);
+      } else if (type == "float") {
+        write(static_cast<float>(x[i]));
+      } else {
+        write(static_cast<std::int16_t>(x[i]));
+      }
+    }
+  }
+  return text.str();
+}
+
 /// A mesh of the body as an .obj.
 std::string obj_of(const Body& body) {
   const auto mesh = supernormal::tessellate(*make_shape(body), 1e-3 * body.half_axes.minCoeff());
@@ -71,15 +108,22 @@ TEST_CASE("files that are of no use are refused with a reason") {
   CHECK(complaint(text) == text + ": unknown extension \".txt\"; allowed: .stl, .obj, .ply (meshes or points), .xyz (points)");
   const std::string empty = folder.write("empty.xyz", "# nothing\n\n");
   CHECK(complaint(empty) == empty + ": no points");
-  for (const char* name : {"empty.ply", "empty.stl", "empty.obj"}) {
+  const std::string directory = (folder.path() / "folder.ply").string();
+  std::filesystem::create_directory(directory);
+  CHECK(complaint(directory) == directory + ": is no file that holds data, but a folder or a device");
+  for (const char* name : {"empty.stl", "empty.obj"}) {
     CHECK(complaint(folder.write(name, "")).find(std::string(name) + ": cannot be read: ") != std::string::npos);
   }
   const std::string nan = folder.write("nan.xyz", "1 2 3\n1 nan 3\n");
-  CHECK(complaint(nan) == nan + ": point 2 has a coordinate that is not finite");
+  CHECK(complaint(nan) == nan + ":2: a coordinate is not finite: \"1 nan 3\"");
   const std::string infinite = folder.write("inf.xyz", "1 2 1e999\n");
-  CHECK(complaint(infinite) == infinite + ": point 1 has a coordinate that is not finite");
+  CHECK(complaint(infinite) == infinite + ":1: a coordinate is not finite: \"1 2 1e999\"");
   const std::string word = folder.write("word.xyz", "1 2 3\n1 two 3\n");
-  CHECK(complaint(word) == word + ":2: a line holds x y z, or x y z nx ny nz");
+  CHECK(complaint(word) == word + ":2: a line holds x y z, or x y z nx ny nz, not \"1 two 3\"");
+  const std::string marked = folder.write("marked.xyz",
+                                          "\xef\xbb\xbf"
+                                          "1 2 3\n");
+  CHECK(read_data(marked, 1).vertices.points.size() == 1);
   const std::string mixed = folder.write("mixed.xyz", "1 2 3\n1 2 3 0 0 1\n");
   CHECK(complaint(mixed) == mixed + ":2: either all points have normals or none");
 }
@@ -160,15 +204,116 @@ TEST_CASE("a cavity faces inwards, also where all is inside out") {
 
 TEST_CASE("coordinates that single precision spoils are refused") {
   const TemporaryFolder folder;
-  const auto ply = [&](const char* x) {
-    return folder.write("far.ply", std::string("ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
-                                               "property double z\nend_header\n") +
-                                       x + ".25 5 6\n" + x + ".75 5 6\n");
-  };
-  CHECK(complaint(ply("500000")).find("are rounded by 0.0298") != std::string::npos);
-  CHECK(complaint(ply("5")).empty());
+  const std::string obj = folder.write("far.obj", "v 500000.25 5 6\nv 500000.75 5 6\n");
+  CHECK(complaint(obj).find("are rounded by 0.0298") != std::string::npos);
+  const std::string single = folder.write("far.ply", ply_of({{500000.25, 5, 6}, {500000.75, 5, 6}}, "binary_big_endian", "float"));
+  CHECK(complaint(single).find("are rounded by 0.0298") != std::string::npos);
+  CHECK(complaint(folder.write("near.ply", ply_of({{5.25, 5, 6}, {5.75, 5, 6}}, "binary_big_endian", "float"))).empty());
   const std::string far = folder.write("far.xyz", "500000.25 5 6\n500000.26 5 6\n");
   CHECK(read_data(far, 1).vertices.points[1].x() == 500000.26);
+}
+
+TEST_CASE("a .ply is read in double precision, as text and in both byte orders") {
+  const TemporaryFolder folder;
+  const std::vector<Vector3> points = {{1e6 + 1.0 / 3, -2e6 - 1.0 / 7, 1e-300}, {-0.1, 1e300, 0.3}};
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    CHECK(read_data(folder.write("double.ply", ply_of(points, format, "double")), 1).vertices.points == points);
+  }
+  const Data integers = read_data(folder.write("int.ply", ply_of({{-3, 200, 5}, {1, 2, 3}}, "binary_big_endian", "short")), 1);
+  CHECK(integers.vertices.points == std::vector<Vector3>{{-3, 200, 5}, {1, 2, 3}});
+}
+
+TEST_CASE("a body a million of its sizes from the origin is the same body") {
+  const TemporaryFolder folder;
+  const Body near{Family::Superellipsoid, Vector3::Zero(), Eigen::Quaterniond::Identity(), {1.5, 1.1, 0.8}, 4, 4, 0};
+  Body far = near;
+  far.position = {1e6, -1e6, 1e6};
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    const Data data = read_data(folder.write("far.ply", ply_of(scatter(far, {.points = 1000}).points, format, "double")), 1);
+    const FittedBody fitted = fit_body(data.vertices);
+    CHECK(fitted.body.family == Family::Superellipsoid);
+    CHECK(std::abs(fitted.body.delta - 4) < 1e-6);
+    CHECK(std::abs(fitted.body.epsilon - 4) < 1e-6);
+    CHECK((fitted.body.position - far.position).norm() < 1e-8);
+    // The place that is pasted has as many digits as the body needs.
+    CHECK(c_lines(std::vector<FittedBody>{fitted}, "far", "").find("dGeomSetPosition(far, ") != std::string::npos);
+  }
+  CHECK(digits_of(1e6, 0.8, 9) == 16);
+  CHECK(digits_of(0.1, 0.8, 9) == 9);
+}
+
+TEST_CASE("polygons of a .ply are cut into triangles, and other elements skipped") {
+  const TemporaryFolder folder;
+  const std::string header =
+      "ply\r\nformat ascii 1.0\r\ncomment an arrowhead, concave at 2\r\nelement camera 1\r\nproperty list uchar float lens\r\n"
+      "element vertex 5\r\nproperty float x\r\nproperty uchar red\r\nproperty float y\r\nproperty float z\r\nelement face 2\r\n"
+      "property list uchar int vertex_indices\r\nproperty int flag\r\nend_header\r\n2 1 1\r\n";
+  const Data data = read_data(
+      folder.write("arrow.ply", header + "0 9 0 0\r\n2 9 0 0\r\n0.5 9 1 0\r\n1 9 3 0\r\n0 9 0 1\r\n4 1 2 3 0 7\r\n3 0 1 4 7"), 1);
+  CHECK(data.triangles.size() == 3);
+  double area = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Triangle& t = data.triangles[k];
+    const auto& x = data.vertices.points;
+    const Vector3 twice = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    area += std::abs(twice.z()) / 2;
+  }
+  CHECK(area == doctest::Approx(1.25));  // of the arrowhead: nothing twice, and the third triangle seen from above is flat
+}
+
+TEST_CASE("a broken .ply is refused at once, with the place") {
+  const TemporaryFolder folder;
+  const std::string start = "ply\nformat ascii 1.0\n", xyz = "property float x\nproperty float y\nproperty float z\n";
+  const std::string two = start + "element vertex 2\n" + xyz + "end_header\n";
+  const auto refusal = [&](const std::string& text) {
+    const std::string path = folder.write("bad.ply", text);
+    const std::string message = complaint(path);
+    REQUIRE(message.rfind(path, 0) == 0);
+    return message.substr(path.size());
+  };
+  CHECK(refusal("") == ":1: the file ends within its header, which must end with end_header");
+  CHECK(refusal("solid\n") == ":1: the first line of a .ply is \"ply\"");
+  CHECK(refusal("ply\nformat ascii 2.0\n") ==
+        ":2: unknown format \"ascii 2.0\"; allowed: ascii, binary_little_endian or binary_big_endian, 1.0");
+  CHECK(refusal(start + "element vertex -1\n") == ":3: element vertex has the count \"-1\"; allowed: 0 to 1e18 - 1");
+  CHECK(refusal(start + "property float x\n") == ":3: a property stands before the first element");
+  CHECK(refusal(start + "element vertex 1\nproperty half x\n") == ":4: \"half\" is no type of a number");
+  CHECK(refusal(start + "element vertex 900000000000000000\n" + xyz + "end_header\n1 2 3\n") ==
+        ": the header says 900000000000000000 of element vertex, but the file has room for 1 at most: is it truncated?");
+  CHECK(refusal(two + "1 2 3\n1.5 2.5\n") == ":10: vertex 2 of 2: the file ends here");
+  CHECK(refusal(two + "1 2 3\n1 2,5 3\n") == ":9: vertex 2 of 2: \"2,5\" is no number");
+  CHECK(refusal(two + "1 2 3\n1 nan 3\n") == ":9: vertex 2 of 2: y is nan, but must be finite");
+  CHECK(refusal(start + "element vertex 1\nproperty float x\nend_header\n1\n") == ": vertices have no property \"y\"");
+  const std::string face =
+      start + "element vertex 1\n" + xyz + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  CHECK(refusal(face + "1 2 3\n3 0 0 7\n") == ":11: face 1 of 1: there is no vertex 7; allowed: 0 to 1 - 1");
+  CHECK(refusal(face + "1 2 3\n4000000000 0\n") == ":11: face 1 of 1: a list has 4e+09 entries, but the file ends before");
+  CHECK(refusal(ply_of({{1, 2, 3}, {4, 5, 6}}, "binary_little_endian", "double").substr(0, 150)).find("room for 1 at most") !=
+        std::string::npos);
+}
+
+TEST_CASE("what is no surface does not count") {
+  const TemporaryFolder folder;
+  const Body body = placed_body(Family::Superellipsoid, 3, 2.5);
+  const std::string text = obj_of(body);
+  const Data whole = read_data(folder.write("whole.obj", text), 1);
+  std::ostringstream stray;
+  stray.precision(9);
+  stray << "ply\nformat ascii 1.0\nelement vertex " << whole.vertices.points.size() + 2
+        << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << whole.triangles.size() + 1
+        << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vector3& x : whole.vertices.points) stray << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
+  const Triangle& first = whole.triangles.front();
+  const Vector3 middle = (whole.vertices.points[first[0]] + whole.vertices.points[first[1]]) / 2;
+  stray << middle.x() << ' ' << middle.y() << ' ' << middle.z() << "\n5 5 5\n";
+  for (const Triangle& t : whole.triangles) stray << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  stray << "3 " << first[0] << ' ' << first[1] << ' ' << whole.vertices.points.size() << '\n';  // flat, on an edge
+  const Data data = read_data(folder.write("stray.ply", stray.str()), 1);
+  CHECK(data.note == "1 vertices that no triangle has are left out");
+  const FitError error = find_error(std::vector<Body>{body}, data);
+  CHECK_FALSE(error.is_hull);
+  CHECK(error.to_body < 0.001);
+  CHECK(error.data.volume == doctest::Approx(make_shape(body)->mass_properties().volume).epsilon(0.01));
 }
 
 TEST_CASE("points on a line or in a plane are refused at once") {

@@ -7,6 +7,7 @@
 
 #include "model/fit_body.hpp"
 #include "model/fit_union.hpp"
+#include "output/report.hpp"
 #include "study/truth.hpp"
 
 using namespace fit;
@@ -95,6 +96,49 @@ TEST_CASE("outliers are left out") {
   CHECK(difference.segment<3>(kLogAxes).cwiseAbs().maxCoeff() < 5e-3);
 }
 
+TEST_CASE("gross outliers mislead neither search nor extent") {
+  const Body truth = make_body(Family::Superellipsoid, 4, 4);
+  for (const std::size_t points : {40, 300, 1000}) {
+    const Cloud clean = scatter(truth, {.points = points, .noise = 0.005});
+    const FittedBody expected = fit_body(clean);
+    for (const double radii : {10.0, 1e6}) {
+      Cloud cloud = clean;
+      std::vector<std::size_t> outliers;
+      for (int i = 0; i < 5; ++i) {
+        outliers.push_back(cloud.points.size());
+        const Vector3 way(std::cos(i), std::sin(2 * i), std::cos(3 * i + 1));
+        cloud.points.emplace_back(truth.position + radii * (i == 4 ? Vector3(Vector3::UnitX()) : Vector3(way.normalized())));
+      }
+      const FittedBody fitted = fit_body(cloud);
+      CAPTURE(points);
+      CAPTURE(radii);
+      CHECK(fitted.outliers == outliers);
+      CHECK(fitted.inliers == points);
+      CHECK(largest_deviation(fitted.body, expected.body) < 1e-9);
+      CHECK(describe_outliers(std::vector{fitted}, cloud).find("point " + std::to_string(points + 5) + " at (") !=
+            std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("points are cut off by an empty shell only") {
+  // A needle's ends, half of a body and a second group of a fifth of the points are no outliers.
+  Body needle = make_body(Family::Ellipsoid, 2, 2);
+  needle.half_axes = {50, 1, 1};
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const std::vector<Vector3> points = scatter(needle, {.points = 30, .seed = seed}).points;
+    CHECK(cut_off(points, points.size() / 5).empty());
+  }
+  const Cloud half = scatter(make_body(Family::Superellipsoid, 2.5, 4), {.points = 30, .is_half_missing = true});
+  CHECK(cut_off(half.points, half.points.size() / 5).empty());
+  std::vector<Vector3> groups = half.points;
+  for (const Vector3& x : half.points) groups.emplace_back(x + Vector3(100, 0, 0));
+  CHECK(cut_off(groups, groups.size() / 5).empty());
+  groups.resize(34);
+  CHECK(cut_off(groups, 4) == std::vector<std::size_t>{30, 31, 32, 33});
+  CHECK(cut_off(groups, 3).empty());
+}
+
 TEST_CASE("what data do not determine is said") {
   // A body of revolution may turn about its axis.
   Body truth = make_body(Family::Ellipsoid, 2, 2);
@@ -136,6 +180,11 @@ TEST_CASE("useless data are refused") {
   CHECK_THROWS_WITH_AS(fit_body(bad), "a coordinate is not finite", std::invalid_argument);
   Cloud same = whole;
   for (Vector3& x : same.points) x = Vector3(1, 2, 3);
-  CHECK_THROWS_AS(fit_body(same), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(fit_body(same), "the points are all in one place, to the rounding of their coordinates",
+                       std::invalid_argument);
+  Cloud tiny = whole;
+  for (Vector3& x : tiny.points) x *= 1e-300;
+  CHECK_THROWS_WITH_AS(fit_body(tiny), doctest::Contains("allowed: 1e-25 to 1e+25. Is the unit right (--scale)?"),
+                       std::invalid_argument);
   CHECK_THROWS_WITH_AS(fit_union(whole, 17), "at most 17 bodies; allowed: 1 to 16", std::invalid_argument);
 }

@@ -18,6 +18,7 @@
 
 #include "checkpoint/read_file.hpp"  // of samples/falling_particles
 #include "orientation.hpp"
+#include "read_ply.hpp"
 
 namespace fit {
 namespace {
@@ -75,23 +76,34 @@ Eigen::Vector3d read_normal(const std::string& where, const std::array<double, 6
   throw InputError(text.str());
 }
 
+/// The beginning of a line as it may stand in a message.
+std::string in_quotes(const std::string& line) {
+  constexpr std::size_t kLongest = 40;
+  std::string text = line.substr(0, std::min(kLongest, line.find_last_not_of("\r\n") + 1));
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 32 || c > 126; }, '?');
+  return "\"" + text + (line.size() > kLongest ? "…\"" : "\"");
+}
+
 Data read_text(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw InputError(path + ": cannot be opened");
   Data data;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // the mark of UTF-8
     line.erase(std::min(line.find('#'), line.size()));
     std::array<double, 6> values{};
     const std::string where = path + ":" + std::to_string(number) + ": ";
     const int count = parse_numbers(where, line, values);
     if (count == 0) continue;
-    if (count != 3 && count != 6) throw InputError(where + "a line holds x y z, or x y z nx ny nz");
+    if (count != 3 && count != 6) throw InputError(where + "a line holds x y z, or x y z nx ny nz, not " + in_quotes(line));
     const bool has_normal = count == 6;
     if (!data.vertices.points.empty() && has_normal == data.vertices.normals.empty()) {
       throw InputError(where + "either all points have normals or none");
     }
     data.vertices.points.emplace_back(values[0], values[1], values[2]);
+    if (!data.vertices.points.back().allFinite()) throw InputError(where + "a coordinate is not finite: " + in_quotes(line));
     if (has_normal) data.vertices.normals.push_back(read_normal(where, values));
   }
   return data;
@@ -116,16 +128,17 @@ void append(const aiMesh& mesh, Data& data) {
 
 Data read_by_assimp(const std::string& path) {
   Assimp::Importer importer;
-  // The three formats have no transformations, so that nodes need not be looked at.
+  // The formats have no transformations, so that nodes need not be looked at.
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw InputError(path + ": cannot be read: " + importer.GetErrorString());
   Data data;
+  data.is_single = true;  // Assimp keeps coordinates so
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], data);
   if (data.vertices.normals.size() != data.vertices.points.size()) data.vertices.normals.clear();
   return data;
 }
 
-/// Assimp keeps coordinates in single precision: far from the origin, they lose the shape.
+/// Far from the origin, coordinates in single precision lose the shape.
 void require_precision(const std::string& path, const std::vector<Eigen::Vector3d>& points) {
   constexpr double kMostRounding = 1e-4;  // over the extent; 1e-3 moves exponents by several per cent
   double largest = 0;
@@ -134,19 +147,41 @@ void require_precision(const std::string& path, const std::vector<Eigen::Vector3
   const double extent = extent_of(points).size;
   if (!(rounding > kMostRounding * extent) || extent == 0) return;
   std::ostringstream text;
-  text << path << ": coordinates are read in single precision: those up to " << largest << " are rounded by " << rounding << ", "
+  text << path << ": coordinates are in single precision: those up to " << largest << " are rounded by " << rounding << ", "
        << 100 * rounding / extent << " % of the data's extent of " << extent
-       << "; allowed: 0.01 %. Move the data near the origin, or give points as .xyz, which is read in double precision";
+       << "; allowed: 0.01 %. Move the data near the origin, or give a .ply with coordinates of type double, or points as .xyz";
   throw InputError(text.str());
 }
 
-/// Says what orient() did.
-std::string note_of(const Oriented& done, std::size_t triangles) {
+/// Says what was done to a mesh.
+std::string note_of(const Oriented& done, std::size_t triangles, std::size_t stray) {
   std::string note;
-  if (done.removed > 0) note = std::to_string(done.removed) + " triangles that repeat others or have no three corners are left out";
-  if (done.turned == 0) return note;
-  return note + (note.empty() ? "" : "; ") + std::to_string(done.turned) + " of " + std::to_string(triangles) +
-         " triangles faced inwards and are turned round";
+  const auto add = [&](const std::string& text) { note += (note.empty() ? "" : "; ") + text; };
+  if (done.removed > 0) add(std::to_string(done.removed) + " triangles that repeat others or have no three corners are left out");
+  if (done.turned > 0) {
+    add(std::to_string(done.turned) + " of " + std::to_string(triangles) + " triangles faced inwards and are turned round");
+  }
+  if (stray > 0) add(std::to_string(stray) + " vertices that no triangle has are left out");
+  return note;
+}
+
+/// Leaves out the vertices that no triangle has: they are not of the surface. Returns how many there were.
+std::size_t remove_stray_vertices(Data& data) {
+  constexpr auto kStray = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(data.vertices.points.size(), kStray);
+  std::vector<Eigen::Vector3d> points;
+  for (Triangle& triangle : data.triangles) {
+    for (std::uint32_t& corner : triangle) {
+      if (number[corner] == kStray) {
+        number[corner] = static_cast<std::uint32_t>(points.size());
+        points.push_back(data.vertices.points[corner]);
+      }
+      corner = number[corner];
+    }
+  }
+  const std::size_t stray = data.vertices.points.size() - points.size();
+  data.vertices.points = std::move(points);
+  return stray;
 }
 
 /// Makes one vertex of those in the same place: an .stl repeats them for every triangle.
@@ -194,12 +229,15 @@ Data read_data(const std::string& path, double scale) {
     throw InputError(path + ": " + other + ", and no file");
   }
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
-  Data data = is_text ? read_text(path) : read_by_assimp(path);
+  Data data = is_text ? read_text(path) : extension == ".ply" ? read_ply(path) : read_by_assimp(path);
   check(path, data);
-  if (!is_text) require_precision(path, data.vertices.points);
+  if (data.is_single) require_precision(path, data.vertices.points);
   if (!data.triangles.empty()) {
     weld(data);
-    data.note = note_of(orient(data), data.triangles.size());
+    const Oriented done = orient(data);
+    if (data.triangles.empty()) throw InputError(path + ": no triangle has three corners");
+    const std::size_t stray = remove_stray_vertices(data);
+    data.note = note_of(done, data.triangles.size(), stray);
   }
   for (Eigen::Vector3d& x : data.vertices.points) x *= scale;
   return data;

@@ -26,6 +26,30 @@ double radius_of(std::span<const Eigen::Vector3d> points) {
   return *at;
 }
 
+std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::size_t most) {
+  constexpr double kShell = 2;  // its outer radius over its inner one
+  const bool is_finite = std::ranges::all_of(points, [](const Eigen::Vector3d& x) { return x.allFinite(); });
+  if (!is_finite || points.size() < 2) return {};
+  Eigen::Vector3d middle;
+  std::vector<double> values(points.size());
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  for (int i = 0; i < 3; ++i) {
+    std::ranges::transform(points, values.begin(), [&](const Eigen::Vector3d& x) { return x[i]; });
+    std::nth_element(values.begin(), half, values.end());
+    middle[i] = *half;
+  }
+  const auto radius_at = [&](std::size_t i) { return (points[i] - middle).norm(); };
+  for (std::size_t i = 0; i < points.size(); ++i) values[i] = radius_at(i);
+  std::ranges::sort(values);
+  const auto first = std::ranges::adjacent_find(values.end() - static_cast<std::ptrdiff_t>(std::min(most, values.size() - 1)) - 1,
+                                                values.end(), [](double inner, double outer) { return outer > kShell * inner; });
+  std::vector<std::size_t> beyond;
+  for (std::size_t i = 0; first != values.end() && i < points.size(); ++i) {
+    if (radius_at(i) > *first) beyond.push_back(i);
+  }
+  return beyond;
+}
+
 Cloud normalized(const Cloud& cloud, const Extent& extent) {
   Cloud result = cloud;
   for (Eigen::Vector3d& x : result.points) x = (x - extent.centre) / extent.size;

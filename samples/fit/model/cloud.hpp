@@ -24,6 +24,12 @@ Extent extent_of(std::span<const Eigen::Vector3d> points);
 /// The distance from the centroid that 99 % of the points do not exceed.
 double radius_of(std::span<const Eigen::Vector3d> points);
 
+/// The points that are no part of one surface with the others: ascending indices. From the middle of the points
+/// (the median of each coordinate) outwards, a surface leaves no empty shell that is as thick as what it encloses: points beyond
+/// the first such shell are cut off, unless they are more than `most`, and then a part of the data. None where a coordinate is not
+/// finite.
+std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::size_t most);
+
 /// The cloud with its extent moved to the origin and to 1.
 Cloud normalized(const Cloud& cloud, const Extent& extent);
 

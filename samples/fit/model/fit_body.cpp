@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -216,12 +218,17 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
 }
 
 /// A descent on many points with a loss as narrow as the noise, and the mean square without what is far beyond it.
-void polish(Candidate& candidate, const Cloud& many, LeastSquaresSettings settings, bool rejects_outliers) {
+void polish(Candidate& candidate, const Cloud& many, LeastSquaresSettings settings, const FitSettings& search) {
+  const bool rejects_outliers = search.rejects_outliers;
   if (rejects_outliers) {
     settings.loss_width = kHuber * std::max(kUnsettled, robust_sigma(measure(candidate.body, many.points).distances));
   }
-  settings.max_iterations = 50;
-  settings.tolerance = 1e-8;
+  // A closed mesh has no noise: a body that misses it by several per cent of its size is of another shape, and more of its digits
+  // are of no use. They are the slowest to find, with the largest exponents.
+  constexpr double kOtherShape = 0.02;
+  const bool is_other_shape = search.is_whole && candidate.mean_square > kOtherShape * kOtherShape;
+  settings.max_iterations = is_other_shape ? 12 : 50;
+  settings.tolerance = is_other_shape ? 1e-2 / static_cast<double>(many.points.size()) : 1e-8;
   candidate.body = minimize_distances(candidate.body, many.points, {}, settings).body;
   const std::vector<double> distances = measure(candidate.body, many.points).distances;
   const double limit =
@@ -249,7 +256,7 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, cons
   if (candidates.empty()) return {};
   const double limit = kHopeless * candidates.front().mean_square;
   std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.mean_square > limit; });
-  for (Candidate& candidate : candidates) polish(candidate, many, settings, search.rejects_outliers);
+  for (Candidate& candidate : candidates) polish(candidate, many, settings, search);
   return *std::ranges::min_element(candidates, {}, &Candidate::mean_square);
 }
 
@@ -276,6 +283,7 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
   std::vector<Candidate> candidates;
   for (const Family family : {Family::Ellipsoid, Family::Superellipsoid, Family::Superovoid}) {
     if (cloud.points.size() < least_points(family)) continue;
+    if (settings.progress) settings.progress(std::string("looking for the best ") + name_of(family));
     // The taper is a small change: what was found without it is near enough.
     const bool is_near = family == Family::Superovoid && !candidates.empty();
     const Candidate candidate = is_near ? best_descent(make_starts_near(candidates.back().body, family), cloud, settings)
@@ -313,15 +321,59 @@ void require_points(const Cloud& cloud, std::size_t least) {
   for (const Vector3& x : cloud.points) {
     if (!x.allFinite()) throw std::invalid_argument("a coordinate is not finite");
   }
-  const Extent extent = extent_of(cloud.points);
-  if (!(extent.size > 1e-12 * extent.centre.norm()) || !std::isfinite(extent.size)) {
-    throw std::invalid_argument("the points are all in one place, or too large to be told apart");
+  // Half-axes are allowed from 1e-30 to 1e30: with room for bodies that are larger than the data, or thinner.
+  constexpr double kLeast = 1e-25, kLargest = 1e25;
+  Vector3 low = cloud.points.front(), high = low;
+  for (const Vector3& x : cloud.points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  const double range = (high - low).maxCoeff();
+  const double rounding = std::numeric_limits<double>::epsilon() * low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  if (!(range > 1e4 * rounding))
+    throw std::invalid_argument("the points are all in one place, to the rounding of their coordinates");
+  if (!(range >= kLeast && range <= kLargest)) {
+    std::ostringstream text;
+    text << "the points extend over " << range << " m; allowed: " << kLeast << " to " << kLargest
+         << ". Is the unit right (--scale)?";
+    throw std::invalid_argument(text.str());
   }
+  const Extent extent = extent_of(cloud.points);
   require_three_dimensions(normalized(cloud, extent));
 }
 
+std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& settings, bool is_union) {
+  if (!settings.rejects_outliers) return {};
+  // More points beyond a gap are a part of the surface that was scanned by itself; so many in a union may be one of its bodies.
+  const std::size_t most = cloud.points.size() / 5;
+  const std::size_t fewest_of_body = least_points(settings.family.value_or(Family::Ellipsoid));
+  return cut_off(cloud.points, is_union ? std::min(most, fewest_of_body - 1) : most);
+}
+
+Cloud without(const Cloud& cloud, std::span<const std::size_t> indices) {
+  if (indices.empty()) return cloud;
+  std::vector<bool> is_left_out(cloud.points.size(), false);
+  for (const std::size_t i : indices) is_left_out[i] = true;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < is_left_out.size(); ++i) {
+    if (!is_left_out[i]) kept.push_back(i);
+  }
+  return selected(cloud, kept);
+}
+
+void add_gross_outliers(std::vector<FittedBody>& fitted, std::span<const std::size_t> gross, std::size_t points) {
+  if (gross.empty()) return;
+  std::vector<std::size_t> kept;  // what without() kept
+  for (std::size_t i = 0; i < points; ++i) {
+    if (!std::ranges::binary_search(gross, i)) kept.push_back(i);
+  }
+  for (FittedBody& each : fitted) {
+    for (std::size_t& outlier : each.outliers) outlier = kept[outlier];
+  }
+  std::vector<std::size_t>& first = fitted.front().outliers;
+  first.insert(first.end(), gross.begin(), gross.end());
+  std::ranges::sort(first);
+}
+
 Candidate search_body(const Cloud& cloud, Family family, const FitSettings& settings) {
-  return best_descent(make_starts(thinned(cloud, 800), family), cloud, settings);
+  return best_descent(make_starts(thinned(cloud, 800), family, settings.is_whole), cloud, settings);
 }
 
 FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings) {
@@ -332,8 +384,11 @@ FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings&
   return finish(descend_on_all(body, data, settings, 4), extent, data, settings);
 }
 
-FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
+namespace {
+
+FittedBody fit_kept(const Cloud& cloud, FitSettings settings) {
   require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
+  if (settings.is_whole) settings.largest_over_radius = kLargestOverRadiusOfWhole;
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent);
   const Candidate best = best_family(thinned(data, 3000), settings);
@@ -349,6 +404,15 @@ FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
   // good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
   const Body near = descend_on_all(best.body, thinned(data, kLarge), settings, 4).body;
   return finish(descend_on_all(in_customary_order(near), data, settings, 2, 2), extent, data, settings);
+}
+
+}  // namespace
+
+FittedBody fit_body(const Cloud& cloud, const FitSettings& settings) {
+  const std::vector<std::size_t> gross = gross_outliers(cloud, settings, false);
+  std::vector<FittedBody> fitted = {fit_kept(without(cloud, gross), settings)};
+  add_gross_outliers(fitted, gross, cloud.points.size());
+  return fitted.front();
 }
 
 }  // namespace fit

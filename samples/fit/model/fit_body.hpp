@@ -1,7 +1,10 @@
 // The body that fits data best.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "body.hpp"
@@ -22,10 +25,17 @@ struct FitSettings {
   bool rejects_outliers = true;  ///< leaves out points farther away than kOutlier standard deviations
   /// No half-axis becomes longer than this times the data's radius (radius_of): data of one side only do not bound the body.
   double largest_over_radius = 3;
+  /// Whether the data are all of the surface (a closed mesh): then no body is looked for that stands out of them.
+  bool is_whole = false;
   int threads = 1;
+  std::function<void(const std::string& step)> progress = {};  ///< is told what is done next, where it may take seconds
 };
 
 constexpr double kOutlier = 5;
+
+/// No half-axis becomes longer than this times the data's radius where data bound the body all around: half of a segment in the
+/// data is not longer than their radius, of which radius_of() leaves out the outermost points.
+constexpr double kLargestOverRadiusOfWhole = 1.5;
 
 struct FittedBody {
   Body body;
@@ -46,6 +56,14 @@ void require_points(const Cloud& cloud, std::size_t least);
 
 /// Fits the points and measures how well. std::invalid_argument as require_points().
 FittedBody fit_body(const Cloud& cloud, const FitSettings& settings = {});
+
+/// The points that fit_body() and fit_union() leave out before they look for bodies, cut_off() from the others: up to a fifth of
+/// them, or up to as many as bound no body of a union.
+std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& settings, bool is_union);
+
+/// The rest of the cloud; and the indices of the outliers of a fit to the rest, with the gross ones, in the whole cloud.
+Cloud without(const Cloud& cloud, std::span<const std::size_t> indices);
+void add_gross_outliers(std::vector<FittedBody>& fitted, std::span<const std::size_t> gross, std::size_t points);
 
 /// Only descends from `start` on all points: for a start that is near.
 FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings& settings = {});

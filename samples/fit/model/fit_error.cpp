@@ -43,16 +43,24 @@ Solid solid_of(const Body& body) {
   return solid;
 }
 
-/// Every edge belongs to two triangles that run along it in opposite directions.
-bool is_closed(const Data& data) {
+/// Whether every edge belongs to as many triangles that run along it in one direction as in the other.
+bool is_closed(std::span<const Triangle> triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const Triangle& t : data.triangles) {
+  for (const Triangle& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = t[k], to = t[(k + 1) % 3];
       balance[std::minmax(from, to)] += from < to ? 1 : -1;
     }
   }
-  return !data.triangles.empty() && std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+  return !triangles.empty() && std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+}
+
+/// A triangle whose corners are on a line, to the rounding of single precision.
+bool is_flat(const Data& data, const Triangle& t) {
+  constexpr double kFlat = 1e-6;  // the height over the longest edge
+  const Vector3 &a = data.vertices.points[t[0]], &b = data.vertices.points[t[1]], &c = data.vertices.points[t[2]];
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return (b - a).cross(c - a).norm() <= kFlat * longest;
 }
 
 /// Sums over the tetrahedra between the triangles and their mean point (Mirtich 1996, in the form of Blow and Binstock 2004).
@@ -159,6 +167,14 @@ class DataDistance {
 };
 
 }  // namespace
+
+bool is_closed(const Data& data) {
+  if (is_closed(std::span<const Triangle>(data.triangles))) return true;
+  // A flat triangle encloses nothing. It may close the seam between long edges and short ones, or stand on an edge that is closed.
+  std::vector<Triangle> solid = data.triangles;
+  std::erase_if(solid, [&](const Triangle& t) { return is_flat(data, t); });
+  return solid.size() < data.triangles.size() && is_closed(std::span<const Triangle>(solid));
+}
 
 std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count) {
   std::vector<Vector3> points;

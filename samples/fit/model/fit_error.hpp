@@ -28,6 +28,10 @@ struct FitError {
   bool is_hull = false;   ///< whether `data` is that of the convex hull
 };
 
+/// Whether the data are a mesh that encloses a volume: every edge is of triangles that run along it both ways. Flat triangles,
+/// whose corners are on a line, do not count unless they are needed.
+bool is_closed(const Data& data);
+
 /// Points of the union's surface: of `count` on each body, the same always, those that no other body contains.
 std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <supernormal/shapes/superellipsoid.hpp>
 
 #include "kmeans.hpp"
 #include "least_squares.hpp"
@@ -13,12 +14,17 @@ namespace fit {
 namespace {
 
 // Lengths below are of data of extent 1.
-constexpr double kRounding = 1e-9;
 constexpr double kLoss = 0.02;  // of distances while points still change hands
 
-// No half-axis of a part becomes longer than this times the radius of its points. The others hide some of its surface, but what
-// stands out of the data is no part of the union.
-constexpr double kLargestOverRadius = 1.5;
+// The sharpest edge of the families, with the largest exponent, misses that of a box by this much of a half-axis: what is nearer is
+// as near as a body comes, and says nothing about how many there are.
+const double kSharpest = 1 - std::exp2(-1 / supernormal::Superellipsoid::kMaxExponent);
+
+// A body more must lower the root mean square by a tenth: descents from other clusters differ by several per cent.
+constexpr double kLeastGain = 0.1;
+
+// The others hide some of a part's surface, but what stands out of the data is no part of the union.
+constexpr double kLargestOverRadius = kLargestOverRadiusOfWhole;
 
 FitSettings search_settings() {
   FitSettings settings;
@@ -194,11 +200,30 @@ Model searched_again(Model model, const Cloud& cloud, Family family) {
   return model;
 }
 
+double resolved_square(const Model& model) { return model.mean_square + kSharpest * kSharpest; }
+
 double criterion(const Model& model, std::size_t points) {
   const auto n = static_cast<double>(points);
   double numbers = 0;
   for (const Body& body : model.bodies) numbers += parameter_count(body.family);
-  return n * std::log(model.mean_square + kRounding * kRounding) + numbers * std::log(n);
+  return n * std::log(resolved_square(model)) + numbers * std::log(n);
+}
+
+/// Whether a model is worth its further bodies.
+bool is_better(const Model& more, const Model& fewer, std::size_t points) {
+  if (!std::isfinite(more.mean_square)) return false;
+  if (!std::isfinite(fewer.mean_square)) return true;
+  return criterion(more, points) < criterion(fewer, points) &&
+         std::sqrt(resolved_square(more)) < (1 - kLeastGain) * std::sqrt(resolved_square(fewer));
+}
+
+/// One body, from all the starts that a fit of one has: what it lacks is no reason for a second body.
+Model best_of_one(const Cloud& cloud, Family family, const FitSettings& settings) {
+  const Extent extent = extent_of(cloud.points);
+  const Candidate found = search_body(normalized(cloud, extent), family, settings);
+  if (!std::isfinite(found.mean_square)) return {};
+  const std::vector<Body> bodies = {moved(found.body, extent.size, extent.centre)};
+  return {bodies, mean_loss(assign(bodies, cloud, Distance::Union).distances)};
 }
 
 /// The best model from several clusterings, those that led to the same ellipsoids counted once.
@@ -207,7 +232,7 @@ Model best_of_clusterings(const Cloud& cloud, int count, Family family) {
   constexpr double kAlike = 0.01;
   Model best;
   std::vector<double> known;
-  for (int seed = 1; seed <= (count == 1 ? 1 : kSeeds); ++seed) {
+  for (int seed = 1; seed <= kSeeds; ++seed) {
     const Model start = start_from_clusters(cloud, count, static_cast<std::uint64_t>(seed));
     const auto is_known = [&](double other) { return std::abs(start.mean_square / other - 1) < kAlike; };
     if (!std::isfinite(start.mean_square) || std::ranges::any_of(known, is_known)) continue;
@@ -238,6 +263,27 @@ std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, con
   return fitted;
 }
 
+std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSettings& settings, const Progress& progress) {
+  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
+  const Extent extent = extent_of(cloud.points);
+  const Cloud data = normalized(cloud, extent), few = thinned(data, 1000);
+  const Family family = settings.family.value_or(Family::Superellipsoid);
+
+  Model best;
+  for (int count = 1; count <= largest_count; ++count) {
+    if (progress) progress(count, largest_count);
+    const Model of_count = count == 1 ? best_of_one(few, family, settings) : best_of_clusterings(few, count, family);
+    if (is_better(of_count, best, few.points.size())) best = of_count;
+  }
+  if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
+  FitSettings of_part = settings;
+  of_part.is_whole = false;  // the others hide some of it
+  of_part.largest_over_radius = kLargestOverRadius;
+  best = searched_again(best, thinned(data, 3000), family);
+  for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
+  return finish(best.bodies, cloud, of_part);
+}
+
 }  // namespace
 
 std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings, const Progress& progress) {
@@ -247,26 +293,10 @@ std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const F
                                 std::to_string(kLargestCount));
   }
   if (largest_count == 1) return {fit_body(cloud, settings)};
-  require_points(cloud, least_points(settings.family.value_or(Family::Ellipsoid)));
-  const Extent extent = extent_of(cloud.points);
-  const Cloud data = normalized(cloud, extent), few = thinned(data, 1000);
-  const Family family = settings.family.value_or(Family::Superellipsoid);
-
-  Model best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int count = 1; count <= largest_count; ++count) {
-    if (progress) progress(count, largest_count);
-    const Model of_count = best_of_clusterings(few, count, family);
-    if (!(criterion(of_count, few.points.size()) < least)) continue;
-    best = of_count;
-    least = criterion(best, few.points.size());
-  }
-  if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
-  FitSettings of_part = settings;
-  of_part.largest_over_radius = kLargestOverRadius;
-  best = searched_again(best, thinned(data, 3000), family);
-  for (Body& body : best.bodies) body = moved(body, extent.size, extent.centre);
-  return finish(best.bodies, cloud, of_part);
+  const std::vector<std::size_t> gross = gross_outliers(cloud, settings, true);
+  std::vector<FittedBody> fitted = unite(without(cloud, gross), largest_count, settings, progress);
+  add_gross_outliers(fitted, gross, cloud.points.size());
+  return fitted;
 }
 
 }  // namespace fit

@@ -132,7 +132,7 @@ Body boxed_by(const Cloud& cloud, Body body) {
 
 }  // namespace
 
-std::vector<Body> make_starts(const Cloud& cloud, Family family) {
+std::vector<Body> make_starts(const Cloud& cloud, Family family, bool is_whole) {
   const auto principal = principal_axes(cloud);
   const Vector3 sphere = sphere_centre(cloud);
   constexpr std::array<std::pair<double, double>, 5> kExponents = {{{2, 2}, {1.4, 1.4}, {6, 6}, {2, 6}, {6, 2}}};
@@ -143,7 +143,8 @@ std::vector<Body> make_starts(const Cloud& cloud, Family family) {
     Body body;
     body.family = family;
     body.attitude = Eigen::Quaterniond(axes * turn).normalized();
-    const std::vector<Body> places = make_places(boxed_by(cloud, body), sphere);
+    const Body boxed = boxed_by(cloud, body);
+    const std::vector<Body> places = is_whole ? std::vector{boxed} : make_places(boxed, sphere);
     const std::size_t exponents = family == Family::Ellipsoid ? 1 : kExponents.size();
     for (const Body& place : places) {
       for (std::size_t k = 0; k < exponents; ++k) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <vector>
@@ -11,15 +12,17 @@
 namespace fit {
 namespace {
 
-std::string number(double value) {
+constexpr int kDigits = 9;
+
+std::string number(double value, int digits) {
   std::vector<char> text(32);
-  std::snprintf(text.data(), text.size(), "%.9g", value);
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
 }
 
 /// As a literal of the type double in either language.
-std::string literal(double value) {
-  const std::string text = number(value);
+std::string literal(double value, int digits = kDigits) {
+  const std::string text = number(value, digits);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
@@ -28,6 +31,15 @@ std::string list(std::initializer_list<double> values) {
   for (const double value : values) {
     if (!text.empty()) text += ", ";
     text += literal(value);
+  }
+  return text;
+}
+
+/// A place, to a billionth of the body.
+std::string list_of_place(const Body& body) {
+  std::string text;
+  for (const double x : body.position) {
+    text += (text.empty() ? "" : ", ") + literal(x, digits_of(x, body.half_axes.minCoeff(), kDigits));
   }
   return text;
 }
@@ -76,6 +88,12 @@ std::string place_keys(const Body& body, const Vector3& origin) {
 
 }  // namespace
 
+int digits_of(double coordinate, double size, int digits) {
+  const double ratio = std::abs(coordinate) / size;
+  const int more = ratio > 1 ? static_cast<int>(std::ceil(std::log10(ratio))) : 0;
+  return std::clamp(digits + more, digits, 17);
+}
+
 std::string identifier(const std::string& text) {
   std::string name = text;
   const auto is_allowed = [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); };
@@ -114,7 +132,7 @@ std::string c_lines(std::span<const FittedBody> bodies, const std::string& name,
     const std::string part = name_of_part(name, bodies.size(), i);
     const Eigen::Quaterniond& q = body.attitude;
     const std::string attitude = part + "_attitude";
-    const std::string place = list({body.position.x(), body.position.y(), body.position.z()});
+    const std::string place = list_of_place(body);
     text.append("const dQuaternion ").append(attitude).append(" = {").append(list({q.w(), q.x(), q.y(), q.z()})).append("};\n");
     text.append("dGeomID ").append(part).append(" = ").append(create_call(body)).append(";\n");
     text.append("dGeomSetPosition(").append(part).append(", ").append(place).append(");\n");

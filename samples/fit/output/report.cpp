@@ -1,10 +1,17 @@
 #include "report.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
+#include <ranges>
+#include <utility>
 #include <vector>
+
+#include "model/distance.hpp"
+#include "paste.hpp"
 
 namespace fit {
 namespace {
@@ -20,10 +27,12 @@ namespace {
 
 std::string row(const char* name, double value, const FittedBody& fitted, int parameter) {
   const Uncertainty& uncertainty = fitted.uncertainty;
+  const bool is_place = parameter < kRotation;
+  const int digits = is_place ? digits_of(value, fitted.body.half_axes.minCoeff(), 7) : 7;
   if (!uncertainty.is_determined[static_cast<std::size_t>(parameter)]) {
-    return format("  %-22s %14.7g   not determined by the data\n", name, value);
+    return format("  %-22s %14.*g   not determined by the data\n", name, digits, value);
   }
-  return format("  %-22s %14.7g ± %.2g\n", name, value, uncertainty.standard_error[parameter]);
+  return format("  %-22s %14.*g ± %.2g\n", name, digits, value, uncertainty.standard_error[parameter]);
 }
 
 std::string attitude_rows(const FittedBody& fitted) {
@@ -81,6 +90,28 @@ std::string describe(const FittedBody& fitted) {
   text += format("  %zu points, standard deviation of their distances %.4g; %zu outliers left out\n", fitted.inliers,
                  fitted.uncertainty.sigma, fitted.outliers.size());
   return text + remarks(fitted);
+}
+
+std::string describe_outliers(std::span<const FittedBody> fitted, const Cloud& cloud) {
+  constexpr std::size_t kNamed = 5;
+  std::vector<DistanceFunction> functions;
+  for (const FittedBody& each : fitted) functions.emplace_back(each.body);
+  std::vector<std::pair<double, std::size_t>> outliers;
+  for (const FittedBody& each : fitted) {
+    for (const std::size_t i : each.outliers) outliers.emplace_back(least_distance(functions, cloud.points[i]), i);
+  }
+  if (outliers.empty()) return "";
+  std::ranges::sort(outliers, [](const auto& a, const auto& b) {
+    return std::abs(a.first) != std::abs(b.first) ? std::abs(a.first) > std::abs(b.first) : a.second < b.second;
+  });
+  std::string text = format("%zu outliers do not count (--outliers keep: they do)%s\n", outliers.size(),
+                            outliers.size() > kNamed ? "; the farthest:" : ":");
+  for (const auto& [distance, i] : outliers | std::views::take(kNamed)) {
+    const Vector3& x = cloud.points[i];
+    text += format("  point %zu at (%.7g, %.7g, %.7g), %.4g %s the surface\n", i + 1, x.x(), x.y(), x.z(), std::abs(distance),
+                   distance < 0 ? "below" : "above");
+  }
+  return text;
 }
 
 std::string describe(const FitError& error) {
