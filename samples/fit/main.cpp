@@ -131,7 +131,8 @@ void run(const Options& options) {
   const std::vector<fit::FittedBody> fitted = fit_points(points, options, data);
   if (fitted.size() < static_cast<std::size_t>(options.bodies)) {
     say(std::to_string(fitted.size()) + (fitted.size() == 1 ? " body fits" : " bodies fit") + " as well as " +
-        std::to_string(options.bodies) + ": more do not bring the points nearer by a tenth, noise and the sharpest edges apart");
+        std::to_string(options.bodies) +
+        ": more do not bring the points nearer by a twentieth, noise and the sharpest edges apart");
   }
   for (const fit::FittedBody& each : fitted) std::fputs(fit::describe(each).c_str(), stdout);
   if (!is_mesh) std::fputs(fit::describe_outliers(fitted, points).c_str(), stdout);

@@ -110,7 +110,7 @@ TEST_CASE("files that are of no use are refused with a reason") {
   CHECK(complaint(empty) == empty + ": no points");
   const std::string directory = (folder.path() / "folder.ply").string();
   std::filesystem::create_directory(directory);
-  CHECK(complaint(directory) == directory + ": is no file that holds data, but a folder or a device");
+  CHECK(complaint(directory) == directory + ": a folder, and no file");
   for (const char* name : {"empty.stl", "empty.obj"}) {
     CHECK(complaint(folder.write(name, "")).find(std::string(name) + ": cannot be read: ") != std::string::npos);
   }

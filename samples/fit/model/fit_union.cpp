@@ -20,8 +20,8 @@ constexpr double kLoss = 0.02;  // of distances while points still change hands
 // as near as a body comes, and says nothing about how many there are.
 const double kSharpest = 1 - std::exp2(-1 / supernormal::Superellipsoid::kMaxExponent);
 
-// A body more must lower the root mean square by a tenth: descents from other clusters differ by several per cent.
-constexpr double kLeastGain = 0.1;
+// A body more must lower the root mean square by this much: descents from other clusters differ by some per cent.
+constexpr double kLeastGain = 0.05;
 
 // The others hide some of a part's surface, but what stands out of the data is no part of the union.
 constexpr double kLargestOverRadius = kLargestOverRadiusOfWhole;
@@ -276,6 +276,7 @@ std::vector<FittedBody> unite(const Cloud& cloud, int largest_count, const FitSe
     if (is_better(of_count, best, few.points.size())) best = of_count;
   }
   if (best.bodies.size() <= 1) return {fit_body(cloud, settings)};
+  if (settings.progress) settings.progress("descending with " + std::to_string(best.bodies.size()) + " bodies on all points");
   FitSettings of_part = settings;
   of_part.is_whole = false;  // the others hide some of it
   of_part.largest_over_radius = kLargestOverRadius;

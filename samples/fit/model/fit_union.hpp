@@ -14,8 +14,8 @@ namespace fit {
 /// a stationary point of the joint problem, whose Jacobian consists of the bodies' own: their covariances are those of the union.
 ///
 /// Where to start from is found with ellipsoids, from several k-means clusterings. A number of bodies is taken when its Bayesian
-/// information criterion is less than that of fewer, and its root mean square less by a tenth; distances that the sharpest edge of
-/// a body leaves count alike, so that a box is one body. std::invalid_argument as fit_body, and when largest_count is out of its
+/// information criterion is less than that of fewer, and its root mean square less by a twentieth; distances that the sharpest edge
+/// of a body leaves count alike, so that a box is one body. std::invalid_argument as fit_body, and when largest_count is out of its
 /// range. `progress` is told the number of bodies that is looked for next, and the largest.
 using Progress = std::function<void(int count, int largest_count)>;
 std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings = {},
