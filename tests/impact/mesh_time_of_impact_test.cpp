@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "random_motions.hpp"
@@ -65,6 +66,34 @@ TEST_CASE("triangles: the first of them, where the nearest triangle is as near a
     CHECK(std::abs(gap(found.impact.time)) <= 2e-9);
   }
   CHECK(hits > 10);
+}
+
+TEST_CASE("triangles: at the impact with a closed mesh no contact is deeper than the tolerance") {
+  // Elsewhere the planes of the faces are far above what touches an edge or a vertex from outside.
+  const std::array<Vector3, 4> corners = {Vector3(-1, -1, 0), Vector3(1, -1, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)};
+  const std::vector<MeshTriangle> tetrahedron = {{{corners[0], corners[2], corners[1]}, 0},
+                                                 {{corners[0], corners[1], corners[3]}, 1},
+                                                 {{corners[1], corners[2], corners[3]}, 2},
+                                                 {{corners[2], corners[0], corners[3]}, 3}};
+  RandomMotions random(12);
+  MeshContacts contacts;
+  int hits = 0;
+  for (int k = 0; k < 400; ++k) {
+    CAPTURE(k);
+    const auto shape = random.shape();
+    Motion motion;
+    motion.pose = {5 * random.direction(), random.rotation()};
+    motion.velocity = 0.8 * random.direction() - motion.pose.position;
+    const Impact found = find_mesh_time_of_impact(*shape, motion, tetrahedron, {}, 2).impact;
+    if (found.status != ImpactStatus::Hits) continue;
+    ++hits;
+    for (const double dt : {-1e-11, -1e-13, 0.0, 1e-13, 1e-11}) {
+      for (const MeshContact& contact : contacts.find(*shape, pose_at(motion, found.time + dt), tetrahedron)) {
+        CHECK(contact.proximity.gap > -1e-8);
+      }
+    }
+  }
+  CHECK(hits > 200);
 }
 
 TEST_CASE("triangles: without any, bodies are apart") {

@@ -218,12 +218,15 @@ bool MeshContactSearch::has_complete_neighbourhood(const SupportProbe& probe, co
 bool MeshContactSearch::touches_surface(SupportProbe& probe, const SurfaceContact& contact) const {
   const Vector3 top = probe.deepest(-contact.normal).point;
   if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // the whole body is behind the plane
-  return surface_.is_crossed(contact.body_point, top, contact.face) || overlaps_face(probe, surface_.faces()[at(contact.face)]);
+  return surface_.is_crossed(contact.body_point, top, contact.face) ||
+         overlaps(meet_face(probe, surface_.faces()[at(contact.face)]), contact.gap);
 }
 
-bool MeshContactSearch::overlaps_face(SupportProbe& probe, const Face& face) const {
-  const Proximity found = meet_face(probe, face);
-  return found.status != Status::Apart && found.gap <= 0;
+// Whether a face and the body, that meet as found, overlap so that there may be a contact with this gap. Within the tolerance the
+// query does not tell from which side the body touches: one that touches an edge from outside is far below the planes of its faces.
+bool MeshContactSearch::overlaps(const Proximity& found, double gap) const {
+  const double touch = settings_.tolerance * length_unit_ + surface_.rounding();
+  return found.status != Status::Apart && found.gap <= 0 && (found.gap < -touch || gap >= -touch);
 }
 
 Proximity MeshContactSearch::meet_face(SupportProbe& probe, const Face& face) const {
@@ -244,7 +247,7 @@ void MeshContactSearch::find_way_up(SupportProbe& probe) {
     const PatchSupport& support = supports_[at(face.patch)];
     if (!(support.gap <= 0) || (shortest && support.gap <= shortest->gap)) continue;
     const Proximity found = meet_face(probe, face);
-    if (found.status == Status::Apart || found.gap > 0) continue;
+    if (!overlaps(found, support.gap)) continue;
     const bool is_in_front = face.normal.dot(centre - face.vertices[0]) > surface_.rounding();
     // If the body has a flat side, point1 may be any point of it.
     const Vector3 opposite = found.point2 - found.gap * found.normal;

@@ -60,7 +60,7 @@ class MeshContactSearch {
   bool is_outside_at(int corner, const Vector3& normal) const;
   bool has_complete_neighbourhood(const SupportProbe& probe, const Vector3& point) const;
   bool touches_surface(SupportProbe& probe, const SurfaceContact& contact) const;
-  bool overlaps_face(SupportProbe& probe, const Face& face) const;
+  bool overlaps(const Proximity& found, double gap) const;
   Proximity meet_face(SupportProbe& probe, const Face& face) const;
   void find_way_up(SupportProbe& probe);
   std::span<const MeshContact> to_world(const Vector3& origin);
