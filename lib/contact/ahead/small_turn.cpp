@@ -79,9 +79,10 @@ struct Impact {
     const double gyration = squared_gyration(arm);
     const double of_turn = turn * gyration;
     const double discriminant = of_turn * of_turn + 4 * (approach - height) * height * gyration;
-    if (!(lever > 0 && discriminant >= 0)) return 1;
-    const double allowed = 2 * height * gyration / (of_turn + std::sqrt(discriminant));
-    return allowed < lever ? allowed / lever : 1;
+    if (!(discriminant >= 0)) return 1;
+    const double allowed = 2 * height * gyration;
+    const double asked = lever * (of_turn + std::sqrt(discriminant));
+    return allowed < asked ? allowed / asked : 1;
   }
 };
 
