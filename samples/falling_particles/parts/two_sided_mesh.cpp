@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <iterator>
@@ -44,7 +45,8 @@ std::vector<unsigned int> weld(const Mesh& mesh) {
     const Vector3 cell = (place / seam).array().floor();
     first[i] = i;
     for (int neighbour = 0; neighbour < 27 && first[i] == i; ++neighbour) {
-      const Vector3 other = cell + Vector3(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
+      const std::array<int, 3> step = {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
+      const Vector3 other = cell + Vector3(step[0], step[1], step[2]);
       const auto found = cells.find({other.x(), other.y(), other.z()});
       if (found == cells.end()) continue;
       for (const unsigned int earlier : found->second) {

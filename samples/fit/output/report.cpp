@@ -6,7 +6,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
-#include <ranges>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -106,7 +106,7 @@ std::string describe_outliers(std::span<const FittedBody> fitted, const Cloud& c
   });
   std::string text = format("%zu outliers do not count (--outliers keep: they do)%s\n", outliers.size(),
                             outliers.size() > kNamed ? "; the farthest:" : ":");
-  for (const auto& [distance, i] : outliers | std::views::take(kNamed)) {
+  for (const auto& [distance, i] : std::span(outliers).first(std::min(outliers.size(), kNamed))) {
     const Vector3& x = cloud.points[i];
     text += format("  point %zu at (%.7g, %.7g, %.7g), %.4g %s the surface\n", i + 1, x.x(), x.y(), x.z(), std::abs(distance),
                    distance < 0 ? "below" : "above");

@@ -149,11 +149,11 @@ void print_all() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Compares settings of quickstep for bodies that rest: unrest, sleep, and how those that start in the floor come out");
-  app.footer("Prints tables in Markdown, in some minutes. It takes no options.");
-  CLI11_PARSE(app, argc, argv);
   try {
+    CLI::App app(
+        "Compares settings of quickstep for bodies that rest: unrest, sleep, and how those that start in the floor come out");
+    app.footer("Prints tables in Markdown, in some minutes. It takes no options.");
+    CLI11_PARSE(app, argc, argv);
     print_all();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "quickstep_settings: %s\n", error.what());
