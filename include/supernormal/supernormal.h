@@ -170,8 +170,9 @@ SUPERNORMAL_API void snSetWarmStart(int on);
 
 /** How far dCollide looks ahead for this geom: `time` in s, in [0, 1e6]. 0 (default): off, contacts are those of overlaps. Take the
  * step of the simulation. With a time > 0 dCollide also returns contacts of pairs that may meet within it, each with depth = -gap <
- * 0; hand them to snContactLookAhead before dJointCreateContact. So nothing tunnels through what it would hit within a step, and
- * what rests comes in by next to nothing, at longer steps (lib/guide.md, "Contacts before overlap").
+ * 0; hand them to snContactLookAhead before dJointCreateContact. So a body does not tunnel through what it would hit within a step,
+ * and what rests comes in by next to nothing, at longer steps. lib/guide.md, "Contacts before overlap", names the exceptions:
+ * bodies whose centre of mass is off the middle of their geom, and two free bodies that are many sizes a step fast.
  *
  * dCollide takes velocities and forces from the bodies of the geoms (dGeomGetBody); a geom without one stands still. It moves both
  * without rotation to where they meet, and takes the normals from there: what passes by has no contact. Rotation, gravity, forces

@@ -7,10 +7,11 @@
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
-///     in motion    find_time_of_impact(), find_plane_time_of_impact(), find_mesh_time_of_impact(): when two bodies
-///                  meet, or the proof that they do not; pose_at()
+///     in motion    find_time_of_impact(), find_plane_time_of_impact(), find_mesh_time_of_impact(): when bodies meet; pose_at()
 ///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to(); hertz_correction(),
 ///                  hertz_damping_ratio()
+///     ahead        find_contacts_ahead(), find_plane_contacts_ahead(), MeshContactsAhead: contacts of bodies that will meet;
+///                  find_manifold_of_gaps(), find_plane_manifold_of_gaps(), nearness()
 ///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
 ///
 /// Units and frames: lengths in m, or in any other unit that is used throughout; x_world = rotation x_body + position; normals are
@@ -22,7 +23,7 @@
 ///
 /// Threads and memory: shapes and functions have no state, so that any number of threads may use them at once. Queries allocate
 /// nothing, but for the scratch memory that a thread keeps for deep overlaps and that grows with the first of them; MeshContacts
-/// owns its own.
+/// and MeshContactsAhead own theirs.
 ///
 /// Warm start: find_proximity() takes the normal of an earlier pose, in body 1's frame: keep pose1.rotation.transpose() * normal.
 #pragma once

@@ -54,8 +54,7 @@ SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, 
 
 /// Reduces the manifold to what a caller with room for so many contacts gets: the corners at distinct places, deepest first, or the
 /// deepest point alone where there are none. The first has the depth of the overlap. With room for two or three, neighbours are
-/// united at a place between them. The result is as continuous as the
-/// manifold.
+/// united at a place between them. The result is as continuous as the manifold.
 SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
 
 }  // namespace supernormal

@@ -47,9 +47,8 @@ class SUPERNORMAL_API MeshContacts {
   ///    of find_plane_proximity();
   ///  * a convex edge, over the arc between the normals of its two faces;
   ///  * the open border of a sheet, with the face's normal where the body stands on the sheet: its deepest point is below the
-  ///  face's
-  ///    plane by up to a tenth of the body's extent along the normal. The depth is that of the body over the border. From a fifth
-  ///    on the normal is that of the arc, up to 90 degrees from the face's; in between it turns from one to the other;
+  ///    face's plane by up to a tenth of the body's extent along the normal. The depth is that of the body over the border. From a
+  ///    fifth on the normal is that of the arc, up to 90 degrees from the face's; in between it turns from one to the other;
   ///  * a vertex, over the normals with whose tangent plane no triangle there violates the normal cone;
   ///  * a face that the body crosses, if there is nothing else: from there the way up.
   ///

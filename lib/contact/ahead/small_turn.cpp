@@ -42,8 +42,8 @@ double height_of(const BodyAhead& body, const Vector3& normal, const Vector3& pl
   return normal.dot(place - body.motion.centre) - kInnerBall * body.shape.half_extents().minCoeff();
 }
 
-/// What is to be stopped.
-struct Impact {
+/// How far from the line through the centres a contact may act that stops two bodies.
+struct LeverLimit {
   const BodyAhead& body1;
   const BodyAhead& body2;
   double share;     // of body 1 in the motion of both
@@ -103,11 +103,11 @@ void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, dou
   const double height = share * height_of(body1, normal, contact) + (1 - share) * height_of(body2, -normal, contact) +
                         std::min(0.0, manifold.deepest.gap);
   const double turn = time * (share * body1.motion.turn_rate + (1 - share) * body2.motion.turn_rate);
-  const Impact impact{body1, body2, share, normal, approach, turn, std::max(0.0, height)};
+  const LeverLimit limit{body1, body2, share, normal, approach, turn, std::max(0.0, height)};
   const Vector3 place = nearest_place(manifold, contact - arm_of(contact));
   const Vector3 arm = arm_of(place);
   const auto cut_from = [&](const Vector3& lever) {
-    return Vector3((std::min(impact.part_for_small_turn(lever), impact.part_for_height(lever)) - 1) * lever);
+    return Vector3((std::min(limit.part_for_small_turn(lever), limit.part_for_height(lever)) - 1) * lever);
   };
   const Vector3 shift = cut_from(arm);
   for (ManifoldCorner& corner : manifold.corners) corner.point += shift;

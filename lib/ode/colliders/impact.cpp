@@ -6,15 +6,12 @@
 #include <string>
 
 #include "ode/colliders/convex/convex_vertices.hpp"
+#include "ode/colliders/convex/shape_of.hpp"
 #include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/geom/geom_class.hpp"
 #include "ode/geom/solver_settings.hpp"
-#include "supernormal/shapes/box.hpp"
-#include "supernormal/shapes/capsule.hpp"
-#include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
-#include "supernormal/shapes/sphere.hpp"
 
 namespace supernormal::ode {
 namespace {
@@ -45,28 +42,6 @@ Impact meet_plane(const Mover& mover, dGeomID collider, double horizon) {
   dVector4 plane;
   dGeomPlaneGetParams(collider, plane);
   return find_plane_time_of_impact(mover.body.shape(), mover.motion, to_vector(plane), plane[3], horizon, mover.body.settings());
-}
-
-Impact meet_sphere(const Mover& mover, dGeomID collider, double horizon) {
-  return mover.meet(collider, Sphere(dGeomSphereGetRadius(collider)), pose_of(collider), horizon);
-}
-
-Impact meet_box(const Mover& mover, dGeomID collider, double horizon) {
-  dVector3 lengths;
-  dGeomBoxGetLengths(collider, lengths);
-  return mover.meet(collider, Box(0.5 * to_vector(lengths)), pose_of(collider), horizon);
-}
-
-Impact meet_capsule(const Mover& mover, dGeomID collider, double horizon) {
-  dReal radius = 0, length = 0;
-  dGeomCapsuleGetParams(collider, &radius, &length);
-  return mover.meet(collider, Capsule(radius, 0.5 * double{length}), pose_of(collider), horizon);
-}
-
-Impact meet_cylinder(const Mover& mover, dGeomID collider, double horizon) {
-  dReal radius = 0, length = 0;
-  dGeomCylinderGetParams(collider, &radius, &length);
-  return mover.meet(collider, Cylinder(radius, 0.5 * double{length}), pose_of(collider), horizon);
 }
 
 Impact meet_convex(const Mover& mover, dGeomID collider, double horizon) {
@@ -103,13 +78,13 @@ Impact find_impact(dGeomID ours, dGeomID collider, double horizon) {
   if (collider_class == geom_class()) return meet_body(mover, collider, horizon);
   switch (collider_class) {
     case dSphereClass:
-      return meet_sphere(mover, collider, horizon);
+      return mover.meet(collider, sphere_of(collider), pose_of(collider), horizon);
     case dBoxClass:
-      return meet_box(mover, collider, horizon);
+      return mover.meet(collider, box_of(collider), pose_of(collider), horizon);
     case dCapsuleClass:
-      return meet_capsule(mover, collider, horizon);
+      return mover.meet(collider, capsule_of(collider), pose_of(collider), horizon);
     case dCylinderClass:
-      return meet_cylinder(mover, collider, horizon);
+      return mover.meet(collider, cylinder_of(collider), pose_of(collider), horizon);
     case dPlaneClass:
       return meet_plane(mover, collider, horizon);
     case dRayClass:

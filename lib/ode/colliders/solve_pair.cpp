@@ -21,7 +21,7 @@ struct PosedShape {
 };
 
 BodyAhead moving(const PosedShape& posed) {
-  return {posed.shape, posed.pose, motion_of(posed.geom, posed.pose.position, posed.radius)};
+  return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.radius)};
 }
 
 /// Solves for two shapes. `last.pose` must be set; the remembered normals are in the frame with the attitude `frame`, and `size`

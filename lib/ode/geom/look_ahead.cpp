@@ -36,7 +36,7 @@ void set_default_look_ahead(double time) { default_time.store(time, std::memory_
 
 // The body's centre moves straight on, and the origin of the geom about it: along the tangent, and beside it by no more than twice
 // its distance from the centre times the angle.
-MotionAhead motion_of(dGeomID geom, const Vector3& origin, double radius) {
+MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) {
   MotionAhead motion;
   motion.centre = origin;
   const dBodyID body = dGeomGetBody(geom);

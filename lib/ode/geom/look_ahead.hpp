@@ -13,6 +13,6 @@ void set_default_look_ahead(double time);
 
 /// The motion of a geom, about the point `origin` (m, world frame) of it, beyond which it reaches by no more than `radius` (m). A
 /// geom without a body stands still, and so does one whose body sleeps.
-MotionAhead motion_of(dGeomID geom, const Vector3& origin, double radius);
+MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius);
 
 }  // namespace supernormal::ode

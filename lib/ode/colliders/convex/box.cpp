@@ -1,7 +1,6 @@
 // Our bodies and dBox.
-#include "supernormal/shapes/box.hpp"
-
 #include "ode/colliders/collider.hpp"
+#include "ode/colliders/convex/shape_of.hpp"
 #include "ode/colliders/solve_pair.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/warm_start.hpp"
@@ -9,9 +8,8 @@
 namespace supernormal::ode {
 
 ContactManifold query_box(dGeomID ours, dGeomID collider, Goal goal) {
-  dVector3 lengths;
-  dGeomBoxGetLengths(collider, lengths);
-  const Box box(0.5 * to_vector(lengths));
+  const Box box = box_of(collider);
+  const Vector3 lengths = 2 * box.half_lengths();
   const ColliderShape shape{collider, box, pose_of(collider), collider_kind(dBoxClass, {lengths[0], lengths[1], lengths[2]})};
   ContactManifold manifold = solve_pair(ours, shape, goal);
   if (manifold.reach > 0) return manifold;  // contacts ahead are on the body that moves

@@ -1,7 +1,6 @@
 // Our bodies and dCapsule.
-#include "supernormal/shapes/capsule.hpp"
-
 #include "ode/colliders/collider.hpp"
+#include "ode/colliders/convex/shape_of.hpp"
 #include "ode/colliders/solve_pair.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/runtime/warm_start.hpp"
@@ -9,11 +8,9 @@
 namespace supernormal::ode {
 
 ContactManifold query_capsule(dGeomID ours, dGeomID collider, Goal goal) {
-  dReal radius = 0;
-  dReal length = 0;
-  dGeomCapsuleGetParams(collider, &radius, &length);
-  const Capsule capsule(radius, 0.5 * double{length});
-  const ColliderShape shape{collider, capsule, pose_of(collider), collider_kind(dCapsuleClass, {radius, length})};
+  const Capsule capsule = capsule_of(collider);
+  const ColliderShape shape{collider, capsule, pose_of(collider),
+                            collider_kind(dCapsuleClass, {capsule.radius(), 2 * capsule.half_length()})};
   return solve_pair(ours, shape, goal);
 }
 
