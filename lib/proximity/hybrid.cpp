@@ -64,8 +64,9 @@ void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& o
     out = answer(gap, settings, best, std::max(out.error - gap.rounding(), 0.0), out.status);  // which adds the rounding
     out.global_error = std::min(out.global_error, upper - out.gap);
   }
-  // The ascent has stalled where the cuts of body 1 coincide but for rounding. Its vertices do not.
-  if (out.status == Status::Stalled) {
+  // The ascent has stalled where the cuts of body 1 coincide but for rounding. Its vertices do not. But they tell of what is near
+  // the normal only: where the bounds decide, their error stands.
+  if (out.status == Status::Stalled && !out.is_global) {
     const double estimate = kTuning.gain_safety * meeting.remaining_gain(best);
     if (estimate <= tolerance) {
       const Proximity ascended = out;

@@ -333,3 +333,20 @@ TEST_CASE(
   check_proved(answer);
   CHECK(2.7688962234151404e-13 <= answer.gap + answer.error);  // that of a normal between the cap's and the mantle's
 }
+
+// The vertices that are near the normal tell of nothing more to gain; there is, a quarter of a radian away.
+TEST_CASE("a box beside an edge of another one a million times as large, apart by next to nothing: what is claimed holds") {
+  const Box large(Vector3(0x1.4283cd0da587cp-13, 0x1.b15e815497b9fp-10, 0x1.c496c7d07f13bp-13));
+  const Rounded small(std::make_shared<Box>(Vector3(0x1.e9191175c41d6p-31, 0x1.37aaccef9e8e2p-29, 0x1.0bc78d47a46ebp-33)),
+                      0x1.6d324f1074326p-49);
+  const Pose pose1{Vector3(-0x1.b6404e4667d57p-12, -0x1.f57eee091f7f6p-14, 0x1.488d820e4ff09p-21), Matrix3::Identity()};
+  Pose pose2{Vector3(-0x1.14fea4e2b7427p-12, -0x1.d0b6972a84749p-10, 0x1.c5df660f1b4ep-13), Matrix3::Identity()};
+  pose2.rotation << -1, -0x1.ea620b47291a6p-31, 0x1.66563bddc833cp-30, 0x1.ea620b47291a6p-31, -1, 0x1.2d7f90bde592dp-28,
+      0x1.66563bddc833cp-30, 0x1.2d7f90bde592dp-28, 1;
+  const Proximity answer = find_proximity(large, pose1, small, pose2);
+  GapFunction gap(large, pose1, small, pose2);
+  GapJet jet;
+  gap.evaluate(Vector3(2.93676e-11, -0.400022, 0.916505).normalized(), Order::Value, jet);
+  CHECK(jet.s > gap.rounding());
+  CHECK(jet.s - gap.rounding() <= answer.gap + answer.global_error);
+}
