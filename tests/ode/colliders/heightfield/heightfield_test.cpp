@@ -222,7 +222,7 @@ TEST_CASE("any body on rough ground: the contacts with all triangles") {
     for (std::size_t i = 0; i < expected.size(); ++i, ++count) {
       const Proximity& proximity = expected[i].proximity;
       CHECK(std::abs(contacts[i].depth + proximity.gap) < within_rounding(1e-9, 4));
-      CHECK((to_vector(contacts[i].normal) + proximity.normal).norm() < 1e-6);
+      CHECK((to_vector(contacts[i].normal) + proximity.normal).norm() < within_rounding(1e-6));
     }
     // The gap is the same from both functions.
     if (!contacts.empty()) CHECK(double{proximity_of(body, heightfield).gap} == -double{contacts[0].depth});
