@@ -7,6 +7,7 @@
 #include "proximity/local/local_model.hpp"
 #include "proximity/local/piecewise_model.hpp"
 #include "proximity/local/regular_hessian.hpp"
+#include "proximity/nearest_in_overlap.hpp"
 
 namespace supernormal {
 namespace {
@@ -84,7 +85,7 @@ bool is_near_both(const GapFunction& gap, const GapJet& jet, const Vector3& cont
 /// Witness pairs of normals beside that of a contact, as they lie in its tangent plane.
 class Patch {
  public:
-  explicit Patch(const GapJet& jet) : plane_(TangentPlane::at(jet.n)) { add({jet.jet1.r, jet.d}); }
+  explicit Patch(const GapJet& jet) : plane_(TangentPlane::at(jet.n)) { add({jet.n, jet.jet1.r, jet.d}); }
 
   bool is_full() const { return count_ == kCapacity; }
 
@@ -96,11 +97,14 @@ class Patch {
   /// The mean of the pairs whose two points are nearest to each other; with this curvature, `u` is the way between these, m.
   PiecewiseModel::Peak nearest() const { return PiecewiseModel{{pieces_.data(), count_}, {1, 0, 1}}.maximize(); }
 
-  Vector3 middle(const PiecewiseModel::Peak& mean) const {
-    Vector3 middle = Vector3::Zero();
+  Place middle(const GapFunction& gap, const PiecewiseModel::Peak& mean) const {
+    const double radius1 = gap.shape1().rolling_radius(), radius2 = gap.shape2().rolling_radius();
+    Place middle{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
     for (std::size_t k = 0; k < mean.count; ++k) {
-      const WitnessPair& pair = pairs_[mean.active[k]];
-      middle += mean.weight[k] * (pair.point1 + 0.5 * pair.d);
+      const auto& [n, point1, d] = pairs_[mean.active[k]];
+      middle.point += mean.weight[k] * (point1 + 0.5 * d);
+      middle.centre1 += mean.weight[k] * (point1 - radius1 * n);
+      middle.centre2 += mean.weight[k] * (point1 + d + radius2 * n);
     }
     return middle;
   }
@@ -120,8 +124,8 @@ class Patch {
 /// its own: one that is tilted towards where body 2 is looks for the farthest points of body 1 that way, and of body 2 the other
 /// way. So this is GJK in the tangent plane. The mean of points before the tilt and behind it is below the tangent plane by no more
 /// than the tilt times the way to where they meet: `below`.
-Vector3 common_point(GapFunction& gap, const GapJet& jet, double tolerance, double near, int max_evaluations,
-                     std::span<const WitnessPair> beside) {
+Place common_point(GapFunction& gap, const GapJet& jet, double tolerance, double near, int max_evaluations,
+                   std::span<const WitnessPair> beside) {
   Patch patch(jet);
   for (const WitnessPair& pair : beside) patch.add(pair);
   PiecewiseModel::Peak mean = patch.nearest();
@@ -138,13 +142,13 @@ Vector3 common_point(GapFunction& gap, const GapJet& jet, double tolerance, doub
     const bool is_progress = reached<apart - near, can_tilt_more = reached> near && below < deepest;
     if (!is_progress && !can_tilt_more) break;
     if (is_progress) {
-      patch.add({trial.jet1.r, trial.d});
+      patch.add({trial.n, trial.jet1.r, trial.d});
       mean = patch.nearest();
     }
     // Faces that do not reach one another at this tilt may do so at a larger one.
     if (can_tilt_more) below = std::min(kGrowth * below, deepest);
   }
-  return patch.middle(mean);
+  return patch.middle(gap, mean);
 }
 
 }  // namespace
@@ -168,12 +172,15 @@ Vector3 contact_between(const GapFunction& gap, const GapJet& jet) {
 Vector3 contact_point(GapFunction& gap, const GapJet& jet, double tolerance, int max_evaluations,
                       std::span<const WitnessPair> beside) {
   const double near = std::max(kNear * gap.length_unit(), tolerance);
-  Vector3 contact = contact_between(gap, jet);
+  Place place{contact_between(gap, jet), jet.jet1.r - gap.shape1().rolling_radius() * jet.n,
+              jet.jet1.r + jet.d + gap.shape2().rolling_radius() * jet.n};
   // A sharp body's own point is as near as can be where the other one is round.
-  if (!is_near_both(gap, jet, contact, near)) contact = contact_of_balls(gap, jet);
-  if (!is_near_both(gap, jet, contact, near)) contact = common_point(gap, jet, tolerance, near, max_evaluations, beside);
+  if (!is_near_both(gap, jet, place.point, near)) place.point = contact_of_balls(gap, jet);
+  if (!is_near_both(gap, jet, place.point, near)) place = common_point(gap, jet, tolerance, near, max_evaluations, beside);
   // Halfway between the tangent planes: points of tilted normals, and vertices beside an edge, are below these.
-  return contact + (jet.jet1.h + 0.5 * jet.s - jet.n.dot(contact)) * jet.n;
+  place.point += (jet.jet1.h + 0.5 * jet.s - jet.n.dot(place.point)) * jet.n;
+  if (!(jet.s < 0) || is_in_overlap(gap, place, near) || move_into_ball(gap, place, near)) return place.point;
+  return nearest_in_overlap(gap, jet, place.point, near, max_evaluations);
 }
 
 }  // namespace supernormal

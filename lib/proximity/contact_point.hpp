@@ -7,13 +7,14 @@
 
 namespace supernormal {
 
-/// The boundary points of two bodies that one normal has: of body 1, and from there to body 2, m, in body 1's frame.
+/// A normal and the boundary points of two bodies that it has: of body 1, and from there to body 2, m, in body 1's frame.
 struct WitnessPair {
-  Vector3 point1, d;
+  Vector3 n, point1, d;
 };
 
 /// The point halfway between the two tangent planes at which the contact acts, in body 1's frame: where the bodies would meet if
-/// the gap were closed along the normal. Symmetric under swapping the bodies.
+/// the gap were closed along the normal. Where that is beside a body in a deep overlap, the nearest point of both
+/// (nearest_in_overlap.hpp). Symmetric under swapping the bodies.
 ///
 /// Where the bodies are round, the witness points are near to each other and a formula has the point between them: to first order
 /// the place where they meet when the normal turns (`contact_between`). On a flat face the boundary point of a normal is known to

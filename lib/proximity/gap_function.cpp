@@ -10,7 +10,8 @@
 namespace supernormal {
 namespace {
 
-// Rounding of s in units of the last place of its terms: each support function is good to a few, and their sum adds a few.
+// Rounding of s in units of the last place of its terms: each support function is good to a few, and their sum adds a few. Body 2
+// is turned with the rounding of the rotation and of the normal, by which its boundary point moves as it is far from its origin.
 constexpr double kRoundingUnits = 8;
 
 double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_extents2) {
@@ -33,7 +34,8 @@ GapFunction::GapFunction(const Shape& shape1, const Pose& pose1, const Shape& sh
   const Vector3 half1 = shape1.half_extents();
   const Vector3 half2 = shape2.half_extents();
   length_unit_ = smallest_half_extent(half1, half2);
-  rounding_ = kRoundingUnits * std::numeric_limits<double>::epsilon() * (offset_.norm() + half1.maxCoeff() + half2.maxCoeff());
+  rounding_ = kRoundingUnits * std::numeric_limits<double>::epsilon() *
+              (offset_.norm() + shape1.bounding_radius() + shape2.bounding_radius());
 }
 
 void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {

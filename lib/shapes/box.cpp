@@ -27,6 +27,8 @@ void Box::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/, A
   }
 }
 
+bool Box::surely_contains(const Vector3& point) const { return (point.array().abs() <= half_lengths_.array()).all(); }
+
 double Box::min_curvature_radius_estimate() const { return 0; }
 
 MassProperties Box::mass_properties() const {

@@ -165,6 +165,7 @@ CallbackShape::CallbackShape(Support support, Point point, Hessian hessian)
   }
   check_convex(trials, check_points(trials));
   half_extents_ = Shape::half_extents();
+  bounding_radius_ = Shape::bounding_radius();
   min_curvature_radius_ = estimate_min_curvature_radius(point_);
   if (!hessian_) return;
   for (const Trial& trial : trials) check_hessian(hessian_(trial.n), trial.n);

@@ -1,5 +1,6 @@
 #include "supernormal/shapes/capsule.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +26,11 @@ void Capsule::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, A
   const Vector3 end(0, 0, half_length_);
   corners.add(radius_ * n - end);
   corners.add(radius_ * n + end);
+}
+
+bool Capsule::surely_contains(const Vector3& point) const {
+  const double beyond = std::max(std::abs(point.z()) - half_length_, 0.0);
+  return point.head<2>().squaredNorm() + beyond * beyond <= radius_ * radius_;
 }
 
 double Capsule::min_curvature_radius_estimate() const { return radius_; }

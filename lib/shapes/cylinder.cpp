@@ -60,6 +60,10 @@ bool Cylinder::crosses_curved_face(const Vector3& from, const Vector3& to, Vecto
   return true;
 }
 
+bool Cylinder::surely_contains(const Vector3& point) const {
+  return std::abs(point.z()) <= half_length_ && point.head<2>().squaredNorm() <= radius_ * radius_;
+}
+
 double Cylinder::min_curvature_radius_estimate() const { return 0; }
 
 MassProperties Cylinder::mass_properties() const {

@@ -12,6 +12,8 @@ double Ellipsoid::rolling_radius() const {
   return smallest * (smallest / half_axes_.maxCoeff());
 }
 
+bool Ellipsoid::surely_contains(const Vector3& point) const { return point.cwiseQuotient(half_axes_).squaredNorm() <= 1; }
+
 void Ellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.h = half_axes_.cwiseProduct(n).norm();
   if (order == Order::Value) return;

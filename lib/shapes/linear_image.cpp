@@ -24,6 +24,7 @@ LinearImage::LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matr
   smallest_ = require_in("smallest singular value of matrix", svd.singularValues()[2], largest_ / kLargestRatio, largest_);
   inverse_ = matrix.inverse();
   half_extents_ = Shape::half_extents();
+  bounding_radius_ = Shape::bounding_radius();
 }
 
 void LinearImage::evaluate(const Vector3& n, Order order, Jet& jet) const {

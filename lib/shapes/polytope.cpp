@@ -18,6 +18,7 @@ Polytope::Polytope(std::span<const Vector3> points) : points_(points) {
     high = high.cwiseMax(point);
   }
   half_extents_ = 0.5 * (high - low);
+  bounding_radius_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm();
 }
 
 void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {

@@ -43,6 +43,8 @@ bool Rounded::crosses_curved_face(const Vector3& from, const Vector3& to, Vector
   return core_->crosses_curved_face(from, to, face);
 }
 
+bool Rounded::surely_contains(const Vector3& point) const { return core_->surely_contains(point); }
+
 Vector3 Rounded::half_extents() const { return core_->half_extents() + Vector3::Constant(radius_); }
 
 double Rounded::min_curvature_radius_estimate() const { return core_->min_curvature_radius_estimate() + radius_; }

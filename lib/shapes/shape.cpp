@@ -1,5 +1,8 @@
 #include "supernormal/shapes/shape.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace supernormal {
 
 Vector3 Shape::advance_normal(const Vector3& n, const Jet& /*jet*/, const Vector3& dn) const { return n + dn; }
@@ -8,6 +11,8 @@ void Shape::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/,
 
 bool Shape::crosses_curved_face(const Vector3& /*from*/, const Vector3& /*to*/, Vector3& /*face*/) const { return false; }
 
+bool Shape::surely_contains(const Vector3& /*point*/) const { return false; }
+
 Vector3 Shape::half_extents() const {
   Vector3 half;
   for (int axis = 0; axis < 3; ++axis) {
@@ -15,6 +20,16 @@ Vector3 Shape::half_extents() const {
     half[axis] = 0.5 * (support(e) + support(-e));
   }
   return half;
+}
+
+double Shape::bounding_radius() const {
+  if (is_symmetric()) return half_extents().norm();
+  Vector3 farthest;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 e = Vector3::Unit(axis);
+    farthest[axis] = std::max(std::abs(support(e)), std::abs(support(-e)));
+  }
+  return farthest.norm();
 }
 
 double Shape::min_curvature_radius_estimate() const {

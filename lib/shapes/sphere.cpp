@@ -14,6 +14,8 @@ void Sphere::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H = radius_ * (Matrix3::Identity() - n * n.transpose());
 }
 
+bool Sphere::surely_contains(const Vector3& point) const { return point.squaredNorm() <= radius_ * radius_; }
+
 double Sphere::min_curvature_radius_estimate() const { return radius_; }
 
 }  // namespace supernormal

@@ -49,6 +49,15 @@ double rolling_radius_of(const Vector3& half_axes, double delta, double epsilon)
   return smallest * (smallest / half_axes.maxCoeff()) * unit_rolling_radius(delta, epsilon);
 }
 
+/// The distance of the farthest point of a superellipse from its centre. By Hoelder's inequality the squares of the coordinates, in
+/// units of those of the half-axes, sum up to no more than the norm of these with the exponent e/(e - 2).
+double largest_radius(double a, double b, double exponent) {
+  const double larger = std::max(a, b), ratio = std::min(a, b) / larger;
+  if (exponent <= 2) return larger;
+  const double power = 2 * exponent / (exponent - 2);
+  return larger * std::pow(1 + std::pow(ratio, power), 1 / power);
+}
+
 }  // namespace
 
 Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double epsilon)
@@ -59,7 +68,8 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
       outer_support_(PowerNorm::dual_to_exponent(epsilon)),
       inner_gauge_(PowerNorm::of_exponent(delta)),
       outer_gauge_(PowerNorm::of_exponent(epsilon)),
-      rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)) {}
+      rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)),
+      bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)) {}
 
 // With equal exponents the two norms are a single one of three numbers. This is not used for a sharp body, whose high powers p
 // amplify the rounding of the ratios.
@@ -209,6 +219,11 @@ Vector3 Superellipsoid::along_gauge_gradient(const Vector3& gauge_point, const V
     gradient[axis] = std::copysign(inner_gauge_.slope(ratio), signs[axis]);
   }
   return gradient.cwiseQuotient(half_axes_);
+}
+
+bool Superellipsoid::surely_contains(const Vector3& point) const {
+  const Vector3 gauge_point = point.cwiseQuotient(half_axes_).cwiseAbs();
+  return outer_gauge_.value(inner_gauge_.value(gauge_point.x(), gauge_point.y()), gauge_point.z()) <= 1;
 }
 
 double Superellipsoid::min_curvature_radius_estimate() const {

@@ -207,6 +207,14 @@ void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   H.array() *= (axes * axes.transpose()).array();
 }
 
+bool Superovoid::surely_contains(const Vector3& point) const {
+  const Vector3 gauge_point = point.cwiseQuotient(half_axes_).cwiseAbs();
+  if (!(gauge_point.z() <= 1)) return false;  // the section is positive between the ends
+  const double s = point.z() / half_axes_.z();
+  const double width = inner_gauge_.value(gauge_point.x() / (1 + taper_x_ * s), gauge_point.y() / (1 + taper_y_ * s));
+  return outer_gauge_.value(width, gauge_point.z()) <= 1;
+}
+
 Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
   // Each of the two norms moves separately, as in the Superellipsoid: a flat one (exponent above 2) through the boundary point, a
   // sharp one through the normal, unless the point demands a longer step.

@@ -133,7 +133,7 @@ const std::vector<Kind>& kinds() {
 constexpr std::array<double, 5> kRatios = {1, 3, 30, 300, 5000};
 
 /// Gaps that the bodies are placed at, in units of the smallest half-extent.
-constexpr std::array<double, 6> kGaps = {1e-3, 0, -1e-6, -1e-3, -2e-2, -0.2};
+constexpr std::array<double, 9> kGaps = {1e-3, 0, -1e-6, -1e-3, -2e-2, -0.2, -0.5, -1, -1.8};
 
 /// How the smaller body lies on the larger one.
 enum class Way {
@@ -180,7 +180,41 @@ class Placing {
     return pair;
   }
 
+  /// Bodies of every class with half-extents from 0.1 to 1, placed so that they overlap, from a touch to concentric.
+  PlacedPair draw_slender() {
+    PlacedPair pair{slender(), slender(), {}, 0};
+    pair.unit = std::min(pair.large->half_extents().minCoeff(), pair.small->half_extents().minCoeff());
+    const Vector3 up = direction();
+    pair.pose.rotation = Eigen::Quaterniond::FromTwoVectors(direction(), up).toRotationMatrix();
+    const Vector3 touching = pair.large->point(up) - pair.pose.rotation * pair.small->point(-(pair.pose.rotation.transpose() * up));
+    pair.pose.position = (1 - std::pow(10, uniform(-4, 0))) * touching;
+    return pair;
+  }
+
  private:
+  std::shared_ptr<const Shape> slender() {
+    const Vector3 half{std::pow(10, uniform(-1, 0)), std::pow(10, uniform(-1, 0)), std::pow(10, uniform(-1, 0))};
+    const double delta = 1.02 + std::pow(10, uniform(-2, 2)), epsilon = 1.02 + std::pow(10, uniform(-2, 2));
+    switch (static_cast<int>(uniform(0, 8))) {
+      case 0:
+        return std::make_shared<Ellipsoid>(half);
+      case 1:
+        return std::make_shared<Box>(half);
+      case 2:
+        return std::make_shared<Capsule>(half.x(), half.y());
+      case 3:
+        return std::make_shared<Cylinder>(half.x(), half.y());
+      case 4:
+        return std::make_shared<Superovoid>(half, delta, 3, 0.5, 0.5);
+      case 5:
+        return std::make_shared<Rounded>(superellipsoid(half, delta, epsilon), 0.3 * half.x());
+      case 6:
+        return user_without_hessian(superellipsoid(half, delta, epsilon));
+      default:
+        return superellipsoid(half, delta, epsilon);
+    }
+  }
+
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   // Braces: evaluated in this order.
   Vector3 direction() { return Vector3{gauss_(engine_), gauss_(engine_), gauss_(engine_)}.normalized(); }
@@ -198,11 +232,10 @@ double outside(const Shape& shape, const Pose& pose, const Vector3& point) {
   return find_proximity(shape, pose, Sphere(0), {point, Matrix3::Identity()}).gap;
 }
 
-/// How far a point is outside of either body beyond the overlap, or beyond halfway in the gap, in units of the smallest
-/// half-extent.
+/// How far a point is outside of either body, or beyond halfway in the gap, in units of the smallest half-extent.
 double excess(const PlacedPair& pair, const Proximity& proximity, const Vector3& point) {
   const double most_outside = std::max(outside(*pair.large, {}, point), outside(*pair.small, pair.pose, point));
-  return (most_outside - std::max(-proximity.gap, 0.5 * proximity.gap)) / pair.unit;
+  return (most_outside - std::max(0.0, 0.5 * proximity.gap)) / pair.unit;
 }
 
 /// The largest excess of the contacts that a program with so much room gets.
@@ -239,17 +272,22 @@ void for_all_pairs(unsigned seed, const Check& check) {
   }
 }
 
+// Of the smallest half-extent: below, hardly an answer does not converge.
+constexpr double kShallow = 0.2;
+
 // Of the smallest half-extent.
 constexpr double kTolerance = 1e-6;
 
 }  // namespace
 
 TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of both bodies") {
-  int queries = 0, unconverged = 0;
+  int queries = 0, shallow = 0, unconverged = 0;
   for_all_pairs(3, [&](const PlacedPair& pair, const Proximity& out, const auto& name) {
     ++queries;
+    const bool is_shallow = out.gap >= -kShallow * pair.unit;
+    if (is_shallow) ++shallow;
     if (out.status != Status::Converged) {
-      ++unconverged;
+      if (is_shallow) ++unconverged;
       return;
     }
     const double beside = excess(pair, out, out.contact);
@@ -259,8 +297,23 @@ TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of b
       if (!(of_manifold <= kTolerance)) FAIL_CHECK(name(), ", room ", room, ": ", of_manifold, " outside");
     }
   });
-  CHECK(queries == 24 * 24 * 5 * 6 * 4);
-  CHECK(unconverged <= queries / 150);
+  CHECK(queries == 24 * 24 * 5 * 9 * 4);
+  CHECK(shallow >= queries / 2);
+  CHECK(unconverged <= shallow / 150);
+}
+
+TEST_CASE("slender bodies in any attitude, at any depth: a contact acts within the overlap of both bodies") {
+  Placing placing(36);
+  int deep = 0;
+  for (int k = 0; k < 6000; ++k) {
+    const PlacedPair pair = placing.draw_slender();
+    const Proximity out = pair.query();
+    if (out.status != Status::Converged) continue;
+    if (out.gap < -0.1 * pair.unit) ++deep;
+    const double beside = excess(pair, out, out.contact);
+    if (!(beside <= kTolerance)) FAIL_CHECK("pair ", k, ", gap ", out.gap / pair.unit, ": ", beside, " outside");
+  }
+  CHECK(deep > 2500);
 }
 
 TEST_CASE("the place of a contact takes no evaluation where bodies are round") {

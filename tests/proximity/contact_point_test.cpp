@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "proximity/reference_pairs.hpp"
@@ -43,13 +44,18 @@ TEST_CASE("the contact does not depend on the order of the bodies") {
   }
 }
 
-TEST_CASE("the contact lies halfway between the two supporting planes") {
+TEST_CASE("the contact lies halfway between the two supporting planes, or between them where that is beside a body") {
+  int moved = 0;
   for (const ReferencePair& pair : reference_pairs()) {
     const Proximity out = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2);
     const double above1 = out.normal.dot(out.contact - out.point1);
     const double size = pair.surface1.half_axes().maxCoeff() + pair.surface2.half_axes().maxCoeff();
-    if (!(std::abs(above1 - 0.5 * out.gap) <= 1e-14 * size)) FAIL_CHECK(pair.name, " height ", above1, " of ", out.gap);
+    if (std::abs(above1 - 0.5 * out.gap) <= 1e-14 * size) continue;
+    ++moved;
+    const double depth = std::max(-out.gap, 0.0);
+    if (!(above1 <= 1e-7 * size && above1 >= -depth - 1e-7 * size)) FAIL_CHECK(pair.name, " height ", above1, " of ", out.gap);
   }
+  CHECK(moved <= 10);  // of 1600, octahedral ones
 }
 
 TEST_CASE("the contact lies halfway beside the edge of a nearly polyhedral body, which the least turn of the normal leaves") {

@@ -3,11 +3,17 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <random>
 
 #include "reference_pairs.hpp"
 #include "shapes/shape_samples.hpp"
+#include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
+#include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
 
 using namespace supernormal;
@@ -95,6 +101,41 @@ TEST_CASE("the stated rounding of s is one") {
     };
     const long double exact = n.cast<long double>().dot(offset.cast<long double>()) - support(half1) - support(half2);
     CHECK(std::abs(static_cast<double>(jet.s - exact)) <= gap.rounding());
+  }
+}
+
+// The turn of body 2 is known to its last digit, times the distance of the body from the origin of its frame.
+TEST_CASE("the stated rounding of s counts how far bodies are from the origins of their frames, and so does what is claimed") {
+  using Real = long double;
+  using Real3 = Eigen::Matrix<Real, 3, 1>;
+  std::mt19937_64 engine(44);
+  std::normal_distribution<double> gauss;
+  const auto draw = [&] { return Vector3{gauss(engine), gauss(engine), gauss(engine)}; };
+  for (int k = 0; k < 1000; ++k) {
+    const Vector3 centre1 = 1e6 * draw(), centre2 = centre1 + 4 * draw().normalized();
+    std::array<Vector3, 8> points1, points2;
+    for (Vector3& point : points1) point = centre1 + 0.3 * draw();
+    for (Vector3& point : points2) point = centre2 + 0.3 * draw();
+    const Polytope shape1(points1), shape2(points2);
+    const Vector3 w = draw(), v = draw();
+    const Pose pose{Vector3::Zero(), Eigen::AngleAxisd(w.x(), v.normalized()).toRotationMatrix()};
+    GapFunction gap(shape1, pose, shape2, pose);
+    const Proximity out = find_proximity(shape1, pose, shape2, pose);
+    GapJet jet;
+    gap.evaluate((pose.rotation.transpose() * out.normal).normalized(), Order::Value, jet);
+    const Real3 n = jet.n.cast<Real>().normalized();
+    const Eigen::Matrix<Real, 3, 3> R = pose.rotation.cast<Real>();
+    const Real3 m = -(R.transpose() * (R * n));
+    const auto support = [](const auto& points, const Real3& normal) {
+      Real highest = -std::numeric_limits<Real>::infinity();
+      for (const Vector3& point : points) highest = std::max(highest, normal.dot(point.cast<Real>()));
+      return highest;
+    };
+    const Real exact = -support(points1, n) - support(points2, m);
+    CHECK(std::abs(static_cast<double>(jet.s - exact)) <= gap.rounding());
+    // The largest value of s is no less than that at this normal.
+    CHECK(static_cast<double>(exact) <= out.gap + out.global_error);
+    CHECK(gap.rounding() <= 1e-7);
   }
 }
 

@@ -42,9 +42,9 @@ struct Proximity {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, from body 1 to body 2
   Eigen::Vector3d point1 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 1
   Eigen::Vector3d point2 = Eigen::Vector3d::Zero();   ///< m; on the boundary of body 2
-  /// m; where a contact force acts: halfway between the tangent planes, within the overlap of both bodies, or in the gap between
-  /// them, to 1e-6 of the smallest half-extent (where the tolerance is no larger and the query has converged). It need not be
-  /// between the two points above, which on a flat face may be any.
+  /// m; where a contact force acts: halfway between the tangent planes or, where that is beside a body, at the nearest point of the
+  /// overlap. It is in both bodies, or in the gap between them, to 1e-6 of the smallest half-extent (where the tolerance is no
+  /// larger and the query has converged). It need not be between the two points above, which on a flat face may be any.
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   int evaluations = 0;                   ///< of the gap function, those for the contact included
   Status status = Status::InvalidInput;  ///< how the query ended

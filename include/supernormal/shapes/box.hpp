@@ -16,6 +16,7 @@ class SUPERNORMAL_API Box final : public Shape {
   bool has_kinks() const override { return true; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool is_symmetric() const override { return true; }
+  bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return half_lengths_; }
   double min_curvature_radius_estimate() const override;
   MassProperties mass_properties() const override;

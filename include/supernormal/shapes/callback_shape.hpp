@@ -26,6 +26,7 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_hessian() const override { return static_cast<bool>(hessian_); }
   Vector3 half_extents() const override { return half_extents_; }
+  double bounding_radius() const override { return bounding_radius_; }
 
   /// An estimate from boundary points. Solvers need it to know how sharp the body is; an edge away from the nine great circles
   /// that are sampled, and shorter than the distance between two of them, may be missed.
@@ -35,7 +36,8 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
   Support support_;
   Point point_;
   Hessian hessian_;
-  Vector3 half_extents_;  // computed once, like the next
+  Vector3 half_extents_;  // computed once, like the next two
+  double bounding_radius_;
   double min_curvature_radius_;
 };
 

@@ -17,7 +17,9 @@ class SUPERNORMAL_API Capsule final : public Shape {
   bool has_kinks() const override { return half_length_ > 0; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool is_symmetric() const override { return true; }
+  bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }
+  double bounding_radius() const override { return half_extents().maxCoeff(); }
   double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;

@@ -18,6 +18,7 @@ class SUPERNORMAL_API Cylinder final : public Shape {
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_symmetric() const override { return true; }
+  bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_}; }
   double min_curvature_radius_estimate() const override;
   MassProperties mass_properties() const override;

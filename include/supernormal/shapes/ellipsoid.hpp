@@ -15,7 +15,9 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   bool has_hessian() const override { return true; }
   bool is_round() const override { return true; }
   bool is_symmetric() const override { return true; }
+  bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return half_axes_; }
+  double bounding_radius() const override { return half_extents().maxCoeff(); }
 
   /// The smallest radius of curvature: c^2/a with c the smallest half-axis and a the largest.
   double rolling_radius() const override;

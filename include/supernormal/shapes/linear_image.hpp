@@ -24,6 +24,7 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_symmetric() const override { return shape_->is_symmetric(); }
   Vector3 half_extents() const override { return half_extents_; }
+  double bounding_radius() const override { return bounding_radius_; }
   double min_curvature_radius_estimate() const override;
 
   /// The image of a ball is an ellipsoid, and a ball rolls inside that.
@@ -40,6 +41,7 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   Matrix3 matrix_, inverse_;
   double largest_, smallest_;  // the largest and smallest singular value
   Vector3 half_extents_;
+  double bounding_radius_;  // m
 };
 
 }  // namespace supernormal

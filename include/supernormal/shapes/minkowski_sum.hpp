@@ -26,6 +26,7 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
   bool is_symmetric() const override { return first_->is_symmetric() && second_->is_symmetric(); }
   Vector3 half_extents() const override { return first_->half_extents() + second_->half_extents(); }
   double min_curvature_radius_estimate() const override;
+  double bounding_radius() const override { return first_->bounding_radius() + second_->bounding_radius(); }
   double rolling_radius() const override { return first_->rolling_radius() + second_->rolling_radius(); }
 
   const Shape& first() const { return *first_; }    ///< one of the two shapes

@@ -20,6 +20,7 @@ class SUPERNORMAL_API Polytope final : public Shape {
   bool has_kinks() const override { return points_.size() > 1; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
   Vector3 half_extents() const override { return half_extents_; }
+  double bounding_radius() const override { return bounding_radius_; }
   double min_curvature_radius_estimate() const override;
 
   /// Exact, except for points that lie less than about a millionth of the size outside the hull of the others: their volume may
@@ -31,6 +32,7 @@ class SUPERNORMAL_API Polytope final : public Shape {
  private:
   std::span<const Vector3> points_;
   Vector3 half_extents_;
+  double bounding_radius_;  // m
 };
 
 }  // namespace supernormal

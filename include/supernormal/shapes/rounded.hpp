@@ -22,8 +22,10 @@ class SUPERNORMAL_API Rounded final : public Shape {
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_round() const override { return core_->is_round(); }
   bool is_symmetric() const override { return core_->is_symmetric(); }
+  bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override;
   double min_curvature_radius_estimate() const override;
+  double bounding_radius() const override { return core_->bounding_radius() + radius_; }
   double rolling_radius() const override { return core_->rolling_radius() + radius_; }
 
   /// Accurate to 1e-11 for spheres, capsules, ellipsoids, superellipsoids and superovoids, swept once or repeatedly. Other shapes

@@ -119,8 +119,16 @@ class SUPERNORMAL_API Shape {
   /// known.
   virtual bool is_symmetric() const { return false; }
 
+  /// Whether the body surely contains the point (body's frame, m), to rounding: so say bodies whose equation is at hand. False
+  /// where that is not known without a search.
+  virtual bool surely_contains(const Vector3& point) const;
+
   /// Half of the extent along the three axes of the body's frame, m.
   virtual Vector3 half_extents() const;
+
+  /// m; no point of the body is farther from the origin of its frame, which may be outside of the body. By this the rounding error
+  /// of a query is judged. Unless overridden, it is the distance of a corner of the bounding box.
+  virtual double bounding_radius() const;
 
   /// m; an estimate of the smallest radius of curvature, 0 for a body with an edge or a corner. It tells solvers where to look;
   /// rolling_radius() is proved. For vertices where the radius vanishes at one normal only, it may be that of the vertex'

@@ -15,7 +15,9 @@ class SUPERNORMAL_API Sphere final : public Shape {
   bool has_hessian() const override { return true; }
   bool is_round() const override { return true; }
   bool is_symmetric() const override { return true; }
+  bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return Vector3::Constant(radius_); }
+  double bounding_radius() const override { return half_extents().maxCoeff(); }
   double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return radius_; }
   MassProperties mass_properties() const override;

@@ -49,7 +49,9 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
 
   bool is_round() const override { return std::min(delta_, epsilon_) >= 2 && std::max(delta_, epsilon_) <= kMostRound; }
   bool is_symmetric() const override { return true; }
+  bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return half_axes_; }
+  double bounding_radius() const override { return bounding_radius_; }
   double min_curvature_radius_estimate() const override;
   double rolling_radius() const override { return rolling_radius_; }
   MassProperties mass_properties() const override;
@@ -78,7 +80,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   double delta_, epsilon_;
   PowerNorm inner_support_, outer_support_;  // norms of (a nx, b ny) and of (inner, c nz): exponents p and q
   PowerNorm inner_gauge_, outer_gauge_;      // norms of (x/a, y/b) and of (inner, z/c): exponents delta and epsilon
-  double rolling_radius_;                    // m
+  double rolling_radius_, bounding_radius_;  // m
 };
 
 }  // namespace supernormal

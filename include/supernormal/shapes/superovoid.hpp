@@ -40,8 +40,11 @@ class SUPERNORMAL_API Superovoid final : public Shape {
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
 
+  bool surely_contains(const Vector3& point) const override;
+
   /// The body reaches from z = -c to c; its widest section is above or below z = 0.
   Vector3 half_extents() const override { return half_extents_; }
+  double bounding_radius() const override { return half_extents_.norm(); }
   double min_curvature_radius_estimate() const override { return min_curvature_radius_; }
 
   /// In closed form. With a taper the centroid is not the origin but on the z-axis.

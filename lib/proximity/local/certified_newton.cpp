@@ -131,7 +131,7 @@ bool CertifiedNewton::prove_by_tilts() {
     const double distance = beside.norm();
     const double tilt = tolerance_ / std::max(distance, gap_.length_unit());
     if (!(distance > 0) || !evaluate((n + tilt / distance * beside).normalized())) return false;
-    beside_[beside_count_++] = {next().jet1.r, next().d};
+    beside_[beside_count_++] = {next().n, next().jet1.r, next().d};
   }
 }
 

@@ -42,7 +42,9 @@ class RecordingShape final : public Shape {
   }
   bool is_round() const override { return shape_.is_round(); }
   bool is_symmetric() const override { return shape_.is_symmetric(); }
+  bool surely_contains(const Vector3& point) const override { return shape_.surely_contains(point); }
   Vector3 half_extents() const override { return shape_.half_extents(); }
+  double bounding_radius() const override { return shape_.bounding_radius(); }
   double min_curvature_radius_estimate() const override { return shape_.min_curvature_radius_estimate(); }
   double rolling_radius() const override { return shape_.rolling_radius(); }
   supernormal::MassProperties mass_properties() const override { return shape_.mass_properties(); }

@@ -178,6 +178,9 @@ Solid heightfield(double /*a*/) {
 // Rooms for which contacts must be within both geoms: with more there are corners, which may lie on the air beside a rounded face.
 constexpr std::array kRooms = {1};
 
+/// m; from the world's origin, whose rounding a place has with single precision.
+double distance(dGeomID geom) { return dGeomGetClass(geom) == dPlaneClass ? 0 : norm(to_vec(dGeomGetPosition(geom))); }
+
 /// Asks for the contacts of a pair in either order and checks their places.
 void check_places(const Solid& one, const Solid& other, const std::string& name) {
   const double size = std::min(one.size, other.size);
@@ -187,8 +190,10 @@ void check_places(const Solid& one, const Solid& other, const std::string& name)
       if (contacts.empty()) FAIL_CHECK(name, ": no contact");
       for (const dContactGeom& contact : contacts) {
         const Vec pos = to_vec(contact.pos);
-        const double beside = std::max(-one.depth(pos), -other.depth(pos)) - contact.depth;
-        if (!(beside <= within_rounding(1e-6) * size)) FAIL_CHECK(name, ", room ", room, ": ", beside / size, " beside a body");
+        const double beside = std::max(-one.depth(pos), -other.depth(pos));
+        const double farthest = norm(pos) + distance(one.geom) + distance(other.geom);
+        if (!(beside <= within_rounding(1e-6 * size, farthest)))
+          FAIL_CHECK(name, ", room ", room, ": ", beside / size, " beside a body");
       }
     }
   }
@@ -246,7 +251,8 @@ TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overla
       }
     }
   }
-  CHECK(unknown <= pairs / 100);
+  // A program's functions of single precision tell no gap to 1e-9.
+  if (!kIsSinglePrecision) CHECK(unknown <= pairs / 100);
 }
 
 TEST_CASE("our bodies on planes and heightfields: a contact acts within the overlap of both") {
@@ -259,7 +265,9 @@ TEST_CASE("our bodies on planes and heightfields: a contact acts within the over
         for (int sample = 0; sample < 20; ++sample) {
           const double depth = std::pow(10, random.uniform(-6, -2)) * upper.size;
           const Vec above = {random.uniform(-3, 3), random.uniform(-3, 3), 2};
-          REQUIRE(lay(upper, lower, depth, sample < 10, above, random));
+          const bool is_known = lay(upper, lower, depth, sample < 10, above, random);
+          REQUIRE((is_known || kIsSinglePrecision));
+          if (!is_known) continue;
           check_places(upper, lower, std::string(one.name) + " on " + floor.name + ", size " + std::to_string(size));
         }
       }

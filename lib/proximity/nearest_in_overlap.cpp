@@ -1,0 +1,150 @@
+#include "proximity/nearest_in_overlap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "proximity/bounds/minimum_norm_point.hpp"
+#include "supernormal/shapes/polytope.hpp"
+
+namespace supernormal {
+namespace {
+
+// Of the sine of the angle between two tangent planes, squared: below, the line where they meet is rounding.
+constexpr double kSameLine = 1e-12;
+
+// A ball that rolls inside a body is the body's thickness from this share of its smallest half-extent on.
+constexpr double kBall = 0.99;
+
+// After so many moves that end at the tangent planes, where one is enough as a rule, the next go beyond by as much again: so those
+// end that a small angle between the planes would let creep.
+constexpr int kExactMoves = 3;
+constexpr double kReflection = 2;
+constexpr int kMostMoves = 1000;  // of two bodies all of whose corners are known, a move costs no evaluation
+
+// The way to a body is known when a tangent plane has no less than all but this share of it before it: the whole way is made then.
+constexpr double kRough = 0.1;
+
+/// Points of one body, as a place sees them, in body 1's frame.
+class Body {
+ public:
+  Body(const Shape& shape, const Vector3& position, const Matrix3& rotation)
+      : shape_(&shape), position_(position), rotation_(rotation) {}
+
+  bool is_full() const { return count_ == kCapacity; }
+  void add(const Vector3& point) { points_[count_++] = point; }
+  bool has(const Vector3& point) const {
+    const auto end = points_.begin() + static_cast<std::ptrdiff_t>(count_);
+    return std::find(points_.begin(), end, point) != end;
+  }
+
+  /// Adds corners of a body with faces, which take no evaluation; n is the body's normal in its frame.
+  void add_corners(const Vector3& n, const Vector3& place) {
+    ActiveVertices corners;
+    shape_->add_active_vertices(n, in_frame(place), corners);
+    for (int k = 0; k < corners.size(); ++k) add(position_ + rotation_ * corners[k]);
+  }
+
+  /// Whether the points are the whole body: no evaluation tells of more.
+  bool is_known() const {
+    const auto* polytope = dynamic_cast<const Polytope*>(shape_);
+    return polytope != nullptr && polytope->points().size() <= ActiveVertices::kCapacity;
+  }
+
+  /// From the place to the nearest point of the hull; nothing where the body surely contains the place.
+  const MinimumNormPoint& look_from(const Vector3& place) {
+    nearest_ = {Vector3::Zero(), 0, Vector3::Zero()};
+    if (shape_->surely_contains(in_frame(place))) return nearest_;
+    std::array<Vector3, kCapacity> shifted;
+    for (std::size_t k = 0; k < count_; ++k) shifted[k] = points_[k] - place;
+    return nearest_ = minimum_norm_point({shifted.data(), count_});
+  }
+
+  const MinimumNormPoint& nearest() const { return nearest_; }
+
+ private:
+  static constexpr std::size_t kCapacity = 256;
+
+  Vector3 in_frame(const Vector3& place) const { return rotation_.transpose() * (place - position_); }
+
+  const Shape* shape_;
+  Vector3 position_;
+  Matrix3 rotation_;
+  std::array<Vector3, kCapacity> points_;
+  std::size_t count_ = 0;
+  MinimumNormPoint nearest_{};
+};
+
+/// From a place to the nearest point behind the tangent planes of both bodies at the points that are nearest to the place.
+Vector3 way_to_both(const MinimumNormPoint& way1, const MinimumNormPoint& way2) {
+  const double cosine = way1.normal.dot(way2.normal), squared_sine = 1 - cosine * cosine;
+  const double more1 = way1.norm - cosine * way2.norm, more2 = way2.norm - cosine * way1.norm;
+  if (more2 <= 0) return way1.point;
+  if (more1 <= 0) return way2.point;
+  if (squared_sine < kSameLine) return way1.norm > way2.norm ? way1.point : way2.point;
+  return (more1 * way1.normal + more2 * way2.normal) / squared_sine;
+}
+
+}  // namespace
+
+bool is_in_overlap(const GapFunction& gap, const Place& place, double near) {
+  const auto is_inside = [&](const Shape& shape, const Vector3& centre, auto&& in_its_frame) {
+    return (place.point - centre).norm() <= shape.rolling_radius() + near || shape.surely_contains(in_its_frame());
+  };
+  return is_inside(gap.shape1(), place.centre1, [&] { return place.point; }) &&
+         is_inside(gap.shape2(), place.centre2,
+                   [&]() -> Vector3 { return gap.rotation().transpose() * (place.point - gap.offset()); });
+}
+
+bool move_into_ball(const GapFunction& gap, Place& place, double near) {
+  const auto nearest = [&](const Shape& shape, const Vector3& centre) {
+    Place moved = place;
+    const double radius = shape.rolling_radius(), distance = (place.point - centre).norm();
+    const bool is_ball = radius >= kBall * shape.half_extents().minCoeff();
+    if (is_ball && distance > radius) moved.point = centre + radius / distance * (place.point - centre);
+    return moved;
+  };
+  for (const Place& moved : {nearest(gap.shape1(), place.centre1), nearest(gap.shape2(), place.centre2)}) {
+    if (!is_in_overlap(gap, moved, near)) continue;
+    place = moved;
+    return true;
+  }
+  return false;
+}
+
+Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, double near, int max_evaluations) {
+  std::array<Body, 2> bodies = {Body(gap.shape1(), Vector3::Zero(), Matrix3::Identity()),
+                                Body(gap.shape2(), gap.offset(), gap.rotation())};
+  bodies[0].add(jet.jet1.r);
+  bodies[1].add(jet.jet1.r + jet.d);
+  bodies[0].add_corners(jet.n, place);
+  bodies[1].add_corners(jet.m, place);
+  const MinimumNormPoint &way1 = bodies[0].nearest(), &way2 = bodies[1].nearest();
+  // Whether the nearest point of what is known of the body is that of the body.
+  std::array<bool, 2> is_settled{};
+  GapJet trial;
+  int moves = 0;
+  while (true) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (bodies[k].look_from(place).norm <= near || bodies[k].is_known()) is_settled[k] = true;
+    }
+    if (is_settled[0] && is_settled[1]) {
+      if (std::max(way1.norm, way2.norm) <= near || moves == kMostMoves) return place;
+      place += (++moves > kExactMoves ? kReflection : 1) * way_to_both(way1, way2);
+      is_settled = {};
+      continue;
+    }
+    if (gap.evaluations() >= max_evaluations || bodies[0].is_full() || bodies[1].is_full()) return place;
+    const std::size_t open = is_settled[0] || (!is_settled[1] && way2.norm > way1.norm) ? 1 : 0;
+    const MinimumNormPoint way = bodies[open].nearest();
+    gap.evaluate(open == 0 ? Vector3(-way.normal) : way.normal, Order::Point, trial);
+    if (!trial.is_finite()) return place;
+    const Vector3 point = open == 0 ? trial.jet1.r : Vector3(trial.jet1.r + trial.d);
+    // Seen from near by, the way to an edge of a large body has a direction of few digits: its points come again.
+    is_settled[open] = way.normal.dot(point - place) >= way.norm - std::max(near, kRough * way.norm) || bodies[open].has(point);
+    bodies[0].add(trial.jet1.r);
+    bodies[1].add(trial.jet1.r + trial.d);
+  }
+}
+
+}  // namespace supernormal
