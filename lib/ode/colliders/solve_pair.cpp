@@ -17,11 +17,10 @@ struct PosedShape {
   dGeomID geom;
   const Shape& shape;
   const Pose& pose;
-  double radius;  // m; no point of the shape is farther from its origin, where bodies are looked at ahead
 };
 
 BodyAhead moving(const PosedShape& posed) {
-  return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.radius)};
+  return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.shape.bounding_radius())};
 }
 
 /// Solves for two shapes. `last.pose` must be set; the remembered normals are in the frame with the attitude `frame`, and `size`
@@ -67,8 +66,8 @@ ContactManifold BodyPair::solve(const Remembered& remembered, Goal goal, LastNor
   const Pose pose2 = pose_of(geom2_);
   last.pose = RelativePose::of(pose1, pose2);
   const double time = std::max(body1_->look_ahead(), body2_->look_ahead());
-  const PosedShape one{geom1_, body1_->shape(), pose1, time > 0 ? body1_->radius() : 0};
-  const PosedShape other{geom2_, body2_->shape(), pose2, time > 0 ? body2_->radius() : 0};
+  const PosedShape one{geom1_, body1_->shape(), pose1};
+  const PosedShape other{geom2_, body2_->shape(), pose2};
   ContactManifold manifold = ode::solve(one, other, combined(body1_->settings(), body2_->settings()), goal, time, pose1.rotation,
                                         std::min(body1_->size(), body2_->size()), remembered, last);
   if (is_swapped_) {
@@ -85,8 +84,8 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goa
   last.pose = RelativePose::of(collider.pose, pose);
   const PairKey key = PairKey::of_direction(body.serial(), last.pose.offset, collider.kind);
   const double time = body.look_ahead();
-  const PosedShape one{ours, body.shape(), pose, time > 0 ? body.radius() : 0};
-  const PosedShape other{collider.geom, collider.shape, collider.pose, time > 0 ? collider.shape.half_extents().norm() : 0};
+  const PosedShape one{ours, body.shape(), pose};
+  const PosedShape other{collider.geom, collider.shape, collider.pose};
   ContactManifold manifold =
       solve(one, other, body.settings(), goal, time, collider.pose.rotation, body.size(), reserve_entry(key), last);
   last.remember(key);

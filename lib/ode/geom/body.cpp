@@ -8,7 +8,6 @@
 #include "ode/geom/geom_class.hpp"
 #include "ode/geom/look_ahead.hpp"
 #include "ode/geom/solver_settings.hpp"
-#include "supernormal/contact/body_box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -28,12 +27,6 @@ std::shared_ptr<const Shape> make_superovoid(const SuperovoidParameters& p) {
   return std::make_shared<Superovoid>(p.straight.half_axes, p.straight.delta, p.straight.epsilon, p.taper_x, p.taper_y);
 }
 
-/// The distance from the origin within which the whole body is, m.
-double radius_of(const Shape& shape) {
-  const BodyBox box = BodyBox::of(shape);
-  return box.centre.norm() + box.half_lengths.norm();
-}
-
 }  // namespace
 
 Body::Body(std::shared_ptr<const Shape> core)
@@ -41,9 +34,8 @@ Body::Body(std::shared_ptr<const Shape> core)
       shape_(core_),
       size_(shape_->half_extents().minCoeff()),
       settings_(default_settings()),
-      serial_(++last_serial) {
-  set_look_ahead(default_look_ahead());
-}
+      look_ahead_(default_look_ahead()),
+      serial_(++last_serial) {}
 
 Body::Body(const SuperellipsoidParameters& parameters) : Body(make_superellipsoid(parameters)) { parameters_ = parameters; }
 
@@ -65,19 +57,11 @@ void Body::set_superovoid(const SuperovoidParameters& parameters) {
 
 void Body::set_rounding(double radius) { set_shape(core_, radius); }
 
-void Body::set_look_ahead(double time) {
-  radius_ = time > 0 ? radius_of(*shape_) : 0;
-  look_ahead_ = time;
-}
-
-double Body::radius() const { return radius_ > 0 ? radius_ : radius_of(*shape_); }
-
 void Body::set_shape(std::shared_ptr<const Shape> core, double rounding) {
   std::shared_ptr<const Shape> shape = core;
   if (rounding != 0) shape = std::make_shared<Rounded>(core, rounding);  // the constructor refuses an invalid radius
   // These may throw, as they call a user's callbacks, so nothing else has changed yet.
   const double size = shape->half_extents().minCoeff();
-  if (look_ahead_ > 0) radius_ = radius_of(*shape);
   size_ = size;
   core_ = std::move(core);
   shape_ = std::move(shape);

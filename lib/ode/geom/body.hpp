@@ -53,10 +53,7 @@ class Body {
 
   /// s; contacts of pairs that may meet within this time are found too; 0: overlaps only.
   double look_ahead() const { return look_ahead_; }
-  void set_look_ahead(double time);
-
-  /// No point of shape() is farther from its origin, m. It is kept while look_ahead() is not 0.
-  double radius() const;
+  void set_look_ahead(double time) { look_ahead_ = time; }
 
   /// Null for a body of another kind.
   const SuperellipsoidParameters* superellipsoid() const { return std::get_if<SuperellipsoidParameters>(&parameters_); }
@@ -82,8 +79,7 @@ class Body {
   double size_;                                                                              // m
   std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // monostate: a user-defined body
   Settings settings_;
-  double look_ahead_ = 0;  // s
-  double radius_ = 0;      // m; 0: not known
+  double look_ahead_;  // s
   std::uint32_t serial_;
   void (*release_)(void*) = nullptr;
   void* user_ = nullptr;

@@ -142,8 +142,9 @@ MotionAhead in_frame(MotionAhead world, const Pose& frame) {
 void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, dGeomID ours, dGeomID heightfield) {
   const Body& body = require_body(ours);
   const Vector3 origin = to_vector(dGeomGetPosition(ours));
-  const BodyAhead moving{visitor.shape, visitor.pose, in_frame(motion_ahead_of(ours, origin, body.radius()), frame)};
-  const MotionAhead surface = in_frame(motion_ahead_of(heightfield, origin, body.radius()), frame);
+  const BodyAhead moving{visitor.shape, visitor.pose,
+                         in_frame(motion_ahead_of(ours, origin, body.shape().bounding_radius()), frame)};
+  const MotionAhead surface = in_frame(motion_ahead_of(heightfield, origin, body.shape().bounding_radius()), frame);
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(moving, surface, body.look_ahead());
   Visitor all = visitor;
   all.centre += reach.middle;

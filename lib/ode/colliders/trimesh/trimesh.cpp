@@ -81,8 +81,9 @@ std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const M
 /// Finds the contacts ahead, in scratch().
 void look_ahead(const Visit& visit) {
   const double time = visit.body.look_ahead();
-  const BodyAhead body{visit.body.shape(), visit.pose, motion_ahead_of(visit.geom, visit.pose.position, visit.body.radius())};
-  const MotionAhead surface = motion_ahead_of(visit.mesh, visit.pose.position, visit.body.radius());
+  const BodyAhead body{visit.body.shape(), visit.pose,
+                       motion_ahead_of(visit.geom, visit.pose.position, visit.body.shape().bounding_radius())};
+  const MotionAhead surface = motion_ahead_of(visit.mesh, visit.pose.position, visit.body.shape().bounding_radius());
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(body, surface, time);
   BodyBox box = visit.box.widened(reach.margin);
   box.centre += visit.pose.rotation.transpose() * reach.middle;
