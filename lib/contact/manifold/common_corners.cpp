@@ -10,7 +10,7 @@
 namespace supernormal {
 namespace {
 
-// A line of contact is this much wider than nothing, relative to the body's smaller extent along the plane.
+// A line of contact is this much wider than nothing, relative to the smallest extent of both bodies along the plane.
 constexpr double kThinnest = 1e-3;
 
 // Corners are looked for from so many times the reach of the region: far enough to find those of a square that is turned by
@@ -20,14 +20,14 @@ constexpr double kLookFrom = 1.5;
 /// A support polygon in the coordinates of the contact, counter-clockwise.
 class Side {
  public:
-  Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below)
+  /// A line gets the width `thin`, m, so that two of them have a region in common.
+  Side(const SupportPolygon& polygon, const ContactFrame& frame, bool sees_it_from_below, double thin)
       : axis_(frame.plane.project(polygon.axis())), area_(polygon.area()) {
     const Vector2 support_point = frame.project(polygon.support_point());
-    // A line gets a width, so that two of them have a region in common.
-    const Vector2 thin = kThinnest * polygon.size() * axis_;
+    const Vector2 across = thin * axis_;
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t vertex = sees_it_from_below ? 3 - k : k;
-      const Vector2 beside = vertex == 0 || vertex == 3 ? thin : Vector2(-thin);
+      const Vector2 beside = vertex == 0 || vertex == 3 ? across : Vector2(-across);
       outline_.add(support_point + frame.plane.project(polygon.vertices()[vertex]) + (polygon.is_long() ? beside : Vector2(0, 0)));
     }
   }
@@ -81,8 +81,9 @@ std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, co
                                               const Vector3& origin) {
   const bool is_on_edge2 = polygon2.is_long() && !polygon1.is_long();
   const ContactFrame frame{TangentPlane(normal, is_on_edge2 ? polygon2.axis() : polygon1.axis()), origin};
-  const Side side1(polygon1, frame, false);
-  const Side side2(polygon2, frame, true);
+  const double thin = kThinnest * std::min(polygon1.size(), polygon2.size());
+  const Side side1(polygon1, frame, false, thin);
+  const Side side2(polygon2, frame, true, thin);
   const ConvexPolygon region = common_region(side1.outline(), side2.outline());
   if (region.size() == 0) return std::nullopt;
   const Vector2 lean = frame.plane.project(polygon1.slope() + polygon2.slope());

@@ -113,10 +113,10 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
   ContactManifold manifold(proximity);
   if (!may_have_corners(shape1, proximity) || !may_have_corners(shape2, proximity)) return manifold;
   const double depth = -proximity.gap;
-  const SupportPolygon polygon1(shape1, pose1, proximity.normal, proximity.point1, depth);
+  const SupportPolygon polygon1(shape1, pose1, proximity.normal, proximity.point1, depth, shape2.half_extents().minCoeff());
   manifold.evaluations = polygon1.evaluations();
   if (!polygon1.has_width()) return manifold;
-  const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth);
+  const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth, shape1.half_extents().minCoeff());
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, proximity.contact);

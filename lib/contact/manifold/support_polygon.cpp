@@ -10,10 +10,10 @@
 namespace supernormal {
 namespace {
 
-// The reach: how far apart the bodies may be where they rest on one another. It is so many least extents (of the
-// half-height and both half-extents in the plane) at any depth, so that what
-// a body stands on does not shrink to a point as quickstep takes the depth away; and so many depths more, for bodies that fall:
-// with less of it those with round edges take longer to rest than a dBox.
+// The reach: how far apart the bodies may be where they rest on one another. It is so many least extents (of the half-height, both
+// half-extents in the plane, and what stands there) at any depth, so that what a body stands on does not shrink to a point as
+// quickstep takes the depth away; and so many depths more, for bodies that fall: with less of it those with round edges take longer
+// to rest than a dBox.
 constexpr double kReach = 2e-3;
 constexpr double kReachOfDepth = 12;
 
@@ -247,11 +247,13 @@ SupportPolygon::SupportPolygon(const View& view)
   least_extent_ = std::min({height_, extents_[0], extents_[1]});
 }
 
-SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth)
-    : SupportPolygon(View(shape, pose, n, support_point), depth) {}
+SupportPolygon::SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
+                               double thickness)
+    : SupportPolygon(View(shape, pose, n, support_point), depth, thickness) {}
 
-SupportPolygon::SupportPolygon(const View& view, double depth) : SupportPolygon(view) {
-  reach_ = std::max(depth, std::min(kReach * least_extent_ + kReachOfDepth * depth, kLargestReach * least_extent_));
+SupportPolygon::SupportPolygon(const View& view, double depth, double thickness) : SupportPolygon(view) {
+  const double least = std::min(least_extent_, thickness);
+  reach_ = std::max(depth, std::min(kReach * least + kReachOfDepth * depth, kLargestReach * least));
   const double tangent = tangent_of_tilt(reach_, height_);
   find(view, {tangent, tangent});
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
@@ -26,8 +27,10 @@ namespace supernormal {
 class SupportPolygon {
  public:
   /// `n` is of unit length, in the frame that the pose refers to; `support_point` is the body's point with this normal, m; `depth`
-  /// is the depth of the overlap, m.
-  SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth);
+  /// is the depth of the overlap, m; `thickness` is the smallest half-extent of the other body, m: a pebble does not stand on what
+  /// is flat to a share of a boulder's size.
+  SupportPolygon(const Shape& shape, const Pose& pose, const Vector3& n, const Vector3& support_point, double depth,
+                 double thickness = HUGE_VAL);
 
   /// The same with one tilt along both axes, whatever the depth: for contacts whose gaps are known. Its vertices are those of the
   /// tilts, however far they are from the plane, and largest_lean() says nothing.
@@ -67,7 +70,7 @@ class SupportPolygon {
   struct View;
 
   explicit SupportPolygon(const View& view);
-  SupportPolygon(const View& view, double depth);
+  SupportPolygon(const View& view, double depth, double thickness);
 
   void find(const View& view, const std::array<double, 2>& tangents);
   std::array<double, 2> widths_seen_by(const Tilts& tilts);
