@@ -107,7 +107,7 @@ TEST_CASE("time of impact: with every collider the gap is positive before, and c
       CHECK(std::abs(swapped.time - impact.time) <= rounding);
       CHECK(norm(to_vec(impact.normal) + to_vec(swapped.normal)) <= 1e-3);
       for (int sample = 0; sample <= 60; ++sample) {
-        const double t = impact.time * sample / 60;
+        const double t = double{impact.time} * sample / 60;
         mover.go(t);
         if (other != nullptr) other->go(t);
         CHECK(gap_of(ours, collider) >= -rounding);
@@ -233,7 +233,7 @@ TEST_CASE("time of impact: a heightfield, as snGeomProximity has it") {
     const snImpact impact = impact_of(ball, field, 1);
     CHECK(impact.hits == 1);
     for (int sample = 0; sample < 30; ++sample) {
-      mover.go(impact.time * sample / 30);
+      mover.go(double{impact.time} * sample / 30);
       CHECK(gap_of(ball, field) > 0);
     }
     mover.go(impact.time);
