@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <optional>
 #include <span>
 
 #include "proximity/bounds/minimum_norm_point.hpp"
@@ -10,20 +12,20 @@
 namespace supernormal {
 namespace {
 
-// Of the sine of the angle between two tangent planes, squared: below, the line where they meet is rounding.
+// Of the determinant of the cosines between two or three tangent planes (of two, it is the sine squared): below, the line or the
+// point where they meet is rounding.
 constexpr double kSameLine = 1e-12;
 
 // A ball that rolls inside a body is the body's thickness from this share of its smallest half-extent on.
 constexpr double kBall = 0.99;
 
-// After so many moves that end at the tangent planes, where one is enough as a rule, the next go beyond by as much again: so those
-// end that a small angle between the planes would let creep.
-constexpr int kExactMoves = 3;
-constexpr double kReflection = 2;
 constexpr int kMostMoves = 1000;  // of two bodies all of whose corners are known, a move costs no evaluation
 
 // The way to a body is known when a tangent plane has no less than all but this share of it before it: the whole way is made then.
 constexpr double kRough = 0.1;
+
+// A place is behind a plane when no more than this share of the way to the farthest one is left.
+constexpr double kBehind = 0.01;
 
 /// Points of one body, as a place sees them, in body 1's frame.
 class Body {
@@ -75,14 +77,73 @@ class Body {
   MinimumNormPoint nearest_{};
 };
 
-/// From a place to the nearest point behind the tangent planes of both bodies at the points that are nearest to the place.
-Vector3 way_to_both(const MinimumNormPoint& way1, const MinimumNormPoint& way2) {
-  const double cosine = way1.normal.dot(way2.normal), squared_sine = 1 - cosine * cosine;
-  const double more1 = way1.norm - cosine * way2.norm, more2 = way2.norm - cosine * way1.norm;
-  if (more2 <= 0) return way1.point;
-  if (more1 <= 0) return way2.point;
-  if (squared_sine < kSameLine) return way1.norm > way2.norm ? way1.point : way2.point;
-  return (more1 * way1.normal + more2 * way2.normal) / squared_sine;
+/// A tangent plane, as the place sees it.
+struct Plane {
+  Vector3 normal;   // towards the body
+  double distance;  // m, along the normal; less than 0 where the place is behind the plane
+};
+
+/// The latest tangent planes of one body at the points that were nearest to the place: as many as meet in a vertex.
+class Planes {
+ public:
+  void add(const Plane& plane) { planes_[added_++ % planes_.size()] = plane; }
+  void move(const Vector3& way) {
+    for (std::size_t k = 0; k < size(); ++k) planes_[k].distance -= planes_[k].normal.dot(way);
+  }
+  std::size_t size() const { return std::min(added_, planes_.size()); }
+  const Plane& operator[](std::size_t k) const { return planes_[k]; }
+
+ private:
+  std::array<Plane, 3> planes_;
+  std::size_t added_ = 0;
+};
+
+/// The point of up to three planes that is nearest to the place; nothing where it is not the nearest point behind them, too.
+std::optional<Vector3> way_to(std::span<const Plane* const> planes) {
+  Matrix3 cosines = Matrix3::Identity();
+  Vector3 distances = Vector3::Zero();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    distances[row] = planes[i]->distance;
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      cosines(row, column) = cosines(column, row) = planes[i]->normal.dot(planes[j]->normal);
+    }
+  }
+  if (!(cosines.determinant() > kSameLine)) return std::nullopt;
+  const Vector3 pull = cosines.inverse() * distances;
+  if (!(pull.minCoeff() >= 0)) return std::nullopt;
+  Vector3 way = Vector3::Zero();
+  for (std::size_t i = 0; i < planes.size(); ++i) way += pull[static_cast<Eigen::Index>(i)] * planes[i]->normal;
+  return way;
+}
+
+/// From a place to the nearest point behind all planes: that of one, two or three of them (there are no more in three dimensions).
+/// Where rounding hides it, behind the farthest.
+Vector3 way_behind(const Planes& planes1, const Planes& planes2) {
+  std::array<const Plane*, 6> all{};
+  std::size_t count = 0;
+  for (const Planes* planes : {&planes1, &planes2}) {
+    for (std::size_t k = 0; k < planes->size(); ++k) all[count++] = &(*planes)[k];
+  }
+  const Plane& farthest = **std::max_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count),
+                                             [](const Plane* a, const Plane* b) { return a->distance < b->distance; });
+  std::optional<Vector3> best;
+  for (unsigned subset = 1; subset < 1U << count; ++subset) {
+    if (std::popcount(subset) > 3) continue;
+    std::array<const Plane*, 3> chosen{};
+    std::size_t chosen_count = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((subset >> k & 1U) != 0) chosen[chosen_count++] = all[k];
+    }
+    const std::optional<Vector3> way = way_to({chosen.data(), chosen_count});
+    if (!way || (best && best->squaredNorm() <= way->squaredNorm())) continue;
+    const bool is_behind = std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), [&](const Plane* plane) {
+      return plane->distance - plane->normal.dot(*way) <= kBehind * farthest.distance;
+    });
+    if (is_behind) best = way;
+  }
+  return best.value_or(farthest.distance * farthest.normal);
 }
 
 }  // namespace
@@ -123,14 +184,20 @@ Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, d
   // Whether the nearest point of what is known of the body is that of the body.
   std::array<bool, 2> is_settled{};
   GapJet trial;
+  std::array<Planes, 2> planes;
   int moves = 0;
   while (true) {
     for (std::size_t k = 0; k < 2; ++k) {
       if (bodies[k].look_from(place).norm <= near || bodies[k].is_known()) is_settled[k] = true;
     }
     if (is_settled[0] && is_settled[1]) {
-      if (std::max(way1.norm, way2.norm) <= near || moves == kMostMoves) return place;
-      place += (++moves > kExactMoves ? kReflection : 1) * way_to_both(way1, way2);
+      if (std::max(way1.norm, way2.norm) <= near || ++moves > kMostMoves) return place;
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (const MinimumNormPoint& way = bodies[k].nearest(); way.norm > 0) planes[k].add({way.normal, way.norm});
+      }
+      const Vector3 way = way_behind(planes[0], planes[1]);
+      place += way;
+      for (Planes& each : planes) each.move(way);
       is_settled = {};
       continue;
     }
