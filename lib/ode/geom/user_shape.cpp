@@ -1,6 +1,7 @@
 #include "ode/geom/user_shape.hpp"
 
 #include <array>
+#include <type_traits>
 
 #include "ode/geom/convert.hpp"
 #include "ode/support/require.hpp"
@@ -31,14 +32,17 @@ std::shared_ptr<const Shape> make_user_shape(const snShape* shape) {
   const snShape copy = *shape;
   if (copy.support == nullptr) throw std::invalid_argument("shape->support = NULL, but a body needs its support function");
   if (copy.point == nullptr) throw std::invalid_argument("shape->point = NULL, but a body needs its boundary point");
-  return std::make_shared<CallbackShape>(
-      [copy](const Vector3& n) { return double{copy.support(copy.user, to_direction(n).data())}; },
-      [copy](const Vector3& n) {
-        std::array<dReal, 3> point{};
-        copy.point(copy.user, to_direction(n).data(), point.data());
-        return to_vector(point.data());
-      },
-      wrap_hessian(copy));
+  const auto point = [copy](const Vector3& n) {
+    std::array<dReal, 3> r{};
+    copy.point(copy.user, to_direction(n).data(), r.data());
+    return to_vector(r.data());
+  };
+  const auto checked = std::make_shared<CallbackShape>(
+      [copy](const Vector3& n) { return double{copy.support(copy.user, to_direction(n).data())}; }, point, wrap_hessian(copy));
+  if constexpr (std::is_same_v<dReal, double>) return checked;
+  // In single precision the functions see the rounded direction, and support() returns a rounded length. Only n.r belongs to the
+  // point r: the other value differs from it by more than the depth of contacts with a body that is much smaller.
+  return std::make_shared<CallbackShape>([point](const Vector3& n) { return n.dot(point(n)); }, point, wrap_hessian(copy));
 }
 
 }  // namespace supernormal::ode

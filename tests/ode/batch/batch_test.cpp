@@ -61,11 +61,11 @@ struct Crowd {
   dGeomID create_ball() {
     snShape ball{};
     ball.user = this;
-    ball.support = [](const void* user, const dReal* /*n*/) -> dReal {
+    ball.support = [](const void*, const dReal* /*n*/) -> dReal { return 1; };
+    ball.point = [](const void* user, const dReal* n, dReal* point) {
       if (static_cast<const Crowd*>(user)->throws) throw std::runtime_error("no ball today");
-      return 1;
+      std::copy(n, n + 3, point);
     };
-    ball.point = [](const void*, const dReal* n, dReal* point) { std::copy(n, n + 3, point); };
     return snCreateConvex(space, &ball);
   }
 };
