@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "ode/ode_fixture.hpp"
-#include "relative.hpp"
 
 using namespace supernormal::test;
 
@@ -92,6 +91,11 @@ class Scale {
   dBodyID body_;
 };
 
+/// What the load may change by where it does not jump: a share of the weight. A support point of a body |x|^8 moves by the seventh
+/// root of the change of its normal. With single precision two poses are as far apart as one rounding, of 4e-9 m in the height: it
+/// changes a depth of 0.2 mm, and with it the tilts, by 2e-6 rad, over which the load of double precision changes by 0.034 as well.
+constexpr double kJump = kIsSinglePrecision ? 0.04 : 0.02;
+
 double difference(const Load& a, const Load& b) { return std::max(norm(a.force - b.force), norm(a.torque - b.torque)); }
 
 /// The largest jump of the load at(x), x from 0 to 1: each of the largest of so many steps is halved until nothing continuous
@@ -152,9 +156,8 @@ TEST_CASE("there are never more contacts than there is room for, the deepest fir
   for (int room = 1; room <= 8; ++room) {
     const Contacts contacts = collide(brick, floor, room);
     REQUIRE(contacts.size() == static_cast<std::size_t>(std::min(room, 4)));
-    CHECK(contacts[0].depth == relative(1e-4));
     // The body does not lean: the face is as deep as its deepest point.
-    for (std::size_t k = 1; k < contacts.size(); ++k) CHECK(contacts[k].depth == relative(1e-4));
+    for (const dContactGeom& contact : contacts) CHECK(std::abs(double{contact.depth} - 1e-4) <= within_rounding(1e-9, 0.05));
   }
 }
 
@@ -191,7 +194,7 @@ TEST_CASE("what carries a flat body does not jump while it tilts, nor while it c
         lay(brick, under, 0.4 * x - 0.02, 1.1, 2e-4);
         return scale.weigh();
       };
-      CHECK(largest_jump(tilted, 4000) <= 0.02);
+      CHECK(largest_jump(tilted, 4000) <= kJump);
       const auto deepened = [&](double x) {
         lay(brick, under, 0.01, 1.1, 1e-5 * std::pow(1500, x));
         return scale.weigh();

@@ -183,7 +183,7 @@ TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
           CAPTURE(speed);
           CAPTURE(step);
           CAPTURE(static_cast<int>(wall));
-          CHECK(deepest < within_rounding(1e-6 * 0.01));
+          CHECK(deepest < within_rounding(1e-6 * 0.01, 1 + 0.4 * speed * step));  // the way there is rounded
           CHECK(depth_below(geom) > -1e-4);
         }
       }
