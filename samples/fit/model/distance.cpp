@@ -9,16 +9,14 @@
 namespace fit {
 namespace {
 
-// The normals are then right to about 1e-6, and with them the derivatives.
-constexpr double kTolerance = 1e-12;
-
 // Inside, the distance function has as many local maxima as the body has faces. Down to this depth, over the smallest half-axis,
 // the one next to the point's projection from the centre is taken; deeper ones are searched for.
 constexpr double kShallow = 0.1;
 
 }  // namespace
 
-DistanceFunction::DistanceFunction(const Body& body) : body_(body), rotation_(body.rotation()), shape_(make_shape(body)) {}
+DistanceFunction::DistanceFunction(const Body& body, double tolerance)
+    : body_(body), tolerance_(tolerance), rotation_(body.rotation()), shape_(make_shape(body)) {}
 
 // The normal of the body's enlarged or shrunk image through x (body's frame): the gradient of the implicit function there. Near the
 // boundary it is so near to the witness's that the search takes half of the time.
@@ -56,7 +54,7 @@ bool DistanceFunction::contains(const Vector3& x) const {
 std::optional<Witness> DistanceFunction::find(const Vector3& x) const {
   static const supernormal::Sphere point(0);
   supernormal::Settings settings;
-  settings.tolerance = kTolerance;
+  settings.tolerance = tolerance_;
   const supernormal::Pose pose{body_.position, rotation_}, place{x, Matrix3::Identity()};
   const Vector3 first = gauge_normal(rotation_.transpose() * (x - body_.position));
   auto proximity = supernormal::find_proximity(*shape_, pose, point, place, settings, &first);

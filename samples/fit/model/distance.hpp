@@ -15,10 +15,14 @@ struct Witness {
   Vector3 foot = Vector3::Zero();     ///< the nearest boundary point, in the frame of the data
 };
 
+constexpr double kFineTolerance = 1e-12;
+constexpr double kRoughTolerance = 1e-6;  ///< for points that are a hundredth of the size or more from the body
+
 /// Answers for one body in its place. The shape is made once.
 class DistanceFunction {
  public:
-  explicit DistanceFunction(const Body& body);
+  /// Distances are exact to `tolerance` times the smallest half-axis, and normals, and with them derivatives, to its root.
+  explicit DistanceFunction(const Body& body, double tolerance = kFineTolerance);
 
   /// The distance is the maximum over the unit normals n of n.(x - position) - h(n), inside and outside. Nothing when the point is
   /// not finite.
@@ -40,6 +44,7 @@ class DistanceFunction {
   Vector3 gauge_normal(const Vector3& x) const;
 
   Body body_;
+  double tolerance_;
   Matrix3 rotation_;
   std::unique_ptr<supernormal::Shape> shape_;
 };

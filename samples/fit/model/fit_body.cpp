@@ -176,9 +176,18 @@ void solve(Descent& descent, const Cloud& cloud, LeastSquaresSettings settings) 
   descent.body = minimize_distances(descent.body, chosen.points, offsets, settings).body;
 }
 
-/// Least squares on all points but outliers, repeated until these and the noise's effect are settled.
-Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings& settings, int rounds, int steps = 12) {
-  Descent descent{start, {}, {}, {}};
+// A closed mesh has no noise: a body that misses it by several per cent of its size is of another shape, and more of its digits are
+// of no use. They are the slowest to find, with the largest exponents.
+constexpr double kOtherShape = 0.02;
+
+bool is_other_shape(double mean_square, const FitSettings& search) {
+  return search.is_whole && mean_square > kOtherShape * kOtherShape;
+}
+
+/// Least squares from a start and its mean square, on all points but outliers, repeated until these and the noise's effect are
+/// settled.
+Descent descend_on_all(const Candidate& start, const Cloud& cloud, const FitSettings& settings, int rounds, int steps = 12) {
+  Descent descent{start.body, {}, {}, {}};
   descent.inliers.resize(cloud.points.size());
   std::iota(descent.inliers.begin(), descent.inliers.end(), std::size_t{0});
   LeastSquaresSettings least_squares;
@@ -187,6 +196,7 @@ Descent descend_on_all(const Body& start, const Cloud& cloud, const FitSettings&
   least_squares.tolerance = 1e-2 / static_cast<double>(cloud.points.size());
   least_squares.threads = settings.threads;
   least_squares.max_iterations = steps;
+  if (is_other_shape(start.mean_square, settings)) least_squares.distance_tolerance = kRoughTolerance;
   for (int round = 0; round < rounds; ++round) {
     const bool has_changed = update(descent, cloud, settings, round == 0 ? kUnsettled : 0);
     if (round > 0 && !has_changed) return descent;
@@ -218,18 +228,16 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
 }
 
 /// A descent on many points with a loss as narrow as the noise, and the mean square without what is far beyond it.
-void polish(Candidate& candidate, const Cloud& many, LeastSquaresSettings settings, const FitSettings& search) {
+void polish(Candidate& candidate, const Cloud& some, const Cloud& many, LeastSquaresSettings settings, const FitSettings& search) {
   const bool rejects_outliers = search.rejects_outliers;
   if (rejects_outliers) {
     settings.loss_width = kHuber * std::max(kUnsettled, robust_sigma(measure(candidate.body, many.points).distances));
   }
-  // A closed mesh has no noise: a body that misses it by several per cent of its size is of another shape, and more of its digits
-  // are of no use. They are the slowest to find, with the largest exponents.
-  constexpr double kOtherShape = 0.02;
-  const bool is_other_shape = search.is_whole && candidate.mean_square > kOtherShape * kOtherShape;
-  settings.max_iterations = is_other_shape ? 12 : 50;
-  settings.tolerance = is_other_shape ? 1e-2 / static_cast<double>(many.points.size()) : 1e-8;
-  candidate.body = minimize_distances(candidate.body, many.points, {}, settings).body;
+  const bool is_rough = is_other_shape(candidate.mean_square, search);
+  settings.max_iterations = is_rough ? 12 : 50;
+  settings.tolerance = is_rough ? 1e-2 / static_cast<double>(some.points.size()) : 1e-8;
+  settings.distance_tolerance = is_rough ? kRoughTolerance : kFineTolerance;
+  candidate.body = minimize_distances(candidate.body, (is_rough ? some : many).points, {}, settings).body;
   const std::vector<double> distances = measure(candidate.body, many.points).distances;
   const double limit =
       rejects_outliers ? kOutlier * std::max(kUnsettled, robust_sigma(distances)) : std::numeric_limits<double>::infinity();
@@ -247,16 +255,19 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, cons
   settings.max_iterations = 6;
   settings.tolerance = 1e-3;
   settings.loss_width = 0.1;
+  if (search.is_whole) settings.distance_tolerance = kRoughTolerance;
   std::vector<Candidate> candidates(starts.size());
   std::ranges::transform(starts, candidates.begin(), [](const Body& start) { return Candidate{start}; });
   candidates = descend(candidates, few, settings, 10);
-  settings.max_iterations = 25;
+  // A closed mesh, whose starts are in its box, is followed on while it is polished: 25 iterations of the sharpest bodies with a
+  // taper, at 30 evaluations a point, are most of the time for a tetrahedron.
+  settings.max_iterations = search.is_whole ? 12 : 25;
   settings.tolerance = 1e-4;
   candidates = descend(candidates, some, settings, 3);
   if (candidates.empty()) return {};
   const double limit = kHopeless * candidates.front().mean_square;
   std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.mean_square > limit; });
-  for (Candidate& candidate : candidates) polish(candidate, many, settings, search);
+  for (Candidate& candidate : candidates) polish(candidate, some, many, settings, search);
   return *std::ranges::min_element(candidates, {}, &Candidate::mean_square);
 }
 
@@ -381,7 +392,7 @@ FittedBody refine_body(const Body& start, const Cloud& cloud, const FitSettings&
   const Extent extent = extent_of(cloud.points);
   const Cloud data = normalized(cloud, extent);
   const Body body = moved(start, 1 / extent.size, -extent.centre / extent.size);
-  return finish(descend_on_all(body, data, settings, 4), extent, data, settings);
+  return finish(descend_on_all({body, 0}, data, settings, 4), extent, data, settings);
 }
 
 namespace {
@@ -399,11 +410,11 @@ FittedBody fit_kept(const Cloud& cloud, FitSettings settings) {
             : "no body fits: every descent failed or ended with its normals against those of the data, which must point outwards");
   }
   if (data.points.size() <= kLarge)
-    return finish(descend_on_all(in_customary_order(best.body), data, settings, 4), extent, data, settings);
+    return finish(descend_on_all({in_customary_order(best.body), best.mean_square}, data, settings, 4), extent, data, settings);
   // Most of the way is done on some of the points. From an estimate whose error falls as theirs does, one step of Newton's is as
   // good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
-  const Body near = descend_on_all(best.body, thinned(data, kLarge), settings, 4).body;
-  return finish(descend_on_all(in_customary_order(near), data, settings, 2, 2), extent, data, settings);
+  const Body near = descend_on_all(best, thinned(data, kLarge), settings, 4).body;
+  return finish(descend_on_all({in_customary_order(near), best.mean_square}, data, settings, 2, 2), extent, data, settings);
 }
 
 }  // namespace

@@ -71,13 +71,13 @@ Body body_of(Family family, const double* const* blocks) {
 class Distances final : public ceres::CostFunction {
  public:
   Distances(Family family, std::span<const Vector3> points, std::span<const double> offsets, const LeastSquaresSettings& settings)
-      : family_(family), points_(points), offsets_(offsets), width_(settings.loss_width) {
+      : family_(family), points_(points), offsets_(offsets), width_(settings.loss_width), tolerance_(settings.distance_tolerance) {
     set_num_residuals(static_cast<int>(points.size()));
     mutable_parameter_block_sizes()->assign(kBlockSizes.begin(), kBlockSizes.end());
   }
 
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
-    const DistanceFunction function(body_of(family_, blocks));
+    const DistanceFunction function(body_of(family_, blocks), tolerance_);
     if (!remember_witnesses(function, blocks)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double excess = witnesses_[i].distance - (offsets_.empty() ? 0 : offsets_[i]);
@@ -148,7 +148,7 @@ class Distances final : public ceres::CostFunction {
   Family family_;
   std::span<const Vector3> points_;
   std::span<const double> offsets_;
-  double width_;
+  double width_, tolerance_;
   mutable std::vector<double> place_;       // the unknowns that the witnesses are of
   mutable std::vector<Witness> witnesses_;  // one for each point
 };

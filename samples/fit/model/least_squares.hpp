@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body.hpp"
+#include "distance.hpp"
 
 namespace fit {
 
@@ -17,6 +18,7 @@ struct LeastSquaresSettings {
   int max_iterations = 50;
   /// The relative decrease of the cost at which it stops.
   double tolerance = 1e-12;
+  double distance_tolerance = kFineTolerance;  ///< of DistanceFunction
   int threads = 1;
 };
 
