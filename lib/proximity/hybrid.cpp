@@ -85,7 +85,8 @@ void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& o
 template <typename Start>
 Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPlanes& cuts, const Start& start, Branch branch) {
   const double tolerance = absolute_tolerance(gap, settings);
-  Ascent ascent(gap, cuts, settings, tolerance);
+  const bool follows = branch == Branch::OfStart && !settings.certify_depth;
+  Ascent ascent(gap, cuts, settings, tolerance, follows ? kTuning.followed_depth * gap.length_unit() : 0);
   Status status = ascent.climb(start);
   GapJet best = ascent.best();
   Proximity out = answer(gap, settings, best, ascent.error(), status);

@@ -16,11 +16,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance)
+Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance, double unsearched_depth)
     : gap_(gap),
       cuts_(cuts),
       settings_(settings),
       tolerance_(tolerance),
+      unsearched_depth_(unsearched_depth),
       rolling_radius_(gap.rolling_radius()),
       has_kinks_(gap.shape2().has_kinks()),
       vertices_(gap),
@@ -115,8 +116,20 @@ Step Ascent::choose_step() {
   error_ = estimate;
   if (!is_done && must_replace) take_top_of_cuts(step);
   is_stuck_ = error_ > tolerance_ && radius_ < kNoRadius;
-  if ((error_ <= tolerance_ || is_stuck_) && !is_overlap_proved_) ask_hull(false, step);
+  if ((error_ <= tolerance_ || is_stuck_) && !is_overlap_proved_) {
+    is_overlap_proved_ = -current().s <= unsearched_depth_ && have_common_point();
+    if (!is_overlap_proved_) ask_hull(false, step);
+  }
   return step;
+}
+
+// Faces that lie on one another, also half beside one another, hold the point between them on the line of the origins.
+bool Ascent::have_common_point() const {
+  const double height = current().jet1.h + 0.5 * current().s, whole = current().n.dot(gap_.offset());
+  if (!(height > 0 && height < whole)) return false;
+  const Vector3 point = height / whole * gap_.offset();
+  return gap_.shape1().surely_contains(point) &&
+         gap_.shape2().surely_contains(gap_.rotation().transpose() * (point - gap_.offset()));
 }
 
 // Every p in the hull of the cuts has s + rho <= m.p <= |p| for every unit m.

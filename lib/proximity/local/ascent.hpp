@@ -32,8 +32,10 @@ struct LocalCandidate {
 /// factor, is the estimate that ends the ascent, and where cuts rule a step out, the highest point of the cuts is tried.
 class Ascent {
  public:
-  /// Keeps references. Cuts of earlier ascents of the same pair are used and new ones are added. `tolerance`: m
-  Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance);
+  /// Keeps references. Cuts of earlier ascents of the same pair are used and new ones are added. `tolerance`: m. An overlap of up
+  /// to `unsearched_depth` (m) may be proved by a point of both bodies; a search for other maxima has use for the hull that proves
+  /// a deeper one.
+  Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance, double unsearched_depth);
 
   /// Climbs from the unit normal `start`; how it ended. The result is in best() and error(). Gives up, as Stalled, a climb that
   /// will not get higher than `cutoff` (m).
@@ -70,6 +72,7 @@ class Ascent {
 
   Step choose_step();
   void go_to_stratum();
+  bool have_common_point() const;
   void ask_hull(bool must_replace, Step& step);
   void take_top_of_cuts(Step& step);
   void keep_own_cut();
@@ -83,8 +86,9 @@ class Ascent {
   GapFunction& gap_;
   CuttingPlanes& cuts_;
   const Settings& settings_;
-  const double tolerance_;       // m
-  const double rolling_radius_;  // m; rho, of the difference of the bodies
+  const double tolerance_;         // m
+  const double unsearched_depth_;  // m
+  const double rolling_radius_;    // m; rho, of the difference of the bodies
   const bool has_kinks_;
   MinimumNormSearch hull_;  // of all cuts
   VertexCache vertices_;

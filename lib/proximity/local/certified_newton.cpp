@@ -122,6 +122,7 @@ bool CertifiedNewton::prove_by_tilts() {
   const Vector3 n = best().n;
   const double height = best().s + rolling_radius_;
   const int most = std::min(settings_.max_evaluations, gap_.evaluations() + kMostTilts);
+  double growth = 1;
   while (true) {
     const MinimumNormPoint nearest = minimum_norm_point(cuts_.points());
     error_ = std::max(nearest.norm - height, 0.0);
@@ -129,9 +130,14 @@ bool CertifiedNewton::prove_by_tilts() {
     if (gap_.evaluations() >= most) return false;
     const Vector3 beside = nearest.point - nearest.point.dot(n) * n;
     const double distance = beside.norm();
-    const double tilt = tolerance_ / std::max(distance, gap_.length_unit());
-    if (!(distance > 0) || !evaluate((n + tilt / distance * beside).normalized())) return false;
+    if (!(distance > 0)) return false;
+    const double least_tilt = tolerance_ / std::max(distance, gap_.length_unit());
+    const double tilt = std::min(growth * least_tilt, tolerance_ / distance);
+    if (!evaluate((n + tilt / distance * beside).normalized())) return false;
     beside_[beside_count_++] = {next().n, next().jet1.r, next().d};
+    // Where the body is round this way, the point has gone a part of the way only: by as much again it is as far on the other side.
+    const double reached = next().d.dot(beside) / distance;
+    growth = reached > 0 && reached < distance ? 2 * tilt / least_tilt * distance / (distance - reached) : 1;
   }
 }
 
