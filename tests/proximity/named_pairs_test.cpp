@@ -144,3 +144,29 @@ TEST_CASE("bricks that lie on one another, beside one another's middle: the same
   MESSAGE(mean, " evaluations on average");
   CHECK(mean <= 4.5);
 }
+
+TEST_CASE("bricks that lie on one another and have moved a little: few evaluations from their last normal") {
+  const Superellipsoid brick(Vector3(0.5, 0.4, 0.3), 60, 60);
+  // A hundredth of the half-height deep, no ball that rolls in the bricks proves an answer.
+  constexpr double kDepth = 3e-3;
+  const auto mean_evaluations = [&](double beside) {
+    int evaluations = 0, queries = 0;
+    for (const Vector3& normal : random_normals(50, 23)) {
+      Pose above = at({beside, 0, 0.6 - kDepth}, Eigen::Quaterniond(Eigen::AngleAxisd(1e-3 * normal.x(), normal)));
+      Proximity found = find_proximity(brick, {}, brick, above);
+      for (const Vector3& way : random_normals(10, 24)) {
+        above.position += 1e-2 * kDepth * way;
+        const Vector3 last = found.normal;
+        found = find_proximity(brick, {}, brick, above, {}, &last);
+        CHECK(found.status == Status::Converged);
+        evaluations += found.evaluations;
+        ++queries;
+      }
+    }
+    return 1.0 * evaluations / queries;
+  };
+  const double face_on_face = mean_evaluations(0), bond = mean_evaluations(0.5);
+  MESSAGE(face_on_face, " evaluations face on face, ", bond, " half beside one another");
+  CHECK(face_on_face <= 2.2);
+  CHECK(bond <= 3.2);
+}
