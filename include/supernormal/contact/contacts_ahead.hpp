@@ -27,13 +27,13 @@ SUPERNORMAL_API ContactManifold find_plane_manifold_of_gaps(const Shape& shape, 
 
 /// What is known of a body's motion in the time to come.
 struct MotionAhead {
-  Vector3 velocity = Vector3::Zero();  ///< m/s; of the origin of the body's frame
-  Vector3 centre = Vector3::Zero();    ///< m; the centre of mass, in the frame that the pose refers to
-  Matrix3 turning = Matrix3::Zero();   ///< 1/m^2; the inverse of the inertia tensor times the mass, in the same frame
-  double turn_rate = 0;                ///< rad/s
-  double arm = 0;                      ///< m; no point of the body is farther from what it turns about
-  double acceleration = 0;             ///< m/s^2; the most that gravity and known forces change the velocity
-  double mobility = 0;                 ///< 1/kg; the inverse of the mass, 0 for a body that does not yield
+  Vector3 velocity = Vector3::Zero();          ///< m/s; of the origin of the body's frame
+  Vector3 centre = Vector3::Zero();            ///< m; the centre of mass, in the frame that the pose refers to
+  Matrix3 turning = Matrix3::Zero();           ///< 1/m^2; the inverse of the inertia tensor times the mass, in the same frame
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s; in the same frame
+  double arm = 0;                              ///< m; no point of the body is farther from what it turns about
+  double acceleration = 0;                     ///< m/s^2; the most that gravity and known forces change the velocity
+  double mobility = 0;                         ///< 1/kg; the inverse of the mass, 0 for a body that does not yield
 };
 
 /// How much nearer to another body than its velocity says a body may come within `time` (s), m: by rotation, by forces, and by a

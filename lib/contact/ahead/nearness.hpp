@@ -12,7 +12,9 @@ namespace supernormal {
 inline constexpr double kSlack = 0.01;
 
 /// How far rotation carries a point of the body within `time`, m: no farther than to the other side.
-inline double turn_of(const MotionAhead& motion, double time) { return motion.arm * std::min(2.0, motion.turn_rate * time); }
+inline double turn_of(const MotionAhead& motion, double time) {
+  return motion.arm * std::min(2.0, motion.angular_velocity.norm() * time);
+}
 
 /// How much nearer than their velocities say two bodies may come within `time`, m.
 inline double nearness_of_both(const MotionAhead& motion1, const MotionAhead& motion2, double time, double size) {
@@ -22,7 +24,7 @@ inline double nearness_of_both(const MotionAhead& motion1, const MotionAhead& mo
 
 inline bool is_finite(const MotionAhead& motion) {
   return motion.velocity.allFinite() && motion.centre.allFinite() && motion.turning.allFinite() &&
-         std::isfinite(motion.turn_rate) && std::isfinite(motion.arm) && std::isfinite(motion.acceleration) &&
+         motion.angular_velocity.allFinite() && std::isfinite(motion.arm) && std::isfinite(motion.acceleration) &&
          std::isfinite(motion.mobility);
 }
 

@@ -3,18 +3,20 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/ahead/meeting.hpp"
 #include "contact/manifold/convex_polygon.hpp"
 #include "proximity/tangent_plane.hpp"
+#include "supernormal/contact/body_box.hpp"
 
 namespace supernormal {
 namespace {
 
-// radians; by so much an impact may turn a body, and by so much more if it turns already. The corners of a manifold hold for the
-// first (manifold/manifold_of_gaps.cpp). Of turns above the sum no step tells what they lead to.
+// radians; by so much an impact may turn a body, and by less where its middle is farther from its centre of mass than it is thick,
+// so that the turn moves the middle by no more than this share of the thickness. The corners of a manifold hold for such turns
+// (manifold/manifold_of_gaps.cpp).
 constexpr double kLargestTurn = 0.1;
-constexpr double kLargestTurnBefore = 0.2;
 
 // From this multiple of the largest turn on, the lever is that of the largest turn; below it is in between, so that no force jumps.
 constexpr double kFarTooLarge = 2;
@@ -23,7 +25,7 @@ constexpr double kFarTooLarge = 2;
 // share of some 1e-3 of a velocity that several contacts stop together.
 constexpr double kOneContact = 100;
 
-// A ball around the centre that is in the body, as a share of the smallest half-extent: that of an octahedron is 0.577.
+// A ball around the middle that is in the body, as a share of the smallest half-extent: that of an octahedron is 0.577.
 constexpr double kInnerBall = 0.5;
 
 /// The place of the contacts that is nearest to `point`, a point of their tangent plane.
@@ -37,82 +39,145 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
   return is_inside ? point : frame.lift(region.nearest_to({0, 0}));
 }
 
-/// How far a ball in the body, around its centre, is behind the plane through `place`, m; `normal` points out of the body.
-double height_of(const BodyAhead& body, const Vector3& normal, const Vector3& place) {
-  return normal.dot(place - body.motion.centre) - kInnerBall * body.shape.half_extents().minCoeff();
+/// The middle of the body's box, m.
+Vector3 middle_of(const BodyAhead& body) {
+  if (body.shape.is_symmetric()) return body.pose.position;
+  return body.pose.position + body.pose.rotation * BodyBox::of(body.shape).centre;
 }
 
-/// How far from the line through the centres a contact may act that stops two bodies.
-struct LeverLimit {
-  const BodyAhead& body1;
-  const BodyAhead& body2;
-  double share;     // of body 1 in the motion of both
-  Vector3 normal;   // unit, from body 1 to body 2
-  double approach;  // m; how much nearer the centres would come than the contacts let the bodies
-  double turn;      // radians; in which the bodies are already
-  double height;    // m; by so much the centres may come nearer at any attitude
+/// How far a ball in the body, around its middle, is behind the plane through `place`, m; `normal` points out of the body.
+double height_of(const BodyAhead& body, const Vector3& normal, const Vector3& place) {
+  return normal.dot(place - middle_of(body)) - kInnerBall * body.shape.half_extents().minCoeff();
+}
 
-  /// The squared radius of gyration about the axis of the turn by a force with this lever, m^2.
-  double squared_gyration(const Vector3& lever) const {
-    const Vector3 torque = lever.cross(normal);
-    const double turning = torque.dot((share * body1.motion.turning + (1 - share) * body2.motion.turning) * torque);
-    return turning > 0 ? lever.squaredNorm() / turning : 0;
+/// m/s; of the point of the body that is at `place`.
+Vector3 velocity_at(const BodyAhead& body, const Vector3& place) {
+  return body.motion.velocity + body.motion.angular_velocity.cross(place - body.pose.position);
+}
+
+/// radians; by how much an impact may turn a body.
+double largest_turn_of(const BodyAhead& body) {
+  const double thickness = body.shape.half_extents().minCoeff();
+  const double distance = (middle_of(body) - body.motion.centre).norm();
+  return distance > thickness ? kLargestTurn * thickness / distance : kLargestTurn;
+}
+
+/// The squared radius of gyration about the axis of the turn by a force with this lever, m^2; 0 for what no force turns.
+double squared_gyration(double lever, double torque_turning) { return torque_turning > 0 ? lever * lever / torque_turning : 0; }
+
+/// How far from the centre of mass a contact may act that stops two bodies.
+class LeverLimit {
+ public:
+  LeverLimit(const BodyAhead& body1, const BodyAhead& body2, double time, double share, const Proximity& contact)
+      : body1_(body1),
+        body2_(body2),
+        time_(time),
+        normal_(contact.normal),
+        gap_(std::max(0.0, contact.gap)),
+        gained_(time * std::max(body1.motion.acceleration, body2.motion.acceleration)),
+        centre_(share * body1.motion.centre + (1 - share) * body2.motion.centre),
+        turning_(share * body1.motion.turning + (1 - share) * body2.motion.turning),
+        turn_(time * (share * body1.motion.angular_velocity - (1 - share) * body2.motion.angular_velocity)),
+        largest_turn_(share * largest_turn_of(body1) + (1 - share) * largest_turn_of(body2)),
+        approach_(approach_at(under_centre(contact.contact))),
+        height_(std::max(0.0, share * height_of(body1, normal_, contact.contact) +
+                                  (1 - share) * height_of(body2, -normal_, contact.contact) + std::min(0.0, contact.gap))) {}
+
+  /// m; how much nearer the centres of mass would come than the contact lets the bodies.
+  double approach() const { return approach_; }
+
+  /// The point of the tangent plane through `place` that is on the line through the centre of mass.
+  Vector3 under_centre(const Vector3& place) const { return centre_ + normal_.dot(place - centre_) * normal_; }
+
+  /// The part of its lever that a contact at `place` may keep.
+  double part_at(const Vector3& place) const {
+    const Vector3 arm = place - under_centre(place);
+    return std::min(part_for_small_turn(arm, normal_, approach_), part_for_height(arm));
   }
 
-  /// The largest part of a lever with which the impact turns the bodies by no more than the largest turn.
-  double part_for_small_turn(const Vector3& arm) const {
+  /// How far a contact at `place` is to be moved.
+  Vector3 shift_of(const Vector3& place) const {
+    const Vector3 under = under_centre(place);
+    return (part_at(place) - 1) * (place - under) + shift_for_friction(place, under - centre_);
+  }
+
+ private:
+  /// m/s; the velocity of body 1 against body 2.
+  Vector3 closing_at(const Vector3& place) const { return velocity_at(body1_, place) - velocity_at(body2_, place); }
+
+  /// m; how much nearer the bodies would come at `place` than the contact lets them.
+  double approach_at(const Vector3& place) const { return (normal_.dot(closing_at(place)) + gained_) * time_ - gap_; }
+
+  /// Friction turns a body by how far before the centre of mass it acts. It is no stronger than what presses, and ends when the
+  /// bodies slide no more.
+  Vector3 shift_for_friction(const Vector3& place, const Vector3& arm) const {
+    const Vector3 closing = closing_at(place);
+    const Vector3 slip = closing - normal_.dot(closing) * normal_;
+    const double speed = slip.norm();
+    if (!(speed > 0)) return Vector3::Zero();
+    return (part_for_small_turn(arm, slip / speed, std::min(speed * time_, approach_)) - 1) * arm;
+  }
+
+  /// The largest part of a lever with which a force against `direction` that takes this way from the body turns it by no more than
+  /// the largest turn. A turn that it takes away counts for nothing.
+  double part_for_small_turn(const Vector3& arm, const Vector3& direction, double way) const {
+    const Vector3 torque = arm.cross(direction);
+    const Vector3 axis = turning_ * torque;
     const double lever = arm.norm();
-    const double gyration = squared_gyration(arm);
-    const double largest = kLargestTurn + std::min(kLargestTurnBefore, turn);
-    const double excess = lever > 0 ? approach * lever / (lever * lever + gyration) / largest : 0;
+    const double gyration = squared_gyration(lever, torque.dot(axis));
+    if (!(gyration > 0)) return 1;
+    const double largest = largest_turn_ + std::max(0.0, turn_.dot(axis.normalized()));
+    // A lever beyond the radius of gyration turns the body by less, but those on the way to a short one turn it by more.
+    const double worst = std::min(lever, std::sqrt(gyration));
+    const double excess = way * worst / (worst * worst + gyration) / largest;
     if (!(excess > 1)) return 1;
     const double twice = 2 * largest * std::sqrt(gyration);
-    const double root = std::sqrt(std::max(0.0, approach * approach - twice * twice));
-    const double small = std::min(lever, 2 * largest * gyration / (approach + root));
+    const double root = std::sqrt(std::max(0.0, way * way - twice * twice));
+    const double small = std::min(lever, 2 * largest * gyration / (way + root));
     return 1 - std::min(1.0, (excess - 1) / (kFarTooLarge - 1)) * (1 - small / lever);
   }
 
-  /// The largest part of a lever with which a contact lets the centres come nearer by no more than the height, by the impact and by
-  /// the turn in which the bodies are: (A b^2 + u b k^2) / (b^2 + k^2) <= H for the approach A, the turn u and the lever b.
+  /// The largest part of a lever with which a contact lets the bodies come nearer by no more than the height, by the impact and by
+  /// the turn in which they are: (A b^2 + u b k^2) / (b^2 + k^2) <= H for the approach A, the turn u and the lever b.
   double part_for_height(const Vector3& arm) const {
+    const Vector3 torque = arm.cross(normal_);
     const double lever = arm.norm();
-    const double gyration = squared_gyration(arm);
-    const double of_turn = turn * gyration;
-    const double discriminant = of_turn * of_turn + 4 * (approach - height) * height * gyration;
+    const double gyration = squared_gyration(lever, torque.dot(turning_ * torque));
+    const double of_turn = turn_.norm() * gyration;
+    const double discriminant = of_turn * of_turn + 4 * (approach_ - height_) * height_ * gyration;
     if (!(discriminant >= 0)) return 1;
-    const double allowed = 2 * height * gyration;
+    const double allowed = 2 * height_ * gyration;
     const double asked = lever * (of_turn + std::sqrt(discriminant));
     return allowed < asked ? allowed / asked : 1;
   }
+
+  const BodyAhead& body1_;
+  const BodyAhead& body2_;
+  double time_;          // s
+  Vector3 normal_;       // unit, from body 1 to body 2
+  double gap_;           // m; that is left, 0 in an overlap
+  double gained_;        // m/s; by gravity and forces
+  Vector3 centre_;       // m; of mass
+  Matrix3 turning_;      // 1/m^2
+  Vector3 turn_;         // radians; in which the bodies are already
+  double largest_turn_;  // radians; by an impact
+  double approach_;      // m
+  double height_;        // m; by so much the middles may come nearer at any attitude
 };
 
 }  // namespace
 
 void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
-  const Vector3& normal = manifold.deepest.normal;
-  const double closing = normal.dot(body1.motion.velocity - body2.motion.velocity);
-  const double gained = time * std::max(body1.motion.acceleration, body2.motion.acceleration);
-  const double approach = (closing + gained) * time - manifold.deepest.gap;
-  if (!(approach > 0)) return;
-  const Vector3 centre = share * body1.motion.centre + (1 - share) * body2.motion.centre;
-  const auto arm_of = [&](const Vector3& place) {
-    const Vector3 way = place - centre;
-    return Vector3(way - normal.dot(way) * normal);
-  };
-  const Vector3& contact = manifold.deepest.contact;
-  const double height = share * height_of(body1, normal, contact) + (1 - share) * height_of(body2, -normal, contact) +
-                        std::min(0.0, manifold.deepest.gap);
-  const double turn = time * (share * body1.motion.turn_rate + (1 - share) * body2.motion.turn_rate);
-  const LeverLimit limit{body1, body2, share, normal, approach, turn, std::max(0.0, height)};
-  const Vector3 place = nearest_place(manifold, contact - arm_of(contact));
-  const Vector3 arm = arm_of(place);
-  const auto cut_from = [&](const Vector3& lever) {
-    return Vector3((std::min(limit.part_for_small_turn(lever), limit.part_for_height(lever)) - 1) * lever);
-  };
-  const Vector3 shift = cut_from(arm);
+  const LeverLimit limit(body1, body2, time, share, manifold.deepest);
+  if (!(limit.approach() > 0)) return;
+  const Vector3 under = limit.under_centre(manifold.deepest.contact);
+  const Vector3 place = nearest_place(manifold, under);
+  const Vector3 shift = limit.shift_of(place);
   for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
-  manifold.deepest.contact += cut_from(arm_of(contact));  // with room for one it acts alone
-  if (approach > kOneContact * smaller_thickness(body1.shape, body2.shape)) {
+  manifold.deepest.contact += limit.shift_of(manifold.deepest.contact);  // with room for one it acts alone
+  // Of contacts that are all on one side of the centre only the nearest acts, but quickstep does not find that.
+  const bool is_beside = manifold.corner_count > 0 && place != under && limit.part_at(place) < 1;
+  if (is_beside || limit.approach() > kOneContact * smaller_thickness(body1.shape, body2.shape)) {
     manifold.deepest.contact = place + shift;
     manifold.corner_count = 0;
   }

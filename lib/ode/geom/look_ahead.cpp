@@ -49,10 +49,9 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) 
     motion.turning = turning_of(body, mass);
   }
   if (dBodyIsEnabled(body) == 0) return motion;
-  const Vector3 turn = to_vector(dBodyGetAngularVel(body));
+  motion.angular_velocity = to_vector(dBodyGetAngularVel(body));
   const Vector3 from_centre = origin - motion.centre;
-  motion.velocity = to_vector(dBodyGetLinearVel(body)) + turn.cross(from_centre);
-  motion.turn_rate = turn.norm();
+  motion.velocity = to_vector(dBodyGetLinearVel(body)) + motion.angular_velocity.cross(from_centre);
   motion.arm = radius + 2 * from_centre.norm();
   if (motion.mobility > 0) motion.acceleration = acceleration_of(body, motion.mobility);
   return motion;
