@@ -32,6 +32,13 @@ MovingGap::MovingGap(const Motion& motion1, const Motion& motion2, const Turning
                      motion1.pose.rotation * motion1.centre),
       velocity_(motion2.velocity - motion1.velocity) {}
 
+double MovingGap::rounding(double t) const { return kRounding * (terms() + t * fastest()); }
+
+double MovingGap::known_until(double rounding, double horizon) const {
+  const double way = std::max(0.0, rounding / kRounding - terms());
+  return way < horizon * fastest() ? way / fastest() : horizon;
+}
+
 double MovingGap::rate(const Proximity& proximity, double t) const {
   // On a face the witness points may be any; the contact is a point of both bodies.
   const bool has_contact = proximity.status != Status::Apart;
@@ -91,7 +98,7 @@ Proximity MovingPair::evaluate(const Vector3& n, double t) {
   return out;
 }
 
-double MovingPair::rounding(double horizon) const { return kRounding * (offset(0).norm() + horizon * fastest() + reach()); }
+double MovingPair::terms() const { return offset(0).norm() + reach(); }
 
 double MovingPair::balls_meet(double horizon) const {
   if (!is_turning()) return 0;
@@ -103,6 +110,10 @@ double MovingPair::balls_meet(double horizon) const {
   const double discriminant = b * b - a * c;
   if (b >= 0 || discriminant < 0) return std::numeric_limits<double>::infinity();
   return c / (-b + std::sqrt(discriminant));
+}
+
+bool MovingPair::is_parting(double t) const {
+  return is_turning() && offset(t).dot(velocity()) >= 0 && offset(t).norm() > reach() + rounding(t);
 }
 
 MovingOverPlane::MovingOverPlane(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset)
@@ -118,8 +129,11 @@ Proximity MovingOverPlane::find(double t, const Vector3* /*first_normal*/, doubl
                               plane_offset_ - plane_normal_.dot(origin(t)));
 }
 
-double MovingOverPlane::rounding(double horizon) const {
-  return kRounding * (first_centre1().norm() + horizon * fastest() + reach() + std::abs(plane_offset_));
+double MovingOverPlane::terms() const { return first_centre1().norm() + reach() + std::abs(plane_offset_); }
+
+bool MovingOverPlane::is_parting(double t) const {
+  const double height = plane_normal_.dot(origin(t)) - plane_offset_;
+  return is_turning() && plane_normal_.dot(velocity()) <= 0 && height > reach() + rounding(t);
 }
 
 }  // namespace supernormal

@@ -27,8 +27,17 @@ class MovingGap {
   /// m; the smallest half-extent of the bodies.
   virtual double length_unit() const = 0;
 
-  /// m; the rounding of s, at any time in [0, horizon].
-  virtual double rounding(double horizon) const = 0;
+  /// Whether balls that hold the bodies, about their centres, are apart at time t and never meet again. Only for bodies that turn.
+  virtual bool is_parting(double t) const = 0;
+
+  /// Unit; the normal that separates those balls at time t.
+  virtual Vector3 parting_normal(double t) const = 0;
+
+  /// m; the rounding of s, at any time in [0, t].
+  double rounding(double t) const;
+
+  /// s; no later than `horizon`; until then the rounding of s is no more than `rounding` (m).
+  double known_until(double rounding, double horizon) const;
 
   /// m/s; how fast s at the normal of a proximity, at the time t, changes. An estimate: on a face another point may decide.
   double rate(const Proximity& proximity, double t) const;
@@ -58,6 +67,9 @@ class MovingGap {
   Vector3 offset(double t) const { return centre_offset_ + t * velocity_; }
   const Vector3& velocity() const { return velocity_; }  // m/s; of the centre of body 2 against that of body 1
 
+  /// m; the sizes and distances at time 0 of which s is the sum.
+  virtual double terms() const = 0;
+
   void count(int evaluations) { evaluations_ += evaluations; }
 
  private:
@@ -79,16 +91,16 @@ class MovingPair final : public MovingGap {
   Proximity find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) override;
   Proximity evaluate(const Vector3& n, double t) override;
   double length_unit() const override { return length_unit_; }
-  double rounding(double horizon) const override;
 
   /// s; balls that hold the bodies, about their centres, do not meet before; 0 where neither body turns, and where they overlap at
   /// first.
   double balls_meet(double horizon) const;
 
-  /// Unit, from the centre of body 1 to that of body 2.
-  Vector3 between_centres(double t) const { return offset(t).stableNormalized(); }
+  bool is_parting(double t) const override;
+  Vector3 parting_normal(double t) const override { return offset(t).stableNormalized(); }
 
  private:
+  double terms() const override;
   Pose pose1(double t) const;
   Pose pose2(double t) const;
 
@@ -107,9 +119,12 @@ class MovingOverPlane final : public MovingGap {
   Proximity find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) override;
   Proximity evaluate(const Vector3& n, double t) override { return find(t, &n, 0, 1); }
   double length_unit() const override { return shape_.half_extents().minCoeff(); }
-  double rounding(double horizon) const override;
+  bool is_parting(double t) const override;
+  Vector3 parting_normal(double /*t*/) const override { return -plane_normal_; }
 
  private:
+  double terms() const override;
+
   const Shape& shape_;
   const Vector3& plane_normal_;
   double plane_offset_;

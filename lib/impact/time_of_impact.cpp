@@ -11,13 +11,15 @@
 namespace supernormal {
 namespace {
 
-constexpr double kMaxHorizon = 1e30;  // s
-
-// m/s, rad/s and m: products of two such numbers and times are finite.
-constexpr double kFastest = 1e75;
-
 // The gap is known to rounding: less than some units of it cannot be told from an overlap.
 constexpr double kRoundingUnits = 4;
+
+// Rounding grows with the way that the bodies go. So the horizon is looked at in windows, each so many times as long as the ones
+// before: an impact is known to the rounding of no more than so many times the way until it.
+constexpr double kWindowGrowth = 8;
+
+// The first window ends where rounding is this share of what is asked for, or twice that of the first places.
+constexpr double kUnfelt = 1e-3;
 
 // A look ahead may find an overlap, whose depth is of no use: it takes no more evaluations than bodies apart do.
 constexpr int kLookAheadEvaluations = 12;
@@ -87,11 +89,13 @@ class ImpactSearch {
       : gap_(gap),
         horizon_(horizon),
         most_evaluations_(settings.max_evaluations),
-        rounding_(gap.rounding(horizon)),
-        tolerance_(std::max(0.5 * settings.tolerance * gap.length_unit(), kRoundingUnits * rounding_)) {}
+        asked_(0.5 * settings.tolerance * gap.length_unit()) {
+    look_until(gap.known_until(std::max(kUnfelt * asked_, 2 * gap.rounding(0)), horizon));
+  }
 
   /// The bodies are apart before `start`.
   Impact run(double start, const Vector3* first_normal) {
+    while (end_ < start) look_farther();
     t_ = start;
     now_ = find(t_, first_normal);
     if (t_ == 0 && now_.status != Status::InvalidInput && now_.gap <= tolerance_) {
@@ -101,7 +105,12 @@ class ImpactSearch {
     while (now_.status != Status::InvalidInput && now_.gap > tolerance_) {
       if (t_ == horizon_) return end(ImpactStatus::Apart);
       if (++strides_ > most_evaluations_) return end(ImpactStatus::NotConverged);
-      advance();
+      if (t_ == end_) {
+        if (gap_.is_parting(t_)) return apart(gap_.parting_normal(horizon_));
+        look_farther();
+      } else {
+        advance();
+      }
     }
     return end(ImpactStatus::Hits);
   }
@@ -126,6 +135,14 @@ class ImpactSearch {
     return out;
   }
 
+  void look_until(double end) {
+    end_ = end;
+    rounding_ = gap_.rounding(end);
+    tolerance_ = std::max(asked_, kRoundingUnits * rounding_);
+  }
+
+  void look_farther() { look_until(std::min(kWindowGrowth * end_, horizon_)); }
+
   bool is_known(ImpactStatus status) const {
     if (now_.status == Status::Converged || now_.is_global) return true;
     return status == ImpactStatus::Apart || (status == ImpactStatus::Overlapping && now_.gap + now_.global_error < 0);
@@ -135,14 +152,14 @@ class ImpactSearch {
 
   /// Moves on as far as it can be proved that the bodies are apart.
   void advance() {
-    const double left = horizon_ - t_;
+    const double left = end_ - t_;
     const double a = now_.gap - rounding_;
     const double rate = gap_.rate(now_, t_);
     if (!gap_.is_turning()) return advance_straight(a, rate, left);
-    if (a >= gap_.fastest() * left) return move_to_horizon(gap_.evaluate(now_.normal, horizon_));
+    if (a >= gap_.fastest() * left) return move_to_end(gap_.evaluate(now_.normal, end_));
     const double K = gap_.bound(now_.normal, 0, is_turned_ ? turn_.angle : 0);
     const double stride = longest_stride(a, rate, K, left);
-    const double next = stride == left ? horizon_ : t_ + stride;
+    const double next = stride == left ? end_ : t_ + stride;
     const bool is_meeting = a + rate * stride < kFarShare * a;
     if (!is_meeting && !is_turned_) return advance_fixed(a, next, stride);
     look_ahead(a, next, stride);
@@ -153,7 +170,7 @@ class ImpactSearch {
     const Proximity there = gap_.evaluate(now_.normal, next);
     const bool is_valid = there.status != Status::InvalidInput;
     const double share = is_valid ? proved_share(a, there, stride) : 1;
-    if (share == 1 && (!is_valid || next == horizon_)) return move_to_horizon(there);
+    if (share == 1 && (!is_valid || next == end_)) return move_to_end(there);
     if (share == 1 && there.gap > kGoodShare * now_.gap) return move_to(next, there);
     is_turned_ = share < kPoorShare;
     t_ = share == 1 ? next : std::min(t_ + share * stride, next);
@@ -181,8 +198,8 @@ class ImpactSearch {
 
   /// Without rotation, s at a fixed normal is linear.
   void advance_straight(double a, double rate, double left) {
-    if (-rate * left < a) return move_to_horizon(gap_.evaluate(now_.normal, horizon_));
-    t_ = std::min(t_ + a / -rate, horizon_);
+    if (-rate * left < a) return move_to_end(gap_.evaluate(now_.normal, end_));
+    t_ = std::min(t_ + a / -rate, end_);
     now_ = find(t_, &now_.normal);
   }
 
@@ -191,10 +208,10 @@ class ImpactSearch {
     now_ = proximity;
   }
 
-  /// The bodies are apart until the horizon, where `there` proves it: if they are near, a query says how near.
-  void move_to_horizon(const Proximity& there) {
-    move_to(horizon_, there);
-    if (there.status != Status::InvalidInput && there.gap <= tolerance_) now_ = find(horizon_, &there.normal);
+  /// The bodies are apart until the end of the window, where `there` proves it: if they are near, a query says how near.
+  void move_to_end(const Proximity& there) {
+    move_to(end_, there);
+    if (there.status != Status::InvalidInput && there.gap <= tolerance_) now_ = find(end_, &there.normal);
   }
 
   /// The share of a stride for which the normals from now_ to `there` prove that the bodies are apart.
@@ -209,16 +226,16 @@ class ImpactSearch {
 
   /// Whether bodies that touch at first part: then now_ and t_ are when they are apart.
   bool part() {
-    if (horizon_ == 0 || gap_.fastest() == 0) return false;
+    if (end_ == 0 || gap_.fastest() == 0) return false;
     const double rate = gap_.rate(now_, 0);
     if (rate > 0) {
       const double K = gap_.bound(now_.normal, 0, 0);
-      const double then = K * horizon_ > rate ? rate / K : horizon_;
+      const double then = K * end_ > rate ? rate / K : end_;
       if (is_parted(now_, gap_.evaluate(now_.normal, then), then)) return true;
     }
     // At a vertex or on a face another normal, or another point of the face, may decide.
     const double then =
-        kPartingDistance * tolerance_ < horizon_ * gap_.fastest() ? kPartingDistance * tolerance_ / gap_.fastest() : horizon_;
+        kPartingDistance * tolerance_ < end_ * gap_.fastest() ? kPartingDistance * tolerance_ / gap_.fastest() : end_;
     const Proximity later = find(then, &now_.normal);
     return is_parted(gap_.evaluate(later.normal, 0), later, then);
   }
@@ -235,10 +252,12 @@ class ImpactSearch {
   MovingGap& gap_;
   const double horizon_;  // s
   const int most_evaluations_;
-  const double rounding_;   // m
-  const double tolerance_;  // m; half of what is asked for: the queries may leave the other half
-  double t_ = 0;            // s; the bodies are apart before
-  Proximity now_;           // at t_
+  const double asked_;    // m; half of the tolerance that is asked for: the queries may leave the other half
+  double end_ = 0;        // s; of the window
+  double rounding_ = 0;   // m; at any time in the window
+  double tolerance_ = 0;  // m; what is asked for, or what rounding allows
+  double t_ = 0;          // s; the bodies are apart before
+  Proximity now_;         // at t_
   int strides_ = 0;
   Turn turn_{0, Vector3::UnitX()};  // of the normal in a second, as in the last look ahead
   bool is_turned_ = false;          // whether the normal is to turn in a stride
@@ -251,9 +270,9 @@ void check(double horizon, const Settings& settings) {
 }
 
 bool is_usable(const Motion& motion, double horizon) {
-  const bool is_in_range = all_within(motion.velocity, kFastest) && all_within(motion.angular_velocity, kFastest) &&
-                           all_within(motion.centre, kFastest) && all_within(motion.pose.position, kFastest);
-  return is_in_range && is_usable(motion.pose) && all_within(horizon * motion.angular_velocity, kFastest);
+  const bool is_in_range = all_within(motion.velocity, kMaxMotion) && all_within(motion.angular_velocity, kMaxMotion) &&
+                           all_within(motion.centre, kMaxMotion) && all_within(motion.pose.position, kMaxMotion);
+  return is_in_range && is_usable(motion.pose) && all_within(horizon * motion.angular_velocity, kMaxMotion);
 }
 
 }  // namespace
@@ -265,7 +284,7 @@ Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Sha
   MovingPair pair(shape1, motion1, shape2, motion2, settings.solver);
   ImpactSearch search(pair, horizon, settings);
   const double start = pair.balls_meet(horizon);
-  if (start > horizon) return search.apart(pair.between_centres(horizon));
+  if (start > horizon) return search.apart(pair.parting_normal(horizon));
   Vector3 normal;
   if (first_normal != nullptr) normal = motion1.pose.rotation * *first_normal;
   return search.run(start, first_normal != nullptr ? &normal : nullptr);
@@ -274,7 +293,7 @@ Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Sha
 Impact find_plane_time_of_impact(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset,
                                  double horizon, const Settings& settings) {
   check(horizon, settings);
-  const bool is_plane_usable = all_within(plane_normal, 2) && std::islessequal(std::abs(plane_offset), kFastest);
+  const bool is_plane_usable = all_within(plane_normal, 2) && std::islessequal(std::abs(plane_offset), kMaxMotion);
   if (!is_usable(motion, horizon) || !is_plane_usable) return {};
   MovingOverPlane gap(shape, motion, plane_normal, plane_offset);
   return ImpactSearch(gap, horizon, settings).run(0, nullptr);

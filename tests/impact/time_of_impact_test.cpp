@@ -301,6 +301,43 @@ TEST_CASE("random pairs: none missed, none late, none early, by a slow search") 
   }
 }
 
+TEST_CASE("a horizon far beyond the impact costs no digits, and one far beyond a fly-by few evaluations") {
+  const Box wall(Vector3(0.5, 0.5, 0.5));
+  const Ellipsoid oval(Vector3(1, 0.8, 0.6));
+  for (const Vector3& spin : {Vector3(0, 0, 0), Vector3(0.3, 0.5, 0.2)}) {
+    const Motion towards = moving({10, 0, 0}, {-1, 0, 0}, spin);
+    const Motion beside = moving({10, 0, 0}, {-1, 0.9, 0}, spin);
+    const Motion away = moving({10, 0, 0}, {1, 0, 0}, spin);
+    const Impact near = find_time_of_impact(oval, towards, wall, {}, 10);
+    const Impact near_plane = find_plane_time_of_impact(oval, towards, Vector3::UnitX(), 0, 10);
+    REQUIRE(near.status == ImpactStatus::Hits);
+    REQUIRE(near_plane.status == ImpactStatus::Hits);
+    for (const double horizon : {1e3, 1e6, 1e9, 1e12, 1e15, 1e20, 1e30}) {
+      CAPTURE(horizon);
+      const Impact far = find_time_of_impact(oval, towards, wall, {}, horizon);
+      CHECK(far.status == ImpactStatus::Hits);
+      CHECK(std::abs(far.time - near.time) < 2e-10);
+      const Impact far_plane = find_plane_time_of_impact(oval, towards, Vector3::UnitX(), 0, horizon);
+      CHECK(far_plane.status == ImpactStatus::Hits);
+      CHECK(std::abs(far_plane.time - near_plane.time) < 2e-10);
+      const Impact past = find_time_of_impact(oval, beside, wall, {}, horizon);
+      CHECK(past.status == ImpactStatus::Apart);
+      CHECK(past.time == horizon);
+      CHECK(past.proximity.gap > 0);
+      CHECK(past.evaluations < 300);
+      CHECK(find_plane_time_of_impact(oval, away, Vector3::UnitX(), 0, horizon).status == ImpactStatus::Apart);
+    }
+  }
+  // What turns in its place, by 0.2 rad.
+  const Motion slow = moving({0, 0, 1.2}, {0, 0, 0}, {0, 1e-3, 0});
+  const Box long_box(Vector3(2, 0.5, 0.5));
+  const double first = find_time_of_impact(long_box, slow, wall, {}, 1000).time;
+  CHECK(first > 100);
+  for (const double horizon : {1e9, 1e15, 1e25}) {
+    CHECK(std::abs(find_time_of_impact(long_box, slow, wall, {}, horizon).time - first) < 1e-6);
+  }
+}
+
 TEST_CASE("time of impact: what is out of range is refused, what is not finite is told") {
   const Sphere ball(1);
   const Motion there = moving({5, 0, 0}, {-1, 0, 0});

@@ -6,6 +6,10 @@
 
 namespace supernormal {
 
+/// m, m/s, rad/s and rad; no number of a Motion and no angle that a body turns may be larger: products of two such numbers and a
+/// time are finite.
+inline constexpr double kMaxMotion = 1e75;
+
 /// A body that moves with constant linear and angular velocity: `centre` goes straight on, and the body turns about an axis through
 /// it that keeps its direction. So a rigid body moves from one step to the next, with its centre of mass as `centre`.
 struct Motion {

@@ -7,6 +7,9 @@
 
 namespace supernormal {
 
+/// s; no search goes farther.
+inline constexpr double kMaxHorizon = 1e30;
+
 /// How the search for an impact ended.
 enum class ImpactStatus {
   Apart,         ///< no impact until the horizon: proved
@@ -31,7 +34,7 @@ struct Impact {
 };
 
 /// Finds the first time in [0, horizon] at which two bodies in steady motion meet, to the tolerance: Settings::tolerance times the
-/// smallest half-extent of the two, but no less than rounding of the places that they pass (lib/impact/README.md).
+/// smallest half-extent of the two, but no less than rounding of the places that they pass until they meet (lib/impact/README.md).
 ///
 /// At the time of an impact the gap is in [0, tolerance], to rounding, and a gap below half of the tolerance is an impact. None is
 /// missed, however fast the bodies turn: that they are apart is proved for every time before, and not sampled. Bodies that touch at
@@ -40,10 +43,10 @@ struct Impact {
 ///
 /// `first_normal` (unit, in body 1's frame, or null) is where the first query starts: a normal of an earlier, similar pose.
 ///
-/// `horizon` in s, in [0, 1e30]. Of the settings, `tolerance`, `solver` and `max_evaluations` are used, the latter as the limit of
-/// each query and of their number. Throws std::invalid_argument when one of these is out of range; ImpactStatus::InvalidInput when
-/// a number of a motion, or the angle that a body turns, is not within 1e75, a rotation is none (Pose), or a shape delivers what is
-/// not finite.
+/// `horizon` in s, in [0, kMaxHorizon]. Of the settings, `tolerance`, `solver` and `max_evaluations` are used, the latter as the
+/// limit of each query and of their number. Throws std::invalid_argument when one of these is out of range;
+/// ImpactStatus::InvalidInput when a number of a motion, or the angle that a body turns, is not within kMaxMotion, a rotation is
+/// none (Pose), or a shape delivers what is not finite.
 SUPERNORMAL_API Impact find_time_of_impact(const Shape& shape1, const Motion& motion1, const Shape& shape2, const Motion& motion2,
                                            double horizon, const Settings& settings = {}, const Vector3* first_normal = nullptr);
 

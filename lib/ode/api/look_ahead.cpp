@@ -2,6 +2,8 @@
 #include "ode/geom/look_ahead.hpp"
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "ode/geom/body.hpp"
 #include "ode/support/last_error.hpp"
@@ -20,7 +22,13 @@ double require_time(double time) { return require_in("time", time, 0, kLongestTi
 void turn_into_constraint(dContact& contact, double step) {
   if (!(contact.geom.depth < 0)) return;
   const double of_surface = (contact.surface.mode & dContactMotionN) != 0 ? double{contact.surface.motionN} : 0;
-  contact.surface.motionN = static_cast<dReal>(of_surface + contact.geom.depth / step);
+  const double motion = of_surface + double{contact.geom.depth} / step;
+  const double largest = double{std::numeric_limits<dReal>::max()};
+  if (!(std::abs(motion) <= largest)) {
+    throw std::invalid_argument("step = " + to_text(step) + " s closes the gap of " + to_text(-double{contact.geom.depth}) +
+                                " m with " + to_text(-motion) + " m/s, but motionN must be within " + to_text(largest) + " m/s");
+  }
+  contact.surface.motionN = static_cast<dReal>(motion);
   contact.surface.mode |= dContactMotionN;
   contact.geom.depth = 0;
 }

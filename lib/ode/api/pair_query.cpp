@@ -17,8 +17,6 @@
 namespace supernormal::ode {
 namespace {
 
-constexpr double kMaxHorizon = 1e30;  // s; that of the core
-
 // The core's result for two geoms, ours first.
 Proximity query(dGeomID ours, dGeomID collider, Goal goal) {
   require_body(ours);

@@ -21,14 +21,11 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-// The range of what a motion is made of, as in lib/impact/time_of_impact.cpp.
-constexpr double kFastest = 1e75;
-
 Vector3 require_within(const char* name, const Vector3& vector) {
   for (const double coordinate : vector) {
-    if (std::islessequal(std::abs(coordinate), kFastest)) continue;
+    if (std::islessequal(std::abs(coordinate), kMaxMotion)) continue;
     throw std::invalid_argument(std::string(name) + " = " + vector_text(vector.data(), 3) +
-                                " has a coordinate that is not within " + to_text(kFastest));
+                                " has a coordinate that is not within " + to_text(kMaxMotion));
   }
   return vector;
 }
@@ -54,7 +51,7 @@ Impact time_of_impact(const Shape& shape1, const Motion& motion1, const Shape& s
 Impact plane_time_of_impact(const Shape& shape, const Motion& motion, const Vector3& plane_normal, double plane_offset,
                             double horizon, const Settings& settings) {
   const Vector3 normal = require_direction({"plane_normal"}, plane_normal);
-  require_in("plane_offset", plane_offset, -kFastest, kFastest, "m");
+  require_in("plane_offset", plane_offset, -kMaxMotion, kMaxMotion, "m");
   const WithoutTheLock unlocked;
   return require_answer(find_plane_time_of_impact(shape, motion, normal, plane_offset, horizon, settings));
 }

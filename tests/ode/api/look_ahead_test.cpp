@@ -71,6 +71,15 @@ TEST_CASE("snContactLookAhead lets a gap close within the step, and leaves other
     CHECK(contact.geom.depth == dReal(-0.5));
     CHECK(contact.surface.mode == dContactApprox1);
   }
+  // So short that ODE would get a number that is not finite.
+  for (const dReal depth : {dReal(-10), -kEternity}) {
+    contact = contact_of_depth(depth);
+    snContactLookAhead(&contact, std::numeric_limits<dReal>::min());
+    CHECK(refused_with("snContactLookAhead: step = "));
+    CHECK(refused_with("but motionN must be within"));
+    CHECK(contact.geom.depth == depth);
+    CHECK(contact.surface.mode == dContactApprox1);
+  }
   snContactLookAhead(nullptr, dReal(0.01));
   CHECK(refused_with("snContactLookAhead: contact = NULL"));
 }
