@@ -60,6 +60,9 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
   manifold.deepest.evaluations = meeting.evaluations;
   manifold.reach = reach;
   limit_turn(body1, body2, time, share, manifold);
+  if (body1.motion.mobility > 0 && body2.motion.mobility > 0) {
+    act_between_centres(body1, body2, time, share, meeting.time, manifold);
+  }
   return manifold;
 }
 

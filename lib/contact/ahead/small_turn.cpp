@@ -165,7 +165,36 @@ class LeverLimit {
   double height_;        // m; by so much the middles may come nearer at any attitude
 };
 
+/// The larger of the turns that a contact of two free bodies gives them, in largest turns. It takes `approach` (m) away.
+double excess_of(const BodyAhead& body1, const BodyAhead& body2, double share, double approach, const Proximity& contact) {
+  const Vector3 torque1 = (contact.contact - body1.motion.centre).cross(contact.normal);
+  const Vector3 torque2 = (contact.contact - body2.motion.centre).cross(contact.normal);
+  const Vector3 axis1 = share * (body1.motion.turning * torque1);
+  const Vector3 axis2 = (1 - share) * (body2.motion.turning * torque2);
+  const double turn = std::max(axis1.norm() / largest_turn_of(body1), axis2.norm() / largest_turn_of(body2));
+  return approach * turn / (1 + torque1.dot(axis1) + torque2.dot(axis2));
+}
+
 }  // namespace
+
+void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double time, double share, double meeting_time,
+                         ContactManifold& manifold) {
+  Proximity& contact = manifold.deepest;
+  const Vector3 velocity = body1.motion.velocity - body2.motion.velocity;
+  const double closed = contact.normal.dot(velocity);
+  const double excess = excess_of(body1, body2, share, closed * time - std::max(0.0, contact.gap), contact);
+  const Vector3 between = (body2.motion.centre - body1.motion.centre).stableNormalized();
+  if (!(excess > 1 && between.dot(velocity) > 0)) return;
+  const double part = std::min(1.0, (excess - 1) / (kFarTooLarge - 1));
+  const Vector3 normal = (contact.normal + part * (between - contact.normal)).stableNormalized();
+  const Vector3 place = share * body1.motion.centre + (1 - share) * body2.motion.centre;
+  // The gap that there is when they meet, and what closes until then.
+  const double gap = contact.gap + meeting_time * (normal.dot(velocity) - closed);
+  contact.gap = std::max(gap, std::min(0.0, contact.gap));
+  contact.contact += part * (place - contact.contact);
+  contact.normal = normal;
+  manifold.corner_count = 0;
+}
 
 void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold) {
   const LeverLimit limit(body1, body2, time, share, manifold.deepest);

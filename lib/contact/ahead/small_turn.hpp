@@ -14,4 +14,12 @@ namespace supernormal {
 /// the body stops before the wall. The turn that it has lost is one that no step of this length could follow.
 void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold);
 
+/// Gives a contact of two free bodies the normal from centre of mass to centre of mass, where it would turn one of them too far
+/// within `time` wherever it acts in its tangent plane: no place there is in line with both centres.
+///
+/// Between the centres it turns neither body. It stops them where their centres, seen along that normal, are as far apart as when
+/// they meet, after `meeting_time`. So they do not pass each other; what they lose is a part of the way aside, and the turn.
+void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double time, double share, double meeting_time,
+                         ContactManifold& manifold);
+
 }  // namespace supernormal

@@ -79,17 +79,31 @@ struct Flight {
   double speed = 0;        // m/s, before
 };
 
-/// Shoots a body at a wall without friction, and looks for its middle in or behind the wall.
-Flight shoot(Random& random, Wall wall, double spin, bool looks_ahead) {
+struct Shot {
+  Wall wall;
+  double spin = 0;  // rad/s
+  bool looks_ahead = true;
+  double most_offset = 0;  // of the middle from the centre of mass, in largest half-axes
+  double mu = 0;
+};
+
+/// Shoots a body at a wall, and looks for its middle in or behind the wall.
+Flight shoot(Random& random, const Shot& shot) {
   const double step = log_uniform(random, 1e-3, 50e-3);
   const double size = log_uniform(random, 2e-3, 50e-3);
   const double thickness = log_uniform(random, 1e-3, 0.1);
   World world;
   dWorldSetGravity(world.id(), 0, 0, 0);
-  const Front front(world.space(), wall, thickness);
+  world.surface.mode = dContactApprox1;
+  world.surface.mu = dReal(shot.mu);
+  const Front front(world.space(), shot.wall, thickness);
   const dGeomID geom = body_of(world.space(), {size, size * random.uniform(0.3, 1), size * random.uniform(0.3, 1)},
                                any_exponent(random), any_exponent(random));
   const dBodyID body = world.add(geom, 2000);
+  if (shot.most_offset > 0) {
+    const Vec offset = random.uniform(0, shot.most_offset) * size * random.direction();
+    dGeomSetOffsetPosition(geom, dReal(offset[0]), dReal(offset[1]), dReal(offset[2]));
+  }
   random.turn(geom);
   Flight flight;
   flight.speed = log_uniform(random, 1, 1000);
@@ -99,12 +113,12 @@ Flight shoot(Random& random, Wall wall, double spin, bool looks_ahead) {
   const double along = flight.speed * std::sin(angle);
   dBodySetLinearVel(body, dReal(along * std::cos(heading)), dReal(along * std::sin(heading)), dReal(-across));
   const Vec axis = random.direction();
-  dBodySetAngularVel(body, dReal(spin * axis[0]), dReal(spin * axis[1]), dReal(spin * axis[2]));
+  dBodySetAngularVel(body, dReal(shot.spin * axis[0]), dReal(shot.spin * axis[1]), dReal(shot.spin * axis[2]));
   place(geom, {0, 0, 1.8 * size + random.uniform(0, 1.5) * across * step});
-  if (looks_ahead) REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+  if (shot.looks_ahead) REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
   for (int k = 0; k < 8; ++k) {
     world.quick_step(step);
-    flight.is_through = flight.is_through || dBodyGetPosition(body)[2] < 0;
+    flight.is_through = flight.is_through || dGeomGetPosition(geom)[2] < 0;
   }
   const dReal* const v = dBodyGetLinearVel(body);
   flight.speed_along = std::hypot(double{v[0]}, double{v[1]}) - along;
@@ -139,7 +153,7 @@ TEST_CASE("bullets: none is through a wall of any kind, at 1 to 1000 m/s and ste
     Random random(static_cast<unsigned>(wall) + 1);
     int through = 0;
     for (int k = 0; k < 60; ++k) {
-      const Flight flight = shoot(random, wall, 0, true);
+      const Flight flight = shoot(random, {wall});
       through += flight.is_through ? 1 : 0;
       CHECK(std::abs(flight.speed_along) < within_rounding(1e-9, 10) * flight.speed);
     }
@@ -149,7 +163,7 @@ TEST_CASE("bullets: none is through a wall of any kind, at 1 to 1000 m/s and ste
   // They are bullets: many pass without it.
   Random random(1);
   int through = 0;
-  for (int k = 0; k < 60; ++k) through += shoot(random, Wall::Box, 0, false).is_through ? 1 : 0;
+  for (int k = 0; k < 60; ++k) through += shoot(random, {Wall::Box, 0, false}).is_through ? 1 : 0;
   CHECK(through > 20);
 }
 
@@ -157,7 +171,61 @@ TEST_CASE("bullets that spin at 300 rad/s: none is through") {
   OdeSession session;
   for (const Wall wall : kWalls) {
     Random random(static_cast<unsigned>(wall) + 100);
-    for (int k = 0; k < 40; ++k) CHECK(!shoot(random, wall, 300, true).is_through);
+    for (int k = 0; k < 40; ++k) CHECK(!shoot(random, {wall, 300}).is_through);
+  }
+}
+
+TEST_CASE("bullets whose centre of mass is up to three half-axes off their middle, with and without friction: none is through") {
+  OdeSession session;
+  for (const Wall wall : kWalls) {
+    for (const double mu : {0.0, 0.5}) {
+      Random random(static_cast<unsigned>(wall) + 200);
+      int through = 0;
+      for (int k = 0; k < 60; ++k) through += shoot(random, {wall, 0, true, 3, mu}).is_through ? 1 : 0;
+      CAPTURE(static_cast<int>(wall));
+      CAPTURE(mu);
+      CHECK(through == 0);
+    }
+  }
+}
+
+TEST_CASE("two free bodies that meet off centre do not go through each other") {
+  OdeSession session;
+  Random random(12);
+  for (const double sizes_a_step : {1.0, 3.0, 8.0, 50.0}) {
+    int through = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double step = log_uniform(random, 1e-3, 50e-3);
+      const double size = log_uniform(random, 5e-3, 0.5);
+      const double way = sizes_a_step * size;
+      World world;
+      dWorldSetGravity(world.id(), 0, 0, 0);
+      std::array<dBodyID, 2> bodies{};
+      double thickness = 0;  // m; the sum of the smallest half-axes
+      for (dBodyID& body : bodies) {
+        const Vec half_axes = size * Vec{1, random.uniform(0.4, 1), random.uniform(0.4, 1)};
+        thickness += std::min(half_axes[1], half_axes[2]);
+        const dGeomID geom = body_of(world.space(), half_axes, any_exponent(random), any_exponent(random));
+        body = world.add(geom, 1000);
+        random.turn(geom);
+        REQUIRE(snGeomSetLookAhead(geom, dReal(step)) == 1);
+      }
+      place(dBodyGetFirstGeom(bodies[0]), {-3.5 * size - random.uniform(0, 1) * way, random.uniform(0, 0.8) * thickness, 0});
+      dBodySetLinearVel(bodies[0], dReal(way / step), 0, 0);
+      dGeomMoved(dBodyGetFirstGeom(bodies[0]));
+      double nearest = 10 * size;
+      const auto between = [&] { return to_vec(dBodyGetPosition(bodies[1])) - to_vec(dBodyGetPosition(bodies[0])); };
+      for (int i = 0; i < 8; ++i) {
+        const Vec from = between();
+        world.quick_step(step);
+        const Vec moved = between() - from;
+        const double share = std::clamp(-dot(from, moved) / std::max(dot(moved, moved), 1e-30), 0.0, 1.0);
+        nearest = std::min(nearest, norm(from + share * moved));
+      }
+      through += nearest < 0.5 * thickness ? 1 : 0;
+    }
+    CAPTURE(sizes_a_step);
+    CHECK(through <= (sizes_a_step > 10 ? 2 : 0));
   }
 }
 
