@@ -11,7 +11,7 @@
 ///     contacts     find_contact_manifold(), find_plane_contact_manifold(), draw_in_corners(), reduced_to(); hertz_correction(),
 ///                  hertz_damping_ratio()
 ///     ahead        find_contacts_ahead(), find_plane_contacts_ahead(), MeshContactsAhead: contacts of bodies that will meet;
-///                  find_manifold_of_gaps(), find_plane_manifold_of_gaps(), nearness()
+///                  find_manifold_of_gaps(), find_plane_manifold_of_gaps(), nearness(), reach_towards()
 ///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
 ///
 /// Units and frames: lengths in m, or in any other unit that is used throughout; x_world = rotation x_body + position; normals are

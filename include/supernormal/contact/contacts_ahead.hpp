@@ -41,6 +41,9 @@ struct MotionAhead {
 /// both.
 SUPERNORMAL_API double nearness(const MotionAhead& motion, double time, double size);
 
+/// How near to a body a plane across `direction` (unit, towards the plane) must be, for the body to meet it within `time` (s), m.
+SUPERNORMAL_API double reach_towards(const MotionAhead& motion, const Vector3& direction, double time, double size);
+
 /// A body that moves.
 struct BodyAhead {
   const Shape& shape;  ///< what it refers to must live as long

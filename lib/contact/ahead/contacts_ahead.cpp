@@ -40,6 +40,10 @@ ContactManifold none(const Proximity& now, int evaluations) {
 
 double nearness(const MotionAhead& motion, double time, double size) { return nearness_of_both(motion, {}, time, size); }
 
+double reach_towards(const MotionAhead& motion, const Vector3& direction, double time, double size) {
+  return std::max(0.0, motion.velocity.dot(direction)) * time + nearness(motion, time, size);
+}
+
 ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& body2, double time, const Settings& settings,
                                     const Proximity& now) {
   if (now.status == Status::InvalidInput) return now;
@@ -71,8 +75,7 @@ ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, co
   if (now.status == Status::InvalidInput) return now;
   if (!is_finite(body.motion)) return find_plane_contacts_ahead({body.shape, body.pose, {}}, time, now);
   const double size = body.shape.half_extents().minCoeff();
-  const double closing = std::max(0.0, body.motion.velocity.dot(now.normal));
-  const double reach = closing * time + nearness(body.motion, time, size);
+  const double reach = reach_towards(body.motion, now.normal, time, size);
   if (now.gap > reach) return none(now, now.evaluations);
   ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now);
   manifold.reach = reach;

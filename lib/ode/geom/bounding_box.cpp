@@ -54,8 +54,7 @@ bool is_above_plane(dGeomID geom, const Body& body, const Pose& pose, dGeomID pl
   double reach = 0;
   if (body.look_ahead() > 0) {
     const MotionAhead motion = motion_ahead_of(geom, pose.position, body.shape().bounding_radius());
-    const double closing = std::max(0.0, -normal.dot(motion.velocity));
-    reach = closing * body.look_ahead() + nearness(motion, body.look_ahead(), body.size());
+    reach = reach_towards(motion, -normal, body.look_ahead(), body.size());
   }
   return gap - reach > rounding_of(pose.position.lpNorm<1>() + std::abs(double{plane[3]}) + std::abs(gap));
 }
