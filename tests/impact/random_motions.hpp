@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
 
+#include "long_gap.hpp"
 #include "supernormal/impact/time_of_impact.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
@@ -113,12 +115,15 @@ class RandomMotions {
   std::normal_distribution<double> gauss_;
 };
 
-/// The gap of the pair at a time, from a query that knows of no other.
-inline double gap_at(const MovingPair& pair, double t) {
+/// The gap of the pair at a time in long double, at the normal of a query that knows of no other. That normal is off by rounding,
+/// of which the gap function, stationary there, feels the square; on faces it feels the rounding itself.
+inline Long gap_at(const MovingPair& pair, double t) {
   Settings settings;
   settings.tolerance = 1e-13;
-  return find_proximity(*pair.one.shape, pose_at(pair.one.motion, t), *pair.other.shape, pose_at(pair.other.motion, t), settings)
-      .gap;
+  const Shape& shape1 = *pair.one.shape;
+  const Shape& shape2 = *pair.other.shape;
+  const Proximity proximity = find_proximity(shape1, pose_at(pair.one.motion, t), shape2, pose_at(pair.other.motion, t), settings);
+  return long_gap(shape1, pair.one.motion, shape2, pair.other.motion, t, proximity.normal);
 }
 
 /// m/s; no gap of the pair changes faster: the speed of the centres, and the angular velocities times the reach of the bodies.
@@ -130,13 +135,20 @@ inline double fastest(const MovingPair& pair) {
   return speed;
 }
 
+/// m; the sizes, the distance and the way of the bodies: all that rounding of the gap is a share of.
+inline double terms(const MovingPair& pair) {
+  double sum = pair.other.motion.pose.position.norm() + pair.horizon * fastest(pair);
+  for (const MovingBody* body : {&pair.one, &pair.other}) sum += body->shape->half_extents().norm() + body->motion.centre.norm();
+  return sum;
+}
+
 /// s; the gap exceeds `level` (m) before this time: by steps in which no gap can fall by more than it exceeds it. It is `horizon`
 /// if there is no such gap, and where `most_steps` do not reach so far the time that they reach.
 inline double apart_until(const MovingPair& pair, double horizon, double level, int most_steps) {
   const double speed = fastest(pair);
   double t = 0;
   for (int step = 0; step < most_steps; ++step) {
-    const double excess = gap_at(pair, t) - level;
+    const double excess = static_cast<double>(gap_at(pair, t) - level);
     if (excess <= 0) return t;
     if (speed * (horizon - t) <= excess) return horizon;
     t += excess / speed;
@@ -149,8 +161,8 @@ inline double deepest_before(const MovingPair& pair, double until, int samples) 
   double depth = 0;
   for (int k = 0; k < samples; ++k) {
     const double share = static_cast<double>(k) / samples;
-    depth = std::max(depth, -gap_at(pair, share * until));
-    depth = std::max(depth, -gap_at(pair, (1 - std::pow(10, -8 * share)) * until));
+    depth = std::max(depth, static_cast<double>(-gap_at(pair, share * until)));
+    depth = std::max(depth, static_cast<double>(-gap_at(pair, (1 - std::pow(10, -8 * share)) * until)));
   }
   return depth;
 }
@@ -165,7 +177,7 @@ struct Verdict {
   double gap = 0;             ///< m; at its time
   double earlier = 0;         ///< s; by so much it is earlier than a gap of a millionth of the size
   double tolerance = 0;       ///< m; of the impact
-  double rounding = 0;        ///< m; of the gap that the slow search finds
+  double rounding = 0;        ///< m; four times that of s (lib/impact/README.md)
 
   bool is_right() const { return overlap_before <= rounding && gap <= tolerance + rounding && gap >= -rounding && earlier <= 0; }
 };
@@ -174,10 +186,10 @@ struct Verdict {
 inline Verdict judge(const MovingPair& pair, const Impact& impact) {
   Verdict verdict;
   verdict.tolerance = 1e-9 * pair.unit;
-  verdict.rounding = 1e-13 * (10 + fastest(pair) * pair.horizon);
+  verdict.rounding = 64 * std::numeric_limits<double>::epsilon() * terms(pair);  // as the tolerance allows
   verdict.overlap_before = deepest_before(pair, impact.apart_until, 40);
   if (impact.status != ImpactStatus::Hits) return verdict;
-  verdict.gap = gap_at(pair, impact.time);
+  verdict.gap = static_cast<double>(gap_at(pair, impact.time));
   verdict.earlier = apart_until(pair, pair.horizon, 1e-6 * pair.unit, 300) * (1 - 1e-12) - impact.time;
   return verdict;
 }

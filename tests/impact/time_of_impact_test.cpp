@@ -238,7 +238,7 @@ TEST_CASE("the same impact when bodies are swapped, moved together, scaled, or t
         CHECK(other.status == impact.status);
         if (impact.status != ImpactStatus::Hits) return;
         // Each is where the gap is within the tolerance, and nothing was before.
-        const double between = std::max(gap_at(pair, other.time / time), gap_at(pair, impact.time));
+        const Long between = std::max(gap_at(pair, other.time / time), gap_at(pair, impact.time));
         CHECK(between <= 1.01e-9 * pair.unit);
         CHECK(other.proximity.gap <= 1.01e-9 * pair.unit * length);
       };
@@ -267,6 +267,15 @@ TEST_CASE("the same impact when bodies are swapped, moved together, scaled, or t
       CHECK(later.time == doctest::Approx(1024 * impact.time).epsilon(1e-12));
       CHECK(later.evaluations == impact.evaluations);
     }
+  }
+}
+
+TEST_CASE("the slow search has the support functions of the bodies, in long double") {
+  RandomMotions random(8);
+  for (int k = 0; k < 2000; ++k) {
+    const std::shared_ptr<const Shape> shape = random.shape();
+    const Vector3 n = random.direction();
+    CHECK(std::abs(long_support(*shape, n.cast<Long>()) - shape->support(n)) < 4e-15);
   }
 }
 
