@@ -317,6 +317,80 @@ def test_a_pose_that_cannot_be_computed_with(place):
     assert pyode.collide(geom, pyode.GeomPlane(None, (0, 0, 1), 0)) == [] and "position = (nan, 0, 0) m" in so.lastError()
 
 
+@pytest.fixture
+def look_ahead():
+    """Sets the default, and takes it back."""
+    yield so.setDefaultLookAhead
+    so.setDefaultLookAhead(0)
+
+
+def shoot(speed, step):
+    """A pebble against 1 cm of wall at x = 5; where it is after ten steps, and the least depth of a contact."""
+    world, space, contacts = pyode.World(), pyode.SimpleSpace(), pyode.JointGroup()
+    wall = pyode.GeomBox(space, (0.01, 2, 2))
+    wall.setPosition((5, 0, 0))
+    pebble = so.Ellipsoid(space, (0.02, 0.015, 0.01))
+    body = pyode.Body(world)
+    pebble.setBodyAndMass(body, 7800)
+    body.setLinearVel((speed, 0, 0))
+    depths = []
+
+    def near(_, geom1, geom2):
+        for contact in pyode.collide(geom1, geom2):
+            contact.setMode(pyode.ContactApprox1)
+            contact.setMu(0.5)
+            depths.append(contact.getContactGeomParams()[2])
+            so.contactLookAhead(contact, step)
+            pyode.ContactJoint(world, contacts, contact).attach(geom1.getBody(), geom2.getBody())
+
+    for _ in range(10):
+        space.collide(None, near)
+        world.quickStep(step)
+        contacts.empty()
+    return body.getPosition()[0], min(depths, default=0)
+
+
+def test_contacts_before_overlap(look_ahead):
+    assert shoot(1000, 0.02)[0] > 100  # through
+    look_ahead(0.02)
+    place, depth = shoot(1000, 0.02)
+    assert place == pytest.approx(5 - 0.005 - 0.02, abs=1e-6)
+    assert depth < -4.9
+    look_ahead(0)
+    geom = so.Ellipsoid(None, (0.02, 0.015, 0.01))
+    plane = pyode.GeomPlane(None, (0, 0, 1), 0)
+    geom.setPosition((0, 0, 0.01005))
+    assert pyode.collide(geom, plane) == []
+    geom.setLookAhead(0.02)
+    (contact,) = pyode.collide(geom, plane)
+    assert contact.getContactGeomParams()[2] == pytest.approx(-5e-5, rel=1e-3)
+    contact.setMode(pyode.ContactApprox1)
+    contact.setMu(0.25)
+    so.contactLookAhead(contact, 0.02)
+    assert contact.getContactGeomParams()[2] == 0
+    assert contact.getMode() == pyode.ContactApprox1 | 0x080 and contact.getMu() == 0.25  # dContactMotionN, of which PyODE knows nothing
+
+
+def test_refusals_of_contacts_before_overlap():
+    geom = so.Ellipsoid()
+    for time in (-1, float("nan"), 2e6):
+        with pytest.raises(ValueError, match=r"time = .* is outside \[0, 1e\+06\] s"):
+            geom.setLookAhead(time)
+        with pytest.raises(ValueError, match="snSetDefaultLookAhead: time = "):
+            so.setDefaultLookAhead(time)
+    contact = pyode.Contact()
+    for step in (0, -1, float("inf")):
+        with pytest.raises(ValueError, match="snContactLookAhead: step = "):
+            so.contactLookAhead(contact, step)
+    with pytest.raises(TypeError, match="must be an ode.Contact"):
+        so.contactLookAhead(geom, 0.01)
+    mode = contact.getMode()
+    contact.setContactGeomParams((0, 0, 0), (0, 0, 1), -1, geom, geom)
+    with pytest.raises(ValueError, match="ode.ContactBounce"):
+        so.contactLookAhead(contact, 0.01)
+    assert contact.getContactGeomParams()[2] == -1 and contact.getMode() == mode
+
+
 def test_wrong_types():
     with pytest.raises(TypeError, match="must be a supernormal.Shape"):
         so.Convex(pyode.SimpleSpace())

@@ -204,6 +204,8 @@ void bind_library(py::module_& m) {
   m.def("set_default_solver", [](int solver, double tolerance, int max_evaluations) {
     accepted(snSetDefaultSolver(static_cast<snSolver>(solver), real(tolerance), max_evaluations));
   });
+  m.def("set_look_ahead", [](Number g, double time) { accepted(snGeomSetLookAhead(geom(g), real(time))); });
+  m.def("set_default_look_ahead", [](double time) { accepted(snSetDefaultLookAhead(real(time))); });
   m.def("set_warm_start", [](bool on) { snSetWarmStart(on ? 1 : 0); });
   m.def("statistics", &statistics);
   m.def("reset_statistics", &snResetStatistics);

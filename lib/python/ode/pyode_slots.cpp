@@ -1,9 +1,15 @@
 #include "pyode_slots.hpp"
 
+#include <pybind11/stl.h>
+
+#include <array>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "supernormal/supernormal.h"
 
 namespace py = pybind11;
 
@@ -20,6 +26,12 @@ Word read_word(const py::handle& object, py::ssize_t offset) {
 
 void write_word(const py::handle& object, py::ssize_t offset, Word word) {
   std::memcpy(reinterpret_cast<char*>(object.ptr()) + offset, &word, sizeof word);
+}
+
+dContact read_contact(const py::handle& contact, py::ssize_t offset) {
+  dContact held;
+  std::memcpy(&held, reinterpret_cast<const char*>(contact.ptr()) + offset, sizeof held);
+  return held;
 }
 
 /// The offset of the one word of `object`, behind the header of all objects, that is `word`.
@@ -49,11 +61,45 @@ void adopt(const py::handle& geom, std::pair<py::ssize_t, py::ssize_t> slots, Wo
   py::handle(reinterpret_cast<PyObject*>(before)).dec_ref();  // NOLINT(performance-no-int-to-ptr): a pointer was read as a word
 }
 
+/// `contact`: one whose parameters all differ from one another, those of `surface` and `geom`. Returns the offset of its dContact,
+/// which is the last that it holds.
+py::ssize_t find_contact(const py::handle& contact, double mu, double motion2, double depth, std::array<double, 3> fdir1) {
+  const auto offset = Py_TYPE(contact.ptr())->tp_basicsize - static_cast<py::ssize_t>(sizeof(dContact));
+  const auto is = [](dReal held, double wanted) { return held == static_cast<dReal>(wanted); };
+  if (offset >= static_cast<py::ssize_t>(sizeof(PyObject))) {
+    const dContact held = read_contact(contact, offset);
+    if (is(held.surface.mu, mu) && is(held.surface.motion2, motion2) && is(held.geom.depth, depth) && is(held.fdir1[0], fdir1[0]) &&
+        is(held.fdir1[1], fdir1[1]) && is(held.fdir1[2], fdir1[2])) {
+      return offset;
+    }
+  }
+  throw py::import_error("this PyODE is unknown: a contact does not hold its dContact last");
+}
+
+void look_ahead(const py::handle& contact, py::ssize_t offset, double step) {
+  const auto duration = static_cast<dReal>(step);
+  dContact probe{};
+  probe.geom.depth = -1;
+  snContactLookAhead(&probe, duration);
+  if (probe.geom.depth < 0) throw std::invalid_argument(snLastError());
+  dContact held = read_contact(contact, offset);
+  if (held.geom.depth < 0 && (held.surface.mode & dContactBounce) != 0) {
+    throw std::invalid_argument(
+        "contact: its mode has ode.ContactBounce (an ode.Contact starts with it) and its depth is negative; allowed: no bounce "
+        "before "
+        "touch, as by setMode(ode.ContactApprox1)");
+  }
+  snContactLookAhead(&held, duration);
+  std::memcpy(reinterpret_cast<char*>(contact.ptr()) + offset, &held, sizeof held);
+}
+
 }  // namespace
 
 void bind_slots(py::module_& m) {
   m.def("find_slots", &find_slots);
   m.def("adopt", &adopt);
+  m.def("find_contact", &find_contact);
+  m.def("contact_look_ahead", &look_ahead);
   m.def("number_of",
         [](const py::handle& geom, std::pair<py::ssize_t, py::ssize_t> slots) { return read_word(geom, slots.first); });
 }

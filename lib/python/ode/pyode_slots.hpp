@@ -9,6 +9,8 @@ namespace supernormal::python {
 /// and that no function sets. Where it lies is not published, so find_slots() looks for it in an object whose number is known, and
 /// refuses a PyODE where the answer is not unique. adopt() then writes it into an object of a class that derives from GeomObject,
 /// which destroys the geom as it destroys its own.
+///
+/// In the same way find_contact() looks for the dContact in a contact of PyODE's, some of whose parameters PyODE does not set.
 void bind_slots(pybind11::module_& m);
 
 }  // namespace supernormal::python

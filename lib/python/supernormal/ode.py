@@ -17,6 +17,7 @@ contacts, and lastError() says why.
 
 from __future__ import annotations
 
+import functools
 import sys
 from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
@@ -39,10 +40,12 @@ __all__ = [
     "Statistics",
     "Superellipsoid",
     "Superovoid",
+    "contactLookAhead",
     "getStatistics",
     "lastError",
     "proximity",
     "resetStatistics",
+    "setDefaultLookAhead",
     "setDefaultSolver",
     "setWarmStart",
 ]
@@ -112,6 +115,15 @@ class _Geom(_pyode.GeomObject, metaclass=_Made):  # type: ignore[misc]  # PyODE 
     def setSolver(self, solver: Solver = Solver.HYBRID, tolerance: float = 1e-9, maxEvaluations: int = 1000) -> None:
         """Sets how queries with this geom are solved: a Solver, a tolerance in [1e-15, 1] and a limit in [1, 1000000]."""
         _ode.set_solver(self._id(), solver, tolerance, maxEvaluations)
+
+    def setLookAhead(self, time: float) -> None:
+        """Lets ode.collide() also return contacts of pairs that may meet within `time`, s, in [0, 1e6]; 0 (default): of overlaps only.
+
+        Take the step of the simulation. A contact ahead has depth = -gap < 0: hand it to contactLookAhead(). The body then does not
+        tunnel through what it would hit within a step. After setLinearVel() on a body that has not moved since the last
+        Space.collide(), call this again: the bounding box covers the way.
+        """
+        _ode.set_look_ahead(self._id(), time)
 
     def pointDepth(self, p: Sequence[float]) -> float:
         """The distance of a point (world frame, m) from the boundary, m: positive inside, negative outside."""
@@ -285,6 +297,36 @@ def proximity(geom1: Any, geom2: Any, certified: bool = False) -> GeomProximity:
 def setDefaultSolver(solver: Solver = Solver.HYBRID, tolerance: float = 1e-9, maxEvaluations: int = 1000) -> None:
     """Sets what geoms that are made from now on start with; see setSolver() of a geom."""
     _ode.set_default_solver(solver, tolerance, maxEvaluations)
+
+
+def setDefaultLookAhead(time: float) -> None:
+    """Sets the time, s, in [0, 1e6], by which geoms that are made from now on look ahead; see setLookAhead() of a geom."""
+    _ode.set_default_look_ahead(time)
+
+
+def contactLookAhead(contact: Any, step: float) -> None:
+    """Turns an ode.Contact with a negative depth into the constraint that the gap may close within `step`, s, and no more.
+
+    step: that of the next World.step() or quickStep(), above 0. Call it when the contact's parameters are set, before the
+    ContactJoint is made. Other contacts are left as they are. Set ode.ContactApprox1: without it mu is a force, which acts before the
+    bodies touch. Raises ValueError for a negative depth with ode.ContactBounce, which every ode.Contact starts with: ODE would throw
+    the body back before it touches.
+    """
+    if not isinstance(contact, _pyode.Contact):
+        raise TypeError(f"contact is a {type(contact).__name__}, but must be an ode.Contact")
+    _ode.contact_look_ahead(contact, _contact_slot(), step)
+
+
+@functools.lru_cache(maxsize=None)
+def _contact_slot() -> int:
+    contact = _pyode.Contact()
+    sphere = _pyode.GeomSphere()
+    mu, motion2, depth, direction = 1.25, 2.25, 3.25, (4.25, 5.25, 6.25)
+    contact.setMu(mu)
+    contact.setMotion2(motion2)
+    contact.setFDir1(direction)
+    contact.setContactGeomParams((7, 8, 9), (0, 0, 1), depth, sphere, sphere)
+    return _ode.find_contact(contact, mu, motion2, depth, direction)
 
 
 def setWarmStart(on: bool) -> None:
