@@ -8,6 +8,8 @@
 
 namespace {
 
+constexpr dReal kStep = 0.002;  // s
+
 dWorldID world;
 dJointGroupID contacts;
 
@@ -17,6 +19,7 @@ void collide(void* /*data*/, dGeomID g1, dGeomID g2) {
   for (int i = 0; i < count; ++i) {
     contact[i].surface.mode = dContactApprox1;
     contact[i].surface.mu = 0.5;
+    snContactLookAhead(&contact[i], kStep);
     dJointAttach(dJointCreateContact(world, contacts, &contact[i]), dGeomGetBody(g1), dGeomGetBody(g2));
   }
 }
@@ -35,7 +38,6 @@ dBodyID drop(dGeomID geom, dReal x, dReal y, dReal z) {
 
 int main() {
   constexpr int kPebbles = 20;
-  constexpr dReal kStep = 0.002;    // s
   constexpr int kMostSteps = 5000;  // 10 s
 
   dInitODE2(0);
@@ -49,6 +51,8 @@ int main() {
   // physical model is RollingResistance of <supernormal/effects.hpp>, which C++ programs have; the C interface has none.
   dWorldSetAngularDamping(world, 0.01);
   dWorldSetAngularDampingThreshold(world, 0);
+  // Bodies are met before they overlap, so that nothing falls through the plane, at longer steps too.
+  snSetDefaultLookAhead(kStep);
   dSpaceID space = dHashSpaceCreate(nullptr);
   dCreatePlane(space, 0, 0, 1, 0);
 
