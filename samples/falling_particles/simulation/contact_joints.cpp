@@ -24,10 +24,12 @@ void set_relative_velocity(dContact& contact, const Vector3& velocity) {
   }
   const Vector3 normal = to_vector(contact.geom.normal);
   const Vector3 along = to_vector(contact.fdir1);
+  // The effects may ask for a velocity along the normal, relative to the wall: springs do, and contacts ahead of touch.
+  const double asked = (contact.surface.mode & dContactMotionN) != 0 ? double{contact.surface.motionN} : 0;
   contact.surface.mode |= dContactFDir1 | dContactMotion1 | dContactMotion2 | dContactMotionN;
   contact.surface.motion1 = along.dot(velocity);
   contact.surface.motion2 = normal.cross(along).dot(velocity);
-  contact.surface.motionN = normal.dot(velocity);
+  contact.surface.motionN = asked + normal.dot(velocity);
 }
 
 bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 == b.g1 && a.g2 == b.g2; }
