@@ -6,7 +6,7 @@
 ///     effects.set_up(world);                                   // once
 ///     … in the near callback, with the contacts of one pair:
 ///         n = effects.set_up_contacts({contacts, n});           // fills surface and fdir1; attach the first n
-///     … before each step:
+///     … before each step, and after its near callbacks:
 ///         effects.apply_forces();                               // visits the added bodies if a listed effect is a force
 ///
 /// The list is compiled once: each pair of materials gets the surface parameters that all its contacts start from, and the passes
@@ -192,9 +192,20 @@ struct SurfaceLayer {
   double depth = 0;  ///< m, (0, 1e3]
 };
 
+/// Speculative contacts: bodies that were added with add_body are met before they overlap, so that none tunnels and what rests
+/// comes in by next to nothing, at longer steps (lib/guide.md, "Contacts before overlap"). add_body lets their geoms look ahead by
+/// the step (snGeomSetLookAhead); a contact with a negative depth may then close its gap within the step, and no more. Friction and
+/// resistance to rolling act with it. A body with restitution that will touch within the step is brought to touch, and leaves with
+/// e times the velocity of that moment; the centre of mass of two bodies stays where it is. Springs and adhesion are not felt
+/// before touch: there a contact ahead is left out. Without this effect all are. Costs no row.
+struct SpeculativeContacts {
+  MaterialSelector on;  ///< the contacts that it applies to
+};
+
 /// Any effect.
-using Effect = std::variant<Friction, AnisotropicFriction, RollingResistance, Restitution, Compliance, Hertz, Adhesion, Gravity,
-                            QuadraticDrag, StokesDrag, Buoyancy, Damping, AutoDisable, MaxCorrectingVelocity, SurfaceLayer>;
+using Effect =
+    std::variant<Friction, AnisotropicFriction, RollingResistance, Restitution, Compliance, Hertz, Adhesion, Gravity, QuadraticDrag,
+                 StokesDrag, Buoyancy, Damping, AutoDisable, MaxCorrectingVelocity, SurfaceLayer, SpeculativeContacts>;
 
 /// Tells why a list was refused, and where. The text names effect, parameter, value and range, or the two effects that exclude
 /// each other.
@@ -232,7 +243,7 @@ struct Side {
 struct Cost {
   const char* name;                 ///< its name as in descriptions()
   unsigned long long rows = 0;      ///< constraint rows added
-  unsigned long long contacts = 0;  ///< contacts that the effect took part in
+  unsigned long long contacts = 0;  ///< contacts that the effect took part in; of speculative_contacts those ahead of touch
   unsigned long long coarse = 0;    ///< those among them that are compliant and last fewer than ten steps
   unsigned long long bodies = 0;    ///< bodies visited
   double seconds = 0;               ///< time in its passes, if measured; the solver's time for the rows is not in it
@@ -252,9 +263,9 @@ class SUPERNORMAL_API Effects {
   void set_up(dWorldID world) const;
 
   /// Sets surface and fdir1 of the contacts that dCollide found for one pair, in any order. Returns how many to attach:
-  /// those that can carry no force (of depth 0, on an undamped spring) are moved behind them. The materials are those of geom.g1
-  /// and geom.g2. Call it when the bodies' velocities are those at the start of the step; adhesion adds its force to the bodies
-  /// here.
+  /// those that can carry no force (of depth 0, on an undamped spring; of negative depth, without SpeculativeContacts) are moved
+  /// behind them. The materials are those of geom.g1 and geom.g2. Call it when the bodies' velocities are those at the start of the
+  /// step; adhesion adds its force to the bodies here.
   int set_up_contacts(std::span<dContact> contacts, Material material1 = 0, Material material2 = 0);
 
   /// The same where a contact's bodies are not those of its geoms: a plane of ODE has no body, but may be a wall that moves, and a
@@ -266,13 +277,14 @@ class SUPERNORMAL_API Effects {
   bool visits_bodies() const;
 
   /// Adds a body with geoms of ours. The properties of their geometry that the effects need are computed here: add the body again
-  /// after changing a geom. Nothing happens if no listed effect is a force. std::invalid_argument for a body without a geom of
-  /// ours.
+  /// after changing a geom. With SpeculativeContacts its geoms look ahead from now on. Nothing happens if no listed effect is a
+  /// force, nor SpeculativeContacts. std::invalid_argument for a body without a geom of ours.
   void add_body(dBodyID body);
   /// Forgets a body. Call it before dBodyDestroy; nothing happens for a body that was not added.
   void remove_body(dBodyID body);
 
-  /// Adds the forces of the coming step to all added bodies that are awake.
+  /// Adds the forces of the coming step to all added bodies that are awake, and brings bodies to touch that will bounce ahead of an
+  /// overlap. Call it after the last set_up_contacts of the step: the bodies' places are others then.
   void apply_forces();
 
   /// Measures seconds from now on, at the cost of two readings of the clock (50 ns) a pass.

@@ -57,6 +57,9 @@ constexpr Description kDescription<MaxCorrectingVelocity> = {"max_correcting_vel
                                                              "ODE manual"};
 template <>
 constexpr Description kDescription<SurfaceLayer> = {"surface_layer", "depth (0, 1e3] m", 0, kNoPass, "ODE manual"};
+template <>
+constexpr Description kDescription<SpeculativeContacts> = {"speculative_contacts", "none", 0, "one per contact ahead of touch",
+                                                           "Anitescu and Potra, Nonlinear Dynamics 14 (1997)"};
 
 template <std::size_t... Indices>
 constexpr auto all(std::index_sequence<Indices...> /*indices*/) {

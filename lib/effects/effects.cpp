@@ -4,14 +4,18 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
 #include "effects/body_forces.hpp"
 #include "effects/pair_material.hpp"
+#include "effects/speculative_contacts.hpp"
 #include "effects/validate.hpp"
+#include "ode/geom/body.hpp"
 #include "ode/geom/convert.hpp"
 #include "ode/support/require.hpp"
+#include "supernormal/supernormal.h"
 
 namespace supernormal::effects {
 namespace {
@@ -66,11 +70,39 @@ std::size_t gather_region(std::span<dContact> contacts) {
   return static_cast<std::size_t>(rest - contacts.begin());
 }
 
+/// Moves the contacts that are ahead of touch behind the others, and returns how many the others are.
+std::size_t put_ahead_last(std::span<dContact> contacts) {
+  const auto is_ahead = [](const dContact& contact) { return contact.geom.depth < 0; };
+  if (std::ranges::none_of(contacts, is_ahead)) return contacts.size();
+  return contacts.size() - std::ranges::stable_partition(contacts, std::not_fn(is_ahead)).size();
+}
+
+/// Lets all geoms of ours on a body look ahead.
+void look_ahead(dBodyID body, double time) {
+  bool has_ours = false;
+  for (dGeomID geom = dBodyGetFirstGeom(body); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
+    if (ode::find_body(geom) == nullptr) continue;
+    has_ours = true;
+    if (snGeomSetLookAhead(geom, ode::to_real(time)) == 0) throw std::invalid_argument(snLastError());
+  }
+  if (!has_ours) throw std::invalid_argument("the body has no geom made by snCreate…, but must have one");
+}
+
+template <typename E>
+bool has(const std::vector<Effect>& list) {
+  return std::ranges::any_of(list, [](const Effect& effect) { return std::holds_alternative<E>(effect); });
+}
+
 }  // namespace
 
 struct Effects::State {
   State(const std::vector<Effect>& effects, double duration)
-      : list(validated(effects)), step(ode::require_positive("step", duration, "s")), pair_materials(list), forces(list, step) {}
+      : list(validated(effects)),
+        step(ode::require_positive("step", duration, "s")),
+        pair_materials(list),
+        forces(list, step),
+        is_speculative(has<SpeculativeContacts>(list)),
+        speculative(step) {}
 
   /// Does a piece of work and adds its time to that of an effect, if times are measured.
   template <typename Work>
@@ -82,11 +114,14 @@ struct Effects::State {
   }
 
   int run_passes(PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2);
+  void set_up_ahead(PairMaterial& pair, std::span<dContact> ahead, bool may_approach, dBodyID body1, dBodyID body2);
 
   std::vector<Effect> list;
   double step;
   PairMaterials pair_materials;
   BodyForces forces;
+  bool is_speculative;
+  SpeculativeSetup speculative;
   bool is_measuring = false;
   std::array<double, std::variant_size_v<Effect>> seconds{};
   std::array<unsigned long long, std::variant_size_v<Effect>> visits{};
@@ -108,6 +143,15 @@ int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts,
   return static_cast<int>(kept);
 }
 
+void Effects::State::set_up_ahead(PairMaterial& pair, std::span<dContact> ahead, bool may_approach, dBodyID body1, dBodyID body2) {
+  Patch patch{ahead, step, static_cast<int>(ahead.size()), body1, body2};
+  for (const Pass& pass : pair.passes) {
+    if (pass.acts_ahead) timed(pass.effect, [&] { pass.run(pair, patch); });
+  }
+  timed(index_of<SpeculativeContacts>(), [&] { speculative.set_up(pair, patch, may_approach); });
+  pair.ahead += ahead.size();
+}
+
 Effects::Effects(const std::vector<Effect>& list, double step) : state_(std::make_unique<State>(list, step)) {}
 Effects::~Effects() = default;
 Effects::Effects(Effects&&) noexcept = default;
@@ -126,21 +170,33 @@ int Effects::set_up_contacts(std::span<dContact> contacts, Material material1, M
 int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, const Side& side2) {
   PairMaterial& pair = state_->pair_materials.of(side1.material, side2.material);
   for (dContact& contact : contacts) contact.surface = pair.surface;
-  const int kept =
-      pair.passes.empty() ? static_cast<int>(contacts.size()) : state_->run_passes(pair, contacts, side1.body, side2.body);
+  const std::span<dContact> touching = contacts.first(put_ahead_last(contacts));
+  const std::span<dContact> ahead = contacts.subspan(touching.size());
+  int kept = pair.passes.empty() ? static_cast<int>(touching.size()) : state_->run_passes(pair, touching, side1.body, side2.body);
+  if (pair.is_speculative && !ahead.empty()) {
+    state_->set_up_ahead(pair, ahead, touching.empty(), side1.body, side2.body);
+    kept += static_cast<int>(ahead.size());  // no pass but that of a spring leaves out what touches
+  }
   pair.contacts += static_cast<unsigned long long>(kept);
   return kept;
 }
 
-bool Effects::visits_bodies() const { return !state_->forces.is_empty(); }
-
-void Effects::add_body(dBodyID body) {
-  if (visits_bodies()) state_->forces.add(body);
+bool Effects::visits_bodies() const {
+  return !state_->forces.is_empty() || (state_->is_speculative && has<Restitution>(state_->list));
 }
 
-void Effects::remove_body(dBodyID body) { state_->forces.remove(body); }
+void Effects::add_body(dBodyID body) {
+  if (state_->is_speculative) look_ahead(body, state_->step);
+  if (!state_->forces.is_empty()) state_->forces.add(body);
+}
+
+void Effects::remove_body(dBodyID body) {
+  state_->forces.remove(body);
+  state_->speculative.remove(body);
+}
 
 void Effects::apply_forces() {
+  state_->speculative.approach();
   for (const BodyForces::Listed& pass : state_->forces.passes()) {
     state_->timed(pass.effect, [&] { state_->visits[pass.effect] += (state_->forces.*pass.run)(); });
   }
@@ -157,6 +213,7 @@ std::vector<Cost> Effects::costs() const {
     if (!is_listed) continue;
     Cost cost{.name = descriptions()[index].name, .bodies = state_->visits[index], .seconds = state_->seconds[index]};
     for (const PairMaterial& pair : state_->pair_materials.all()) {
+      if (index == index_of<SpeculativeContacts>()) cost.contacts += pair.ahead;
       if (std::ranges::find(pair.listed, index) == pair.listed.end()) continue;
       cost.contacts += pair.contacts;
       cost.rows += pair.contacts * static_cast<unsigned long long>(pair.rows[index]);

@@ -16,16 +16,6 @@ namespace {
 
 constexpr Material kOther = -2;  // stands for all materials that are not listed
 
-template <typename E>
-constexpr EffectIndex index_of() {
-  EffectIndex index = 0;
-  [&]<std::size_t... kIs>(std::index_sequence<kIs...>) {
-    ((index = std::is_same_v<E, std::variant_alternative_t<kIs, Effect>> ? kIs : index), ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<Effect>>());
-  return index;
-}
-
 /// The entries of one effect in the list.
 template <typename E>
 class Entries {
@@ -108,15 +98,18 @@ class PairMaterialWriter {
     write_restitution();
     write_compliance();
     write_hertz();
+    write_speculative_contacts();
   }
 
  private:
+  enum class Acts { OnTouch, AlsoAhead };
+
   template <typename E>
-  void add(int rows, void (*pass)(const PairMaterial&, Patch&)) {
+  void add(int rows, void (*pass)(const PairMaterial&, Patch&), Acts acts = Acts::OnTouch) {
     constexpr EffectIndex kIndex = index_of<E>();
     pair_.listed.push_back(kIndex);
     pair_.rows[kIndex] = rows;
-    if (pass != nullptr) pair_.passes.push_back({kIndex, pass});
+    if (pass != nullptr) pair_.passes.push_back({kIndex, pass, acts == Acts::AlsoAhead});
   }
 
   void write_adhesion() {
@@ -133,7 +126,7 @@ class PairMaterialWriter {
     // Approx1 makes mu a coefficient; without it ODE takes mu for a force in newtons. The square of forces fits into the circle.
     pair_.surface.mode |= dContactApprox1 | dContactFDir1;
     pair_.surface.mu = pair_.surface.mu2 = ode::to_real(found->coefficient * std::sqrt(0.5));
-    add<Friction>(2, align_friction);
+    add<Friction>(2, align_friction, Acts::AlsoAhead);
   }
 
   bool write_anisotropic_friction() {
@@ -144,7 +137,7 @@ class PairMaterialWriter {
     const AnisotropicFriction& found = on_second ? *second : *first;
     pair_.axes = {found.along, found.across, found.direction, on_second};
     pair_.surface.mode |= dContactApprox1 | dContactFDir1 | dContactMu2;
-    add<AnisotropicFriction>((found.along > 0 ? 1 : 0) + (found.across > 0 ? 1 : 0), align_anisotropic_friction);
+    add<AnisotropicFriction>((found.along > 0 ? 1 : 0) + (found.across > 0 ? 1 : 0), align_anisotropic_friction, Acts::AlsoAhead);
     return true;
   }
 
@@ -157,7 +150,7 @@ class PairMaterialWriter {
     pair_.surface.mode |= dContactApprox1 | dContactRolling | dContactMu2;
     pair_.surface.rho = pair_.surface.rho2 = ode::to_real(found->rolling > 0 ? found->rolling : -1);
     pair_.surface.rhoN = ode::to_real(found->spinning > 0 ? found->spinning : -1);
-    add<RollingResistance>((found->rolling > 0 ? 2 : 0) + (found->spinning > 0 ? 1 : 0), align_rolling);
+    add<RollingResistance>((found->rolling > 0 ? 2 : 0) + (found->spinning > 0 ? 1 : 0), align_rolling, Acts::AlsoAhead);
   }
 
   void write_restitution() {
@@ -166,6 +159,8 @@ class PairMaterialWriter {
     pair_.surface.mode |= dContactBounce;
     pair_.surface.bounce = ode::to_real(found->coefficient);
     pair_.surface.bounce_vel = ode::to_real(found->threshold);
+    pair_.restitution = found->coefficient;
+    pair_.threshold = found->threshold;
     add<Restitution>(0, nullptr);
   }
 
@@ -197,6 +192,12 @@ class PairMaterialWriter {
     pair_.damping_ratio = hertz_damping_ratio(e);
     make_soft(index_of<Hertz>());
     add<Hertz>(0, set_hertz);
+  }
+
+  // A spring is not felt before touch.
+  void write_speculative_contacts() {
+    const auto [first, second] = find_sides<SpeculativeContacts>(list_, a_, b_);
+    pair_.is_speculative = first != nullptr && second != nullptr && pair_.spring == std::variant_npos;
   }
 
   // The target velocity is given as it is (motionN); with a soft ERP of 0 ODE adds nothing for the depth.

@@ -5,6 +5,9 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "effects/patch.hpp"
@@ -15,11 +18,22 @@ namespace supernormal::effects {
 /// The place of an effect in Effect, which is also its place in descriptions().
 using EffectIndex = std::size_t;
 
+template <typename E>
+constexpr EffectIndex index_of() {
+  EffectIndex index = 0;
+  [&]<std::size_t... kIs>(std::index_sequence<kIs...>) {
+    ((index = std::is_same_v<E, std::variant_alternative_t<kIs, Effect>> ? kIs : index), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Effect>>());
+  return index;
+}
+
 struct PairMaterial;
 
 struct Pass {
   EffectIndex effect;
   void (*run)(const PairMaterial& pair, Patch& patch);
+  bool acts_ahead = false;  ///< whether contacts ahead of touch need it too; it then looks at each contact by itself
 };
 
 /// Coefficients of friction that depend on the direction of slip on one of the bodies.
@@ -41,11 +55,15 @@ struct PairMaterial {
   double elastic_modulus = 0;              ///< E*, Pa
   double damping_ratio = 0;                ///< b of Hertz's damper
   double pull_off = 0;                     ///< N
+  double restitution = 0;
+  double threshold = 0;         ///< m/s; approach velocity above which there is restitution
+  bool is_speculative = false;  ///< whether contacts ahead of touch count
 
   std::vector<Pass> passes;                             ///< passes that contacts need besides
   std::vector<EffectIndex> listed;                      ///< effects that take part in these contacts
   std::array<int, std::variant_size_v<Effect>> rows{};  ///< rows that each effect adds to a contact
   unsigned long long contacts = 0;                      ///< contacts set up so far
+  unsigned long long ahead = 0;                         ///< those among them that were ahead of touch
   unsigned long long coarse = 0;
 };
 

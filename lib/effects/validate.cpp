@@ -88,6 +88,7 @@ class Check {
   }
   void operator()(const MaxCorrectingVelocity& e) const { above_zero("velocity", e.velocity, 1e6, "m/s"); }
   void operator()(const SurfaceLayer& e) const { above_zero("depth", e.depth, 1e3, "m"); }
+  void operator()(const SpeculativeContacts& /*effect*/) const {}
 
   const char* name() const { return name_; }
 

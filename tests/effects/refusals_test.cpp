@@ -52,6 +52,7 @@ TEST_CASE("bad parameters are refused with effect, parameter, value and range") 
       {Damping{0, 0}, "damping: linear and angular are both 0"},
       {AutoDisable{0.01, 0.01, 0, 0}, "auto_disable: samples = 0 is outside [1, 1000]"},
       {MaxCorrectingVelocity{0}, "max_correcting_velocity: velocity = 0 m/s is outside (0, 1e+06] m/s"},
+      {SpeculativeContacts{MaterialSelector::of(-7)}, "speculative_contacts: material = -7 is outside [0, 63]"},
       {SurfaceLayer{0}, "surface_layer: depth = 0 m is outside (0, 1000] m"},
   };
   for (const Case& c : cases) {
@@ -64,6 +65,8 @@ TEST_CASE("bad parameters are refused with effect, parameter, value and range") 
 
 TEST_CASE("effects that exclude one another or lack another are refused") {
   const Gravity gravity{{0, 0, -9.81}};
+  CHECK(refusal({SpeculativeContacts{}, SpeculativeContacts{}}) ==
+        "speculative_contacts is listed twice for the same surfaces; it must be listed once");
   CHECK(refusal({gravity, gravity}) == "gravity is listed twice; it must be listed once");
   CHECK(refusal({Friction{0.5, MaterialSelector::between(1, 2)}, Friction{0.4, MaterialSelector::between(2, 1)}}) ==
         "friction is listed twice for the same surfaces; it must be listed once");

@@ -85,6 +85,9 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   lines.add("scene", scene.name + ", in a " + place);
   lines.add("steps", std::to_string(forecast.steps) + " of " + shortest(scene.time.step) + " s, " +
                          std::to_string(forecast.frames) + " frames");
+  if (const std::optional<double> longest = step_for_look_ahead(scene)) {
+    lines.add("steps", "up to " + rounded(*longest) + " s each leave overlaps of about 1e-3 of a half-axis in a bed at rest");
+  }
   std::string grains = std::to_string(scene.bodies()) + " at the start: " + kinds_of(scene);
   if (!scene.feeders.empty()) grains += "; up to " + std::to_string(forecast.most_grains) + " with those of the feeders";
   lines.add("grains", grains);

@@ -66,7 +66,9 @@ std::string moves_too_far(const std::string& who, double way, const Scene& scene
   return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
 }
 
+// What grains that look ahead fall onto, they meet in time.
 void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
+  if (scene.looks_ahead()) return;
   const std::optional<Fall> fall = fall_from_start(scene);
   if (!fall || fall->way <= scene.smallest_half_axis()) return;
   doubts.push_back("the start is " + rounded(fall->height) + " m high, and " +
@@ -151,7 +153,7 @@ void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
   for (const Feeder& feeder : scene.feeders) {
     const double speed = std::hypot(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
     const double way = speed * scene.time.step;
-    if (way > scene.smallest_half_axis()) {
+    if (way > scene.smallest_half_axis() && !scene.looks_ahead()) {
       doubts.push_back(moves_too_far("grains of feeder \"" + feeder.name + "\" move", way, scene) + "time.step up to " +
                        rounded(scene.smallest_half_axis() / speed) + " s would do");
     }
@@ -172,6 +174,25 @@ std::optional<Fall> fall_from_start(const Scene& scene) {
   const double height = filled_lattice(scene).top() - lowest_start(scene.container);
   const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
   return Fall{height, speed, speed * scene.time.step};
+}
+
+// README.md, "Contacts before overlap", has the measurement.
+std::optional<double> step_for_look_ahead(const Scene& scene) {
+  constexpr double kFlat = 4;         // least exponent of grains that lie on faces
+  constexpr double kStep = 1.0 / 10;  // of the time in which a grain would fall by half of its smallest half-axis
+  constexpr double kStepOfFlat = 1.0 / 25;
+  const auto* const gravity = scene.gravity();
+  if (!scene.looks_ahead() || has_soft_contacts(scene) || gravity == nullptr) return std::nullopt;
+  const double acceleration = gravity->acceleration.norm();
+  if (!(acceleration > 0)) return std::nullopt;
+  double least = INFINITY;
+  for (const GrainCount& kind : scene.grains) {
+    for (const GrainPart& part : kind.grain.all_parts()) {
+      const double fall = std::sqrt(kind.smallest_scale() * part.body.smallest_half_axis() / acceleration);
+      least = std::min(least, fall * (std::max(part.body.delta, part.body.epsilon) < kFlat ? kStep : kStepOfFlat));
+    }
+  }
+  return least;
 }
 
 double normal_way_of(const Part& part, const Scene& scene) {

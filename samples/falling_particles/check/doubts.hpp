@@ -19,6 +19,10 @@ struct Fall {
 /// Empty where grains do not fall: without gravity or grains at the start, or in a periodic container.
 std::optional<Fall> fall_from_start(const Scene& scene);
 
+/// s, up to which steps leave overlaps of some 1e-3 of the smallest half-axis in a bed at rest, for grains that look ahead under
+/// gravity; empty for others, and for springs, which have a time of their own.
+std::optional<double> step_for_look_ahead(const Scene& scene);
+
 /// m, the farthest way in a step that a motion of the part takes a place of its surface along the surface's normal. Motions count
 /// together, as if their largest velocities came at once.
 double normal_way_of(const Part& part, const Scene& scene);

@@ -73,6 +73,7 @@ struct LawReader {
   void operator()(const fx::AutoDisable& /*solver*/) {}
   void operator()(const fx::MaxCorrectingVelocity& /*solver*/) {}
   void operator()(const fx::SurfaceLayer& /*solver*/) {}
+  void operator()(const fx::SpeculativeContacts& /*solver*/) {}
   void operator()(const fx::AnisotropicFriction& /*effect*/) { refuse(scene, "anisotropic_friction"); }
   void operator()(const fx::Adhesion& /*effect*/) { refuse(scene, "adhesion"); }
   void operator()(const fx::QuadraticDrag& /*effect*/) { refuse(scene, "quadratic_drag"); }

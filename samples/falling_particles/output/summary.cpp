@@ -88,6 +88,11 @@ void add_sizes(Lines& lines, const std::vector<DrawnSizes>& all) {
   }
 }
 
+unsigned long long contacts_ahead(const Summary& s) {
+  const auto cost = std::ranges::find(s.effects, std::string_view("speculative_contacts"), &supernormal::effects::Cost::name);
+  return cost == s.effects.end() ? 0 : cost->contacts;
+}
+
 void add_queries(Lines& lines, const Summary& s) {
   const snStatistics& n = s.statistics;
   const auto steps = static_cast<unsigned long long>(s.steps);
@@ -101,6 +106,7 @@ void add_queries(Lines& lines, const Summary& s) {
   lines.add("closed_forms", n.closed_forms, "pairs settled without iteration: grain and wall");
   lines.add("not_converged", n.not_converged, "queries whose error bound exceeds the tolerance");
   lines.add("contacts", s.costs.contacts, "in all steps");
+  if (s.scene.looks_ahead()) lines.add("contacts_ahead", contacts_ahead(s), "of these, ahead of touch: the bodies were apart");
   lines.add("contacts_per_step", ratio(s.costs.contacts, steps), "mean");
   lines.add("contacts_at_end", static_cast<unsigned long long>(s.contacts_at_end), "in the last step");
   lines.add("deepest_contact", s.deepest_contact, "m, of all steps: grains hit one another in flight");
@@ -242,7 +248,8 @@ void add_effect_costs(Lines& lines, const Summary& s) {
     lines.add_time((section + "seconds").c_str(), cost.seconds + ratio(cost.rows, rows) * s.costs.solver.seconds(),
                    "s, in its passes and its rows' share of the solver");
     if (cost.rows > 0) add("rows", cost.rows, "constraint rows added");
-    if (cost.contacts > 0) add("contacts", cost.contacts, "touched");
+    const bool is_ahead = std::string_view(cost.name) == "speculative_contacts";
+    if (cost.contacts > 0) add("contacts", cost.contacts, is_ahead ? "ahead of touch" : "touched");
     if (cost.coarse > 0) add("coarse", cost.coarse, "contacts of fewer than ten steps: a shorter step would be better");
     if (cost.bodies > 0) add("bodies", cost.bodies, "visited");
   }

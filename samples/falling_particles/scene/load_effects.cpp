@@ -11,6 +11,8 @@ namespace {
 
 namespace fx = supernormal::effects;
 
+constexpr bool kSpeculativeByDefault = false;  // whether a scene without [speculative_contacts] has them
+
 /// The list of effects, to which each reader adds those of its section.
 using List = std::vector<fx::Effect>;
 
@@ -114,6 +116,14 @@ class Reader {
           section->table().number("relative_depth", Interval::positive(0.1, "(relative to the smallest half-axis)"));
       list_.emplace_back(fx::SurfaceLayer{relative * smallest_half_axis_});
     }
+    if (has_speculative_contacts()) list_.emplace_back(fx::SpeculativeContacts{});
+  }
+
+  // A compression works by overlaps.
+  bool has_speculative_contacts() const {
+    const auto section = find_section(root_, "speculative_contacts", {"enabled"});
+    if (!section) return kSpeculativeByDefault && !root_.has("compression");
+    return !section->has("enabled") || section->table().boolean("enabled");
   }
 
   const TomlTable& root_;
@@ -126,6 +136,10 @@ class Reader {
 std::string scene_parameters(const fx::Description& effect) {
   const std::string name = effect.name;
   if (name == "surface_layer") return "relative_depth (0, 0.1], of the smallest half-axis of all grains";
+  if (name == "speculative_contacts") {
+    return std::string("enabled: true or false; true without it; a scene without the section has ") +
+           (kSpeculativeByDefault ? "them, but for a compression" : "none");
+  }
   std::string text = effect.parameters;
   if (name == "friction") text += "; walls (0, 100], of grains on walls, as among grains without it";
   if (name == "rolling_resistance") text += ", 0 without it; walls [0, 1e3] m, rolling on walls, as among grains without it";

@@ -173,6 +173,10 @@ TomlTable read_drop(const TomlTable& root, Scene& scene) {
 std::optional<Compression> read_compression(const TomlTable& root, const Scene& scene) {
   const auto table = root.find_table("compression", {"overlap", "final_overlap", "damping"});
   if (!table) return std::nullopt;
+  if (scene.looks_ahead()) {
+    root.fail("speculative_contacts",
+              "speculative_contacts in a compression, which works by the overlaps that they prevent; allowed: one of both");
+  }
   if (!std::holds_alternative<Periodic>(scene.container)) {
     root.fail("compression", std::string("compression in a ") + kind_of(scene.container) + "; allowed: in a periodic container");
   }

@@ -16,6 +16,12 @@ const supernormal::effects::Gravity* Scene::gravity() const {
   return nullptr;
 }
 
+bool Scene::looks_ahead() const {
+  return std::ranges::any_of(effects, [](const supernormal::effects::Effect& effect) {
+    return std::holds_alternative<supernormal::effects::SpeculativeContacts>(effect);
+  });
+}
+
 double GrainCount::smallest_scale() const {
   if (!size) return 1;
   return is_fed ? size->smallest() : std::ranges::min(scales);

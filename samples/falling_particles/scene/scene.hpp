@@ -81,6 +81,9 @@ struct Scene {
   /// Null when the scene names none.
   const supernormal::effects::Gravity* gravity() const;
 
+  /// Whether it names speculative contacts, for which grains look ahead.
+  bool looks_ahead() const;
+
   int bodies() const;                             ///< at the start
   std::size_t kind_of(const Grain& grain) const;  ///< index into grains, of one of these objects
   /// Whether grains come or go during the run.

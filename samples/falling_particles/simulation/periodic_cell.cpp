@@ -1,5 +1,7 @@
 #include "periodic_cell.hpp"
 
+#include <supernormal/supernormal.h>
+
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -89,6 +91,11 @@ double PeriodicCell::shift_along(unsigned mask, std::size_t axis) const {
 PeriodicCell::Image PeriodicCell::make_image(const Body& body) const {
   Image image{dBodyCreate(world_.id()), nullptr, nullptr};
   attach_geoms(world_.sweep().id(), *body.grain, body.scale, image.body, dGeomGetData(body.geom));
+  if (world_.scene().looks_ahead()) {
+    for (dGeomID geom = dBodyGetFirstGeom(image.body); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
+      snGeomSetLookAhead(geom, world_.scene().time.step);
+    }
+  }
   image.same_velocity = tie_velocities(world_.id(), body.body, image.body);
   image.same_spin = tie_spins(world_.id(), body.body, image.body);
   return image;
@@ -139,13 +146,15 @@ void PeriodicCell::place_images() {
       inside[axis] = p[axis] - shift;
       const double width = aabb[2 * axis + 1] - aabb[2 * axis];
       if (2 * width > period.length) {
-        throw std::runtime_error("the periodic cell has shrunk to " + std::to_string(period.length) +
-                                 " m; needed: twice the width of grain \"" + body.grain->name + "\"");
+        throw std::runtime_error("the periodic cell is " + std::to_string(period.length) +
+                                 " m long; needed: twice the width of grain \"" + body.grain->name + "\"" +
+                                 (world_.scene().looks_ahead() ? " with its way in a step, " + std::to_string(width) + " m" : ""));
       }
       if (aabb[2 * axis + 1] - shift > period.upper()) sticks_out |= 1U << axis;
     }
     dBodySetPosition(body.body, inside[0], inside[1], inside[2]);
     Family& family = families_[world_.index_of(body)];
+    family.placed = {inside[0], inside[1], inside[2]};
     const bool changed = sticks_out != family.shown;
     family.shown = sticks_out;
     for (unsigned mask = 1; mask < kMasks; ++mask) {
@@ -156,6 +165,26 @@ void PeriodicCell::place_images() {
       }
     }
     if (changed) share_mass(body, family, 1U << static_cast<unsigned>(std::popcount(sticks_out)));
+  }
+}
+
+void PeriodicCell::share_ways() {
+  for (const Body& each : world_.present()) {
+    const Family& family = families_[world_.index_of(each)];
+    if (family.size == 1) continue;
+    const auto place = [&](unsigned mask, std::size_t axis) { return family.placed[axis] - shift_along(mask, axis); };
+    const auto body_of_mask = [&](unsigned mask) { return mask == 0 ? each.body : family.images[mask]->body; };
+    Point way{};
+    for (unsigned mask = 0; mask < kMasks; ++mask) {
+      if (!is_part_of(mask, family.shown)) continue;
+      const dReal* p = dBodyGetPosition(body_of_mask(mask));
+      for (std::size_t axis = 0; axis < 3; ++axis) way[axis] += p[axis] - place(mask, axis);
+    }
+    if (way == Point{}) continue;
+    for (unsigned mask = 0; mask < kMasks; ++mask) {
+      if (!is_part_of(mask, family.shown)) continue;
+      dBodySetPosition(body_of_mask(mask), place(mask, 0) + way[0], place(mask, 1) + way[1], place(mask, 2) + way[2]);
+    }
   }
 }
 

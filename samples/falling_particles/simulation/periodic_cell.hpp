@@ -41,6 +41,9 @@ class PeriodicCell {
   /// Moves grains that have left into the cell, the lower ends of their bounding boxes that is, and sets up the images; call it
   /// before collision. Throws std::runtime_error when the cell is below twice the width of a grain: a grain might meet itself.
   void place_images();
+  /// Gives a grain and its images the way that one of them has gone since place_images(): that of the effects, which bring grains
+  /// to touch that will bounce. Call it before a step.
+  void share_ways();
   /// Gives grains the mean motion of themselves and their images, between which the solver leaves a small difference; call it
   /// after a step.
   void gather();
@@ -64,6 +67,7 @@ class PeriodicCell {
   struct Family {
     std::array<std::optional<Image>, kMasks> images;  // [0], the grain itself, stays empty; made when first needed
     unsigned shown = 0;                               // axes along which the grain sticks out
+    Point placed = {};                                // m, of the grain, by place_images()
     unsigned size = 1;                                // number of the grain and its images that are in use
   };
 

@@ -44,6 +44,7 @@ void Stepper::step(bool measures) {
     const Stopwatch::Lap lap(costs_.contact_setup);
     joints_.replace(contacts_, measures);
     world_.effects().apply_forces();
+    if (PeriodicCell* cell = world_.cell(); cell != nullptr && world_.scene().looks_ahead()) cell->share_ways();
   }
   costs_.contacts += contacts_.size();
   for (const dContactGeom& contact : contacts_) deepest_contact_ = std::max<double>(deepest_contact_, contact.depth);
