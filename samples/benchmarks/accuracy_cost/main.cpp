@@ -36,20 +36,24 @@ struct Options {
   bool faces = false;
   bool atlas = false;
   bool scene = false;
+  bool literature = false;
   std::string scene_path = "samples/scenes/pile.toml";
   std::string out = "out/accuracy_cost";
 };
 
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
-  if (options.atlas || options.scene) {
+  if (options.atlas || options.scene || options.literature) {
     std::vector<Part> parts;
     if (options.atlas) {
       parts.push_back(query_costs(kAtlasPairs, options.seed, effort));
       parts.push_back(mesh_costs(kAtlasMeshPairs, options.seed, effort));
       parts.push_back(collider_sweep(kAtlasPoses, options.seed, effort));
     }
-    for (const auto& make : {scene_forms, scene_growth, scene_outcomes}) parts.push_back(make(options.scene_path));
+    if (options.atlas || options.literature) parts.push_back(literature_costs(kAtlasPairs, options.seed, effort));
+    if (options.atlas || options.scene) {
+      for (const auto& make : {scene_forms, scene_growth, scene_outcomes}) parts.push_back(make(options.scene_path));
+    }
     run_parts(parts, options.out);
     write_report(options.out);
     return;
@@ -100,8 +104,10 @@ int main(int argc, char** argv) {
     app.add_flag("--faces", options.faces, "times dCollide of bodies at rest, by their exponents, instead")->excludes(csv);
     app.add_flag("--atlas", options.atlas, "measures all levels instead: queries, meshes, colliders, scenes")->excludes(csv);
     app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")->excludes(csv);
+    app.add_flag("--literature", options.literature, "compares with the methods of the literature instead")->excludes(csv);
     app.add_option("--scene-file", options.scene_path, "with --atlas and --scene: the grains, in a box")->capture_default_str();
-    app.add_option("--out", options.out, "with --atlas and --scene: folder for the results; what is there is not measured again")
+    app.add_option("--out", options.out,
+                   "with --atlas, --scene and --literature: folder for the results; what is there is not measured again")
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     run(options);

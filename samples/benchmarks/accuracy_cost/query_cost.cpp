@@ -23,7 +23,7 @@ constexpr int kMprTightest = 10;
 
 constexpr const char* kHeader =
     "class,pose,method,accuracy,queries,time_s,time_p99_s,evaluations,gap_error,gap_error_p99,gap_error_worst,normal_error,"
-    "contact_error,failures";
+    "contact_error,failures,inexact,no_answer,wrong_verdict,wrong_gap";
 
 void add(Methods& methods, Methods&& more) { std::move(more.begin(), more.end(), std::back_inserter(methods)); }
 
@@ -55,17 +55,41 @@ Methods all_methods(BodyClass body_class) {
   return methods;
 }
 
+/// All methods of the literature, with ours at the same tolerances.
+Methods compared_with_literature(BodyClass body_class) {
+  if (snInit() == 0) throw std::runtime_error(snLastError());
+  Methods methods;
+  for (const Start start : {Start::Cold, Start::Warm}) {
+    const std::string warm = start == Start::Warm ? " (warm)" : "";
+    for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8}) {
+      methods.push_back(supernormal_method("hybrid" + warm, Solver::Hybrid, start, tolerance));
+      methods.push_back(supernormal_method("Newton (Algorithm I)" + warm, Solver::Newton, start, tolerance));
+      methods.push_back(supernormal_method("fixed point (Algorithm II)" + warm, Solver::FixedPoint, start, tolerance));
+      add(methods, literature_methods(start, tolerance));
+    }
+  }
+  methods.push_back(ccd_epa("libccd GJK+EPA", 1e-6));
+  methods.push_back(ccd_mpr("libccd MPR", 1e-4));
+  add(methods, bullet_methods());
+  if (body_class == BodyClass::Ellipsoid) {
+    add(methods, simbody_methods());
+  }
+  add(methods, literature_mesh_methods());
+  return methods;
+}
+
 std::string line(const Method& method, BodyClass body_class, Situation situation, Statistics s) {
   if (is_unit_of_cost(method)) {  // the method measures a time and solves no query
     s.time /= static_cast<double>(kNormalsPerPair);
     s.slow_time /= static_cast<double>(kNormalsPerPair);
     s.evaluations = 1;
-    s.failures = 0;
+    s.no_answer = s.wrong_verdict = s.wrong_gap = 0;
   }
   std::array<char, 512> text{};
-  std::snprintf(text.data(), text.size(), "%c,%c,\"%s\",%s,%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%zu", letter(body_class),
-                letter(situation), method.name().c_str(), method.accuracy().c_str(), s.queries, s.time, s.slow_time, s.evaluations,
-                s.median_error, s.large_error, s.worst_error, s.normal_error, s.contact_error, s.failures);
+  std::snprintf(text.data(), text.size(), "%c,%c,\"%s\",%s,%zu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%zu,%zu,%zu,%zu,%zu",
+                letter(body_class), letter(situation), method.name().c_str(), method.accuracy().c_str(), s.queries, s.time,
+                s.slow_time, s.evaluations, s.median_error, s.large_error, s.worst_error, s.normal_error, s.contact_error,
+                s.failures(), s.inexact, s.no_answer, s.wrong_verdict, s.wrong_gap);
   return text.data();
 }
 
@@ -98,6 +122,10 @@ Part part_of(const std::string& name, std::size_t pair_count, std::uint64_t seed
 
 Part query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
   return part_of("query", pairs, seed, effort, all_methods);
+}
+
+Part literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {
+  return part_of("literature", pairs, seed, effort, compared_with_literature);
 }
 
 Part mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort) {

@@ -1,8 +1,6 @@
-#include <ccd/ccd.h>
-
 #include <type_traits>
 
-#include "method.hpp"
+#include "libccd_query.hpp"
 
 namespace accuracy_cost {
 namespace {
@@ -13,7 +11,6 @@ static_assert(std::is_same_v<ccd_real_t, double>, "the comparison is with libccd
 
 constexpr double kEpaTolerance = 1e-6;
 constexpr double kMprTolerance = 1e-4;
-constexpr unsigned long kMaxIterations = 100;  // limit of GJK and MPR; libccd's EPA has none
 
 /// A body as libccd's callbacks need it.
 struct CcdBody {
@@ -36,33 +33,19 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point)
 
 void centre(const void* object, ccd_vec3_t* point) { copy(static_cast<const CcdBody*>(object)->pose.position, point); }
 
-using Penetration = int (*)(const void*, const void*, const ccd_t*, ccd_real_t*, ccd_vec3_t*, ccd_vec3_t*);
-
 class Libccd final : public Method {
  public:
   Libccd(std::string name, Penetration penetration, double tolerance)
       : Method(std::move(name), power_of_ten(tolerance)), penetration_(penetration) {
-    CCD_INIT(&settings_);
-    settings_.support1 = support;
-    settings_.support2 = support;
-    settings_.center1 = centre;
-    settings_.center2 = centre;
-    settings_.max_iterations = kMaxIterations;
-    settings_.epa_tolerance = tolerance;
-    settings_.mpr_tolerance = tolerance;
+    settings_ = ccd_settings(support, centre, tolerance);
   }
 
   Answer query(const Pair& pair) const override {
     const CcdBody body1{*pair.shape1, pair.pose1};
     const CcdBody body2{*pair.shape2, pair.pose2};
-    double depth = 0;
-    ccd_vec3_t direction, position;
-    const int result = penetration_(&body1, &body2, &settings_, &depth, &direction, &position);
-    const double evaluations = 0.5 * (body1.evaluations + body2.evaluations);
-    if (result == -1) return {Answer::Kind::Apart, 0, Vector3::UnitX(), evaluations};
-    if (result != 0) return {Answer::Kind::None, 0, Vector3::UnitX(), evaluations};
-    return {Answer::Kind::Gap, -depth, Vector3(direction.v[0], direction.v[1], direction.v[2]), evaluations,
-            Vector3(position.v[0], position.v[1], position.v[2])};
+    Answer answer = ask_libccd(penetration_, settings_, &body1, &body2);
+    answer.evaluations = 0.5 * (body1.evaluations + body2.evaluations);
+    return answer;
   }
 
  private:
@@ -71,6 +54,30 @@ class Libccd final : public Method {
 };
 
 }  // namespace
+
+ccd_t ccd_settings(ccd_support_fn support_of, ccd_center_fn centre_of, double tolerance) {
+  constexpr unsigned long kMaxIterations = 100;  // limit of GJK and MPR; libccd's EPA has none
+  ccd_t settings;
+  CCD_INIT(&settings);
+  settings.support1 = support_of;
+  settings.support2 = support_of;
+  settings.center1 = centre_of;
+  settings.center2 = centre_of;
+  settings.max_iterations = kMaxIterations;
+  settings.epa_tolerance = tolerance;
+  settings.mpr_tolerance = tolerance;
+  return settings;
+}
+
+Answer ask_libccd(Penetration penetration, const ccd_t& settings, const void* body1, const void* body2) {
+  double depth = 0;
+  ccd_vec3_t direction, position;
+  const int result = penetration(body1, body2, &settings, &depth, &direction, &position);
+  if (result == -1) return {Answer::Kind::Apart, 0, Vector3::UnitX(), 0};
+  if (result != 0) return {};
+  return {Answer::Kind::Gap, -depth, Vector3(direction.v[0], direction.v[1], direction.v[2]), 0,
+          Vector3(position.v[0], position.v[1], position.v[2])};
+}
 
 std::unique_ptr<Method> ccd_epa(std::string name, double tolerance) {
   return std::make_unique<Libccd>(std::move(name), ccdGJKPenetration, tolerance);

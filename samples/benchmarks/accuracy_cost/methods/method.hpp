@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ode/mesh.hpp"
 #include "pairs.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -92,8 +93,20 @@ Methods bullet_methods();
 Methods fcl_methods();
 Methods simbody_methods();
 
+/// The mesh of a superellipsoid or ellipsoid.
+Mesh mesh_of(const supernormal::Shape& shape, MeshSize size);
+
+/// libccd's GJK and EPA with a mesh of the body as its support function: a convex hull.
+std::unique_ptr<Method> ccd_hull(MeshSize size);
+
 /// ODE's own colliders of polyhedra whose vertices are on the bodies. A query without contacts says that the bodies are apart.
 Methods ode_mesh_methods();
+
+/// The methods of samples/benchmarks/literature at this tolerance of theirs, from their own start or from Pair::warm_normal.
+Methods literature_methods(Start start, double tolerance);
+
+/// Meshes of 160, 960 and 3840 triangles, by ODE's trimesh and, as convex hulls, by libccd's GJK and EPA.
+Methods literature_mesh_methods();
 
 /// The unit of cost instead of a query: the gap function at Pair::normals, up to this order.
 std::unique_ptr<Method> evaluation_cost(supernormal::Order order);

@@ -14,12 +14,7 @@ namespace {
 using supernormal::Vector3;
 
 constexpr std::array<MeshSize, 5> kSizes = {{{6, 5}, {14, 9}, {30, 17}, {60, 34}, {128, 64}}};  // 32, 128, 512, 2042, 8194 vertices
-
-Mesh mesh_of(const supernormal::Shape& shape, MeshSize size) {
-  const auto* const body = dynamic_cast<const supernormal::Superellipsoid*>(&shape);
-  const auto [delta, epsilon] = body == nullptr ? std::pair(2.0, 2.0) : std::pair(body->delta(), body->epsilon());
-  return superellipsoid_mesh(shape.half_extents(), delta, epsilon, 0, size);
-}
+constexpr std::array<MeshSize, 3> kLiteratureSizes = {{{10, 8}, {24, 20}, {48, 40}}};           // 160, 960, 3840 triangles
 
 class OdeMeshes final : public Method {
  public:
@@ -58,6 +53,19 @@ class OdeMeshes final : public Method {
 };
 
 }  // namespace
+
+Mesh mesh_of(const supernormal::Shape& shape, MeshSize size) {
+  const auto* const body = dynamic_cast<const supernormal::Superellipsoid*>(&shape);
+  const auto [delta, epsilon] = body == nullptr ? std::pair(2.0, 2.0) : std::pair(body->delta(), body->epsilon());
+  return superellipsoid_mesh(shape.half_extents(), delta, epsilon, 0, size);
+}
+
+Methods literature_mesh_methods() {
+  Methods methods;
+  for (const MeshSize size : kLiteratureSizes) methods.push_back(std::make_unique<OdeMeshes>("dTriMesh", trimesh_maker, size));
+  for (const MeshSize size : kLiteratureSizes) methods.push_back(ccd_hull(size));
+  return methods;
+}
 
 Methods ode_mesh_methods() {
   Methods methods;

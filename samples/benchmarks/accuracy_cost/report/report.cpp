@@ -37,7 +37,7 @@ void write_methods(const Results& results, std::ostream& out) {
         const Statistics s = statistics(results.samples[m], results.pairs, group_of(body_class, situation));
         out << "| " << letter(body_class) << " | " << letter(situation) << " | " << results.methods[m]->name() << " | "
             << text("%.3f", s.time * 1e6) << " | " << text("%.3g", s.evaluations) << " | " << text("%.1e", s.median_error) << " | "
-            << text("%.1e", s.worst_error) << " | " << s.inexact << " | " << s.failures << "/" << s.queries << " |\n";
+            << text("%.1e", s.worst_error) << " | " << s.inexact << " | " << s.failures() << "/" << s.queries << " |\n";
       }
     }
   }
@@ -98,7 +98,7 @@ void write_csv(const Results& results, const std::string& path) {
         const Statistics s = statistics(results.samples[m], results.pairs, group_of(body_class, situation));
         file << letter(body_class) << ',' << letter(situation) << ",\"" << results.methods[m]->name() << "\"," << s.queries << ','
              << number(s.time) << ',' << number(s.evaluations) << ',' << number(s.median_error) << ',' << number(s.worst_error)
-             << ',' << s.inexact << ',' << s.failures << '\n';
+             << ',' << s.inexact << ',' << s.failures() << '\n';
       }
     }
   }

@@ -13,19 +13,18 @@ constexpr double kInexact = 1e-6;
 
 constexpr double kLarge = 0.99;  // quantile that counts as large
 
-bool is_failure(const Answer& answer, const Pair& pair) {
+void count_failure(const Answer& answer, const Pair& pair, Statistics& result) {
   const bool is_apart = pair.gap > 0;
   const bool is_touching = std::abs(pair.gap) <= kInexact * pair.size;
-  switch (answer.kind) {
-    case Answer::Kind::Apart:
-      return !is_apart && !is_touching;
-    case Answer::Kind::Gap:
-      return ((answer.gap > 0) != is_apart && !is_touching) ||
-             !(std::abs(answer.gap - pair.gap) <= 0.1 * std::abs(pair.gap) + 0.001 * pair.size);
-    case Answer::Kind::None:
-      break;
+  const bool says_apart = answer.kind == Answer::Kind::Apart || answer.gap > 0;
+  const bool is_near = std::abs(answer.gap - pair.gap) <= 0.1 * std::abs(pair.gap) + 0.001 * pair.size;
+  if (answer.kind == Answer::Kind::None) {
+    ++result.no_answer;
+  } else if (says_apart != is_apart && !is_touching) {
+    ++result.wrong_verdict;
+  } else if (answer.kind == Answer::Kind::Gap && !is_near) {
+    ++result.wrong_gap;
   }
-  return true;
 }
 
 }  // namespace
@@ -52,7 +51,7 @@ Statistics statistics(const std::vector<Sample>& samples, const std::vector<Pair
       normal_errors.push_back(2 * std::asin(std::min(1.0, 0.5 * (sample.answer.normal - pairs[p].normal).norm())));
     }
     if (sample.answer.contact) contact_errors.push_back((*sample.answer.contact - pairs[p].contact).norm() / pairs[p].size);
-    if (is_failure(sample.answer, pairs[p])) ++result.failures;
+    count_failure(sample.answer, pairs[p], result);
   }
   result.inexact = static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), [](double e) { return !(e <= kInexact); }));
   result.queries = times.size();

@@ -1,0 +1,23 @@
+// The support function of a convex hull.
+#pragma once
+
+#include "ode/mesh.hpp"
+
+namespace accuracy_cost {
+
+/// The convex hull of a closed mesh whose vertices are all on it. Its support function climbs from vertex to vertex.
+class Hull {
+ public:
+  explicit Hull(const Mesh& mesh);
+
+  const supernormal::Vector3& vertex(unsigned index) const { return vertices_[index]; }
+
+  /// The farthest vertex along a direction of any length, found from any other.
+  unsigned support(const supernormal::Vector3& direction, unsigned start) const;
+
+ private:
+  std::vector<supernormal::Vector3> vertices_;
+  std::vector<unsigned> first_, neighbours_;  // the neighbours of vertex v are first_[v] to first_[v + 1]
+};
+
+}  // namespace accuracy_cost

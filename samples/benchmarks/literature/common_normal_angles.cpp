@@ -1,0 +1,48 @@
+#include "common_normal_angles.hpp"
+
+#include <Eigen/LU>
+
+#include "quadtree_start.hpp"
+#include "tangents.hpp"
+
+namespace literature {
+
+CommonNormal common_normal_angles(const Bodies& bodies, const Options& options) {
+  int evaluations = 0;
+  std::array<Vector2, 2> angles = start_angles(bodies, options, evaluations);
+  Eigen::Vector4d residual;
+  Eigen::Matrix4d jacobian;
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    const SurfacePoint surface1 = bodies.body1.surface(angles[0]);
+    const SurfacePoint surface2 = bodies.body2.surface(angles[1]);
+    ++evaluations;
+    const Normalized<2> n1(surface1.normal, surface1.normal_rate);
+    const Normalized<2> n2(surface2.normal, surface2.normal_rate);
+    if (options.path != nullptr) options.path->push_back(n1.vector);
+    const Tangents tangents = tangents_of(n2.vector);
+    const Vector3 point2 = bodies.rotation * surface2.point + bodies.offset;
+    const Vector3 d = point2 - surface1.point;
+    const Matrix32 d_rate = bodies.rotation * surface2.point_rate;  // with respect to the angles of body 2
+    for (int k = 0; k < 2; ++k) {
+      const auto which = static_cast<std::size_t>(k);
+      const Vector3 t = bodies.rotation * tangents.tangent[which];
+      const Matrix32 t_rate = bodies.rotation * (tangents.rate[which] * n2.rate);
+      residual[k] = n1.vector.dot(t);
+      jacobian.block<1, 2>(k, 0) = t.transpose() * n1.rate;
+      jacobian.block<1, 2>(k, 2) = n1.vector.transpose() * t_rate;
+      residual[2 + k] = d.dot(t);
+      jacobian.block<1, 2>(2 + k, 0) = -t.transpose() * surface1.point_rate;
+      jacobian.block<1, 2>(2 + k, 2) = t.transpose() * d_rate + d.transpose() * t_rate;
+    }
+    const Eigen::Vector4d step = jacobian.partialPivLu().solve(residual);
+    if (!step.allFinite()) break;
+    angles[0] -= step.head<2>();
+    angles[1] -= step.tail<2>();
+    if (step.norm() > options.tolerance) continue;
+    return judged(bodies, surface1.point, n1.vector, point2, bodies.rotation * n2.vector, options.tolerance * bodies.size(),
+                  evaluations);
+  }
+  return {.evaluations = evaluations};
+}
+
+}  // namespace literature

@@ -1,0 +1,52 @@
+#include "common_normal_points.hpp"
+
+#include <Eigen/LU>
+
+#include "quadtree_start.hpp"
+#include "tangents.hpp"
+
+namespace literature {
+
+CommonNormal common_normal_points(const Bodies& bodies, const Options& options) {
+  int evaluations = 0;
+  const std::array<Vector2, 2> angles = start_angles(bodies, options, evaluations);
+  Vector3 p = bodies.body1.point(angles[0]);  // each in the frame of its body
+  Vector3 q = bodies.body2.point(angles[1]);
+  Eigen::Matrix<double, 6, 1> residual;
+  Eigen::Matrix<double, 6, 6> jacobian;
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    const Implicit f1 = bodies.body1.implicit(p);
+    const Implicit f2 = bodies.body2.implicit(q);
+    ++evaluations;
+    const Normalized<3> n1(f1.gradient, f1.hessian);
+    const Normalized<3> n2(f2.gradient, f2.hessian);
+    if (options.path != nullptr) options.path->push_back(n1.vector);
+    const Tangents tangents = tangents_of(n2.vector);
+    const Vector3 d = bodies.rotation * q + bodies.offset - p;
+    for (int k = 0; k < 2; ++k) {
+      const auto which = static_cast<std::size_t>(k);
+      const Vector3 t = bodies.rotation * tangents.tangent[which];
+      const Matrix3 t_rate = bodies.rotation * tangents.rate[which] * n2.rate;  // with respect to q
+      residual[k] = n1.vector.dot(t);
+      jacobian.block<1, 3>(k, 0) = t.transpose() * n1.rate;
+      jacobian.block<1, 3>(k, 3) = n1.vector.transpose() * t_rate;
+      residual[2 + k] = d.dot(t);
+      jacobian.block<1, 3>(2 + k, 0) = -t.transpose();
+      jacobian.block<1, 3>(2 + k, 3) = t.transpose() * bodies.rotation + d.transpose() * t_rate;
+    }
+    residual[4] = f1.value;
+    residual[5] = f2.value;
+    jacobian.row(4) << f1.gradient.transpose(), Eigen::RowVector3d::Zero();
+    jacobian.row(5) << Eigen::RowVector3d::Zero(), f2.gradient.transpose();
+    const Eigen::Matrix<double, 6, 1> step = jacobian.partialPivLu().solve(residual);
+    if (!step.allFinite()) break;
+    p -= step.head<3>();
+    q -= step.tail<3>();
+    const double accuracy = options.tolerance * bodies.size();
+    if (step.norm() > accuracy) continue;
+    return judged(bodies, p, n1.vector, bodies.rotation * q + bodies.offset, bodies.rotation * n2.vector, accuracy, evaluations);
+  }
+  return {.evaluations = evaluations};
+}
+
+}  // namespace literature

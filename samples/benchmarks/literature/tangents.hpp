@@ -1,0 +1,32 @@
+// Two tangents of a surface from its normal, with their derivatives.
+#pragma once
+
+#include <array>
+
+#include "superquadric.hpp"
+
+namespace literature {
+
+/// The second and third column of the Householder matrix that maps a unit normal to the x axis (Lopes et al. 2010, 2013), and
+/// their derivatives with respect to the normal.
+struct Tangents {
+  std::array<Vector3, 2> tangent;
+  std::array<Matrix3, 2> rate;
+};
+
+Tangents tangents_of(const Vector3& normal);
+
+/// A unit vector and its derivative from those of a vector of any length.
+template <int kColumns>
+struct Normalized {
+  Vector3 vector;
+  Eigen::Matrix<double, 3, kColumns> rate;
+
+  Normalized(const Vector3& v, const Eigen::Matrix<double, 3, kColumns>& v_rate) {
+    const double length = v.norm();
+    vector = v / length;
+    rate = (v_rate - vector * (vector.transpose() * v_rate)) / length;
+  }
+};
+
+}  // namespace literature
