@@ -41,6 +41,7 @@ struct Options {
   std::vector<std::size_t> bodies;
   std::string out = "pair.svg";
   supernormal::Settings settings;
+  bool has_literature = false;
 };
 
 void add_body(CLI::App& app, const std::string& number, DescribedBody& body) {
@@ -81,11 +82,8 @@ Pair chosen_pair(const Options& options) {
 
 void print(const Explanation& explanation) {
   for (const SolverPath& path : explanation.paths) {
-    const char* name = path.solver == supernormal::Solver::Hybrid   ? "hybrid"
-                       : path.solver == supernormal::Solver::Newton ? "Newton"
-                                                                    : "fixed point";
-    std::printf("%-12s gap %s, %d evaluations, %s%s\n", name, length_text(path.answer.gap, 10).c_str(), path.answer.evaluations,
-                name_of(path.answer.status), path.answer.is_global ? ", proved" : "");
+    std::printf("%-32s gap %s, %d evaluations, %s%s\n", path.name.c_str(), length_text(path.answer.gap, 10).c_str(),
+                path.answer.evaluations, name_of(path.answer.status), path.answer.is_global ? ", proved" : "");
   }
 }
 
@@ -122,13 +120,16 @@ ExitCode run_program(int argc, char** argv) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app.add_flag("--certify", options.settings.certify_depth, "let the hybrid prove that the depth is the smallest");
+  app.add_flag("--literature", options.has_literature,
+               "draw the methods of the literature too, if both bodies are superellipsoids");
   app.footer("Kinds of bodies:\n" + body_kinds() + "Exit code: 0 done; 1 failed (disk full, say); 2 bad input, nothing written.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? Done : BadInput;
   }
-  const Explanation explanation = explain(chosen_pair(options), options.settings);
+  const Methods methods = options.has_literature ? Methods::OfLiteratureToo : Methods::OfLibrary;
+  const Explanation explanation = explain(chosen_pair(options), options.settings, methods);
   falling_particles::replace_file(options.out, picture_of(explanation));
   print(explanation);
   return Done;

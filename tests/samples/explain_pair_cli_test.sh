@@ -49,6 +49,8 @@ expect 0 "$program" --list
 ellipsoid=(--body1 "ellipsoid 1 2 3")
 draws "${ellipsoid[@]}" --body2 "superellipsoid 1 1 1 8 8" --position2 2 -1 -3 --quaternion2 0.8 0 0 -0.6 --title '<"&>'
 draws "${ellipsoid[@]}" --body2 "superovoid 1 1 1 2 2 0.1 -0.1" --rounding2 0.1 --position2 -1.5 0 0 --certify
+draws --body1 "superellipsoid 1 2 3 4 3" --body2 "superellipsoid 1 1 1 8 8" --position2 2 -1 -3 --literature
+grep -q '^surface angles (2) *gap ' "$work/log" || fail "the literature's answers are not printed"
 draws --case "concentric: identical superellipsoids 8, 20"
 draws --case "colliders: an ellipsoid above a box, gap -0.0625"
 

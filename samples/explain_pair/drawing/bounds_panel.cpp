@@ -89,7 +89,7 @@ void draw_interval(Svg& svg, const Axes& axes, const SolverPath& path) {
 }
 
 void draw_values(Svg& svg, const Axes& axes, const SolverPath& path, const Explanation& explanation) {
-  const PathStyle& style = style_of(path.solver);
+  const PathStyle style = style_of(path);
   const double answer = explanation.answer().gap;
   Polyline line;
   for (std::size_t k = 0; k < explanation.shown_evaluations(path); ++k) {

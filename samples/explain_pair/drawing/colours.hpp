@@ -9,6 +9,9 @@ namespace explain_pair {
 inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kVermilion = "#D55E00";
 inline constexpr const char* kPurple = "#AA4488";  // darker than theirs, to stand out on the pale map
+inline constexpr const char* kGreen = "#009E73";
+inline constexpr const char* kOrange = "#B87300";  // darker than theirs, likewise
+inline constexpr const char* kBrown = "#7A4A2A";   // ours
 inline constexpr const char* kBlack = "#000";
 inline constexpr const char* kInk = "#222";
 inline constexpr const char* kGrey = "#666";

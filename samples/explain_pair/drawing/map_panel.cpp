@@ -167,7 +167,7 @@ double close_up_angle(const Explanation& explanation) {
   const Vector3& answer = explanation.answer().normal;
   double angle = 0;
   for (const SolverPath& path : explanation.paths) {
-    if (path.evaluations.size() < 2) continue;
+    if (!path.solver || path.evaluations.size() < 2) continue;
     angle = std::max(angle, 2 * std::asin(std::min(0.5 * (path.evaluations[1].n - answer).norm(), 1.0)));
   }
   return angle < kNone ? kMost : std::clamp(kMargin * angle, kLeast, kMost);

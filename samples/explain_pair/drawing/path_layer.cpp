@@ -64,7 +64,7 @@ void draw_evaluations(Svg& svg, const SolverPath& path, std::size_t count, const
     const Vector2 at = map.to_px(path.evaluations[k].n);
     if (!is_clear(marked, at, kMarkersApart)) continue;
     marked.push_back(at);
-    draw_marker(svg, at, style_of(path.solver), size);
+    draw_marker(svg, at, style_of(path), size);
     if (!has_numbers || k >= kNumbered || !is_clear(numbered, at, kNumbersApart)) continue;
     numbered.push_back(at);
     svg.text(at + Vector2(-6, -6), std::to_string(k + 1),
@@ -73,7 +73,7 @@ void draw_evaluations(Svg& svg, const SolverPath& path, std::size_t count, const
 }
 
 void draw_path(Svg& svg, const SolverPath& path, std::size_t count, const MapInPicture& map, double size, bool has_numbers) {
-  const PathStyle& style = style_of(path.solver);
+  const PathStyle style = style_of(path);
   const bool is_short = count <= kFewEvaluations;
   const std::vector<Polyline> lines = lines_of(path, count, map);
   const auto draw = [&](const std::string& look) {
@@ -89,11 +89,16 @@ void draw_path(Svg& svg, const SolverPath& path, std::size_t count, const MapInP
 
 }  // namespace
 
-const PathStyle& style_of(Solver solver) {
-  static const PathStyle hybrid{"hybrid", kBlack, "none", PathStyle::Marker::Circle};
-  static const PathStyle newton{"Newton (I)", kVermilion, "7 3", PathStyle::Marker::Triangle};
-  static const PathStyle fixed_point{"fixed point (II)", kPurple, "2 3", PathStyle::Marker::Square};
-  return solver == Solver::Hybrid ? hybrid : solver == Solver::Newton ? newton : fixed_point;
+PathStyle style_of(const SolverPath& path) {
+  using enum PathStyle::Marker;
+  if (path.solver == Solver::Hybrid) return {kBlack, "none", Circle};
+  if (path.solver == Solver::Newton) return {kVermilion, "7 3", Triangle};
+  if (path.solver == Solver::FixedPoint) return {kPurple, "2 3", Square};
+  // The methods of the literature have their numbers in their names: a colour for each, dashes for the ways to do it.
+  if (path.name.ends_with("(1)")) return {kBlue, "none", Diamond};
+  if (path.name.ends_with("(2)")) return {kGreen, path.name.starts_with("normal") ? "5 4" : "none", Diamond};
+  if (path.name.ends_with("(3)")) return {kOrange, "none", Diamond};
+  return {kBrown, path.name.ends_with("fixed point (4)") ? "none" : path.name.ends_with("distance (4)") ? "5 4" : "2 4", Diamond};
 }
 
 void draw_marker(Svg& svg, const Vector2& at, const PathStyle& style, double size) {
@@ -107,6 +112,11 @@ void draw_marker(Svg& svg, const Vector2& at, const PathStyle& style, double siz
       break;
     case PathStyle::Marker::Square:
       svg.rect({at.x() - size, at.y() - size, 2 * size, 2 * size}, look);
+      break;
+    case PathStyle::Marker::Diamond:
+      svg.polygon(
+          {at + size * Vector2(0, -1.3), at + size * Vector2(1.3, 0), at + size * Vector2(0, 1.3), at + size * Vector2(-1.3, 0)},
+          look);
       break;
   }
 }

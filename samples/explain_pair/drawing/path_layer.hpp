@@ -9,13 +9,12 @@ namespace explain_pair {
 
 /// How a solver is drawn.
 struct PathStyle {
-  const char* name;
   const char* colour;
   const char* dashes;  ///< stroke-dasharray; "none" for a solid line
-  enum class Marker { Circle, Triangle, Square } marker;
+  enum class Marker { Circle, Triangle, Square, Diamond } marker;
 };
 
-const PathStyle& style_of(supernormal::Solver solver);
+PathStyle style_of(const SolverPath& path);
 
 void draw_marker(Svg& svg, const Vector2& at, const PathStyle& style, double size);
 

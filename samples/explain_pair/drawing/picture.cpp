@@ -33,6 +33,8 @@ constexpr Box kCloseUpBox{596, 480, 290, 290};
 constexpr Box kBoundsBox{900, 480, 284, 290};
 constexpr Box kManifoldBox{444, 648, 120, 120};
 const Vector2 kAxes(400, 710);
+constexpr double kRow = 22;       // of the table
+constexpr std::size_t kRows = 3;  // that have room in its box
 
 constexpr const char* kTitle = R"(font-size="17" font-weight="bold")";
 constexpr const char* kSubtitle = R"(font-size="13" fill="#444")";
@@ -74,12 +76,12 @@ void draw_table(Svg& svg, const Box& box, const Explanation& explanation) {
   svg.text({columns[2] + 10, y}, "s at the end", kSubtitle);
   svg.text({columns[3], y}, "status", kSubtitle);
   for (const SolverPath& path : explanation.paths) {
-    y += 22;
-    const PathStyle& style = style_of(path.solver);
+    y += kRow;
+    const PathStyle style = style_of(path);
     svg.line({columns[0], y - 5}, {columns[0] + 34, y - 5},
              std::string("stroke=\"") + style.colour + R"(" stroke-width="1.8" stroke-dasharray=")" + style.dashes + '"');
     draw_marker(svg, {columns[0] + 17, y - 5}, style, 4);
-    svg.text({columns[0] + 44, y}, style.name);
+    svg.text({columns[0] + 44, y}, path.name);
     svg.text({columns[1] + 56, y}, std::to_string(path.answer.evaluations), R"(text-anchor="end")");
     svg.text({columns[2] + 10, y}, length_text(path.answer.gap, 6));
     svg.text({columns[3], y}, std::string(name_of(path.answer.status)) + (path.answer.is_global ? ", proved" : ""));
@@ -137,15 +139,21 @@ const char* name_of(Status status) {
 }
 
 std::string picture_of(const Explanation& explanation) {
-  Svg svg(kWidth, kHeight, explanation.pair.title);
+  // More paths than the library's make the picture higher.
+  const double more = kRow * static_cast<double>(std::max<std::size_t>(explanation.paths.size(), kRows) - kRows);
+  const auto lower = [&](Box box) {
+    box.y += more;
+    return box;
+  };
+  Svg svg(kWidth, kHeight + more, explanation.pair.title);
   const Frame frame = frame_of_picture(explanation.pair, explanation.answer().normal);
   const double close_up = close_up_angle(explanation);
   draw_titles(svg, explanation, close_up);
   draw_pair(svg, kPairBox, explanation, frame);
   draw_table(svg, kTableBox, explanation);
-  draw_legend(svg, kLegendBox, explanation);
-  draw_axes(svg, kAxes, frame);
-  if (!explanation.corners().empty()) draw_manifold(svg, kManifoldBox, explanation, frame);
+  draw_legend(svg, lower(kLegendBox), explanation);
+  draw_axes(svg, kAxes + Vector2(0, more), frame);
+  if (!explanation.corners().empty()) draw_manifold(svg, lower(kManifoldBox), explanation, frame);
   draw_sphere(svg, kSphereBox, explanation, frame, close_up);
   draw_close_up(svg, kCloseUpBox, explanation, frame, close_up);
   draw_bounds(svg, kBoundsBox, explanation);

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+
+#include "method/literature_path.hpp"
 
 namespace explain_pair {
 
 using supernormal::Solver;
 using supernormal::Status;
 
-Explanation explain(const Pair& pair, const supernormal::Settings& settings) {
+Explanation explain(const Pair& pair, const supernormal::Settings& settings, Methods methods) {
   Explanation out{pair, {}, {}};
   for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) {
     supernormal::Settings own = settings;
@@ -18,6 +21,9 @@ Explanation explain(const Pair& pair, const supernormal::Settings& settings) {
   }
   if (out.answer().status == Status::InvalidInput || out.hybrid().evaluations.empty())
     throw std::runtime_error("\"" + pair.title + "\" has no answer: a pose or a shape has numbers that are not finite");
+  if (methods == Methods::OfLiteratureToo) {
+    for (SolverPath& path : literature_paths(pair, settings)) out.paths.push_back(std::move(path));
+  }
   out.manifold =
       supernormal::find_contact_manifold(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose, out.answer());
   return out;

@@ -29,9 +29,13 @@ struct Explanation {
   std::size_t shown_evaluations(const SolverPath& path) const { return std::min(path.evaluations.size(), shown_evaluations()); }
 };
 
-/// Solves the pair with every solver that the library has for it, with these settings but for the solver. Throws
-/// std::runtime_error if there is no answer: a pose or a shape with numbers that are not finite.
-Explanation explain(const Pair& pair, const supernormal::Settings& settings);
+/// Whose paths are shown.
+enum class Methods { OfLibrary, OfLiteratureToo };
+
+/// Solves the pair with every solver that the library has for it, with these settings but for the solver, and by the methods of the
+/// literature if they are wanted. Throws std::runtime_error if there is no answer: a pose or a shape with numbers that are not
+/// finite.
+Explanation explain(const Pair& pair, const supernormal::Settings& settings, Methods methods = Methods::OfLibrary);
 
 /// What the cuts leave of the sphere after some evaluations: n may still be the best normal where this is not negative. It is the
 /// least of the cuts less the best value so far, m.

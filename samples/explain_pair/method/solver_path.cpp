@@ -48,6 +48,10 @@ Evaluation WorldGap::evaluate_in_body1(const Vector3& n) {
   return {rotation_ * n, jet_.s, rotation_ * (jet_.d + gap_.rolling_radius() * n)};
 }
 
+const char* name_of(Solver solver) {
+  return solver == Solver::Hybrid ? "hybrid" : solver == Solver::Newton ? "Newton (I)" : "fixed point (II)";
+}
+
 bool is_solver_for(Solver solver, const Pair& pair) {
   const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
   if (solver == Solver::Hybrid) return true;
@@ -58,7 +62,7 @@ bool is_solver_for(Solver solver, const Pair& pair) {
 SolverPath solver_path(const Pair& pair, const Settings& settings) {
   std::vector<Vector3> normals;
   const RecordingShape shape1(*pair.body1.shape, normals);
-  SolverPath path{settings.solver, solve(pair, shape1, settings), {}, {}};
+  SolverPath path{name_of(settings.solver), settings.solver, solve(pair, shape1, settings), {}, {}};
   WorldGap gap(pair);
   for (const Vector3& n : normals) path.evaluations.push_back(gap.evaluate_in_body1(n));
   path.intervals = intervals_of(pair, settings, path.answer.evaluations);

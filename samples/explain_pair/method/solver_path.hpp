@@ -1,6 +1,8 @@
 // What a solver did with a pair.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <supernormal/proximity/gap_function.hpp>
 #include <supernormal/proximity/proximity.hpp>
 #include <vector>
@@ -23,10 +25,11 @@ struct ProvedInterval {
 };
 
 struct SolverPath {
-  supernormal::Solver solver;
-  supernormal::Proximity answer;          ///< in the world frame
-  std::vector<Evaluation> evaluations;    ///< in order
-  std::vector<ProvedInterval> intervals;  ///< after each evaluation, or after some when there are many
+  std::string name;
+  std::optional<supernormal::Solver> solver;  ///< empty for a method that is not the library's
+  supernormal::Proximity answer;              ///< in the world frame
+  std::vector<Evaluation> evaluations;        ///< in order
+  std::vector<ProvedInterval> intervals;      ///< after each evaluation, or after some when there are many
 };
 
 /// s at a unit normal in the world frame.
@@ -46,6 +49,8 @@ class WorldGap {
   Matrix3 rotation_;
   supernormal::GapJet jet_;
 };
+
+const char* name_of(supernormal::Solver solver);
 
 /// Whether the library has this solver for the pair: others than the hybrid need smooth bodies, and Newton's method a Hessian.
 bool is_solver_for(supernormal::Solver solver, const Pair& pair);

@@ -71,6 +71,28 @@ TEST_CASE("solver path: it is the library's, and ends at its answer") {
   }
 }
 
+TEST_CASE(
+    "solver path: the methods of the literature end where the hybrid does, if they say so, and draw nothing of other bodies") {
+  int drawn = 0;
+  for (const Pair& pair : sample_pairs()) {
+    const Explanation plain = explain(pair, {});
+    const Explanation all = explain(pair, {}, Methods::OfLiteratureToo);
+    CHECK(all.answer().gap == plain.answer().gap);
+    REQUIRE(all.paths.size() >= plain.paths.size());
+    for (std::size_t k = plain.paths.size(); k < all.paths.size(); ++k) {
+      const SolverPath& path = all.paths[k];
+      CAPTURE(path.name);
+      CHECK_FALSE(path.solver.has_value());
+      for (const Evaluation& one : path.evaluations) CHECK(std::abs(one.s - direct_gap(pair, one.n)) < 1e-12);
+      const bool is_found = path.answer.status == Status::Converged;
+      if (is_found && plain.answer().gap > 0) CHECK(std::abs(path.answer.gap - plain.answer().gap) < 1e-6);
+      ++drawn;
+    }
+  }
+  CHECK(drawn >= 7);
+  CHECK(explain(hard_case("colliders: an ellipsoid above a box, gap -0.0625"), {}, Methods::OfLiteratureToo).paths.size() == 1);
+}
+
 TEST_CASE("solver path: cuts and intervals hold") {
   std::mt19937_64 engine(4);
   std::normal_distribution<double> gauss;
