@@ -82,7 +82,7 @@ class Floor {
 
 Rest drop(const Row& row, const Attitudes& attitudes, int number) {
   Floor floor;  // it must outlive the geom that refers to it
-  World world(dSimpleSpaceCreate(nullptr), row.step, row.room);
+  World world(dSimpleSpaceCreate(nullptr), row.step, row.room, row.looks_ahead);
   floor.lay(row.floor, world.space(), kFloorSize * row.half_height);
   if (row.correcting_velocity > 0) dWorldSetContactMaxCorrectingVel(world.id(), static_cast<dReal>(row.correcting_velocity));
   dMass mass;

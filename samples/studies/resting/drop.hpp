@@ -21,6 +21,7 @@ struct Row {
   double step = 0.01;              ///< s
   int room = 8;                    ///< contacts a pair
   double correcting_velocity = 0;  ///< m/s; 0: without limit
+  bool looks_ahead = false;        ///< contacts before overlap; a dBox or dCylinder has none
 };
 
 /// The attitudes in which it is dropped.

@@ -24,7 +24,9 @@ struct Place {
 class Scene {
  public:
   Scene(const HeapRow& row, int number)
-      : row_(row), random_(static_cast<unsigned>(number + 1)), world_(dHashSpaceCreate(nullptr), row.step, row.room) {
+      : row_(row),
+        random_(static_cast<unsigned>(number + 1)),
+        world_(dHashSpaceCreate(nullptr), row.step, row.room, row.looks_ahead) {
     dWorldSetQuickStepNumIterations(world_.id(), row.iterations);
     dCreatePlane(world_.space(), 0, 0, 1, 0);
     if (row.heap == Heap::OnThree) {

@@ -17,6 +17,7 @@ struct HeapRow {
   int room = 8;         ///< contacts a pair
   int iterations = 20;  ///< iterations of quickstep
   int in_layer = 60;    ///< needles side by side in a bundle
+  bool looks_ahead = false;  ///< contacts before overlap; dBoxes have none
 };
 
 /// How a heap ended.

@@ -28,6 +28,7 @@ struct Options {
   int iterations = 20;
   int in_layer = 60;
   int starts = 1;
+  bool looks_ahead = false;
 };
 
 // Prints one line for each start.
@@ -49,7 +50,9 @@ void run(const Options& options) {
       for (const double step : options.steps) {
         for (const int room : options.rooms) {
           for (const double exponent : options.exponents) {
-            print_row(heap, {kHeaps.at(heap), exponent, size, step, room, options.iterations, options.in_layer}, options.starts);
+            print_row(heap,
+                      {kHeaps.at(heap), exponent, size, step, room, options.iterations, options.in_layer, options.looks_ahead},
+                      options.starts);
           }
         }
       }
@@ -73,6 +76,7 @@ int main(int argc, char** argv) {
     app.add_option("--iterations", options.iterations, "of quickstep");
     app.add_option("--in-layer", options.in_layer, "needles side by side in a bundle of 60")->check(CLI::PositiveNumber);
     app.add_option("--starts", options.starts, "how many for each row");
+    app.add_flag("--look-ahead", options.looks_ahead, "give the bodies contacts before they overlap");
     CLI11_PARSE(app, argc, argv);
     run(options);
     return 0;

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -42,6 +43,7 @@ struct Options {
   std::vector<int> rooms = {3, 4, 8};
   std::vector<double> correcting_velocities = {0, 0.1};
   Attitudes attitudes;
+  bool looks_ahead = false;
   bool prints_all = false;
 };
 
@@ -75,6 +77,30 @@ bool is_as_good(const Summary& ours, const Summary& counterpart, bool rolls) {
   return is_held && (rolls || rests);
 }
 
+/// How deep the bodies of all rows are in the floor at the end, and how high they stand.
+class Heights {
+ public:
+  void add(const Summary& summary) {
+    const double overlap = -summary.lowest;
+    for (std::size_t k = 0; k < kLimits.size(); ++k) deeper_[k] += overlap > kLimits[k] ? 1 : 0;
+    raised_ += summary.highest > 1 + kRaised ? 1 : 0;
+    deepest_ = std::max(deepest_, overlap);
+  }
+
+  void print(const char* name) const {
+    std::printf("%s: rows with an overlap at the end above", name);
+    for (std::size_t k = 0; k < kLimits.size(); ++k) std::printf(" %g: %d;", kLimits[k], deeper_[k]);
+    std::printf(" deepest %.3g half-heights; asleep more than %g too high: %d\n", deepest_, kRaised, raised_);
+  }
+
+ private:
+  static constexpr std::array<double, 3> kLimits = {1e-3, 1e-2, 0.1};  // half-heights
+  static constexpr double kRaised = 0.01;                              // half-heights
+  std::array<int, kLimits.size()> deeper_{};
+  int raised_ = 0;
+  double deepest_ = 0;
+};
+
 std::vector<std::string> names_of_bodies() {
   std::vector<std::string> names;
   for (const NamedKind& named : body_kinds()) names.push_back(named.name);
@@ -92,6 +118,8 @@ class Matrix {
     for (const NamedKind& named : body_kinds()) {
       if (std::find(options_.bodies.begin(), options_.bodies.end(), named.name) != options_.bodies.end()) run(named);
     }
+    ours_.print("ours");
+    counterparts_.print("dBox or dCylinder");
     std::printf("%d of %d rows are worse than those of a dBox or dCylinder\n", worse_, rows_);
     return worse_;
   }
@@ -103,7 +131,7 @@ class Matrix {
         for (const double step : options_.steps) {
           for (const double velocity : options_.correcting_velocities) {
             for (const int room : options_.rooms) {
-              compare(named, floor, {kFloors.at(floor), named.kind, 0, half_height, step, room, velocity});
+              compare(named, floor, {kFloors.at(floor), named.kind, 0, half_height, step, room, velocity, options_.looks_ahead});
             }
           }
         }
@@ -119,6 +147,8 @@ class Matrix {
       const Summary ours = summarise(row, options_.attitudes);
       const bool is_good = is_as_good(ours, box, lies_on_its_side(named.kind));
       ++rows_;
+      ours_.add(ours);
+      counterparts_.add(box);
       worse_ += is_good ? 0 : 1;
       if (is_good && !options_.prints_all) continue;
       std::printf("%-13s %-11s %5.3f %6.4f %d %3.1f %3.0f: %2d %6.3f %6.3f %6.3f (%2d %6.3f %6.3f %6.3f)%s\n", named.name.c_str(),
@@ -129,6 +159,8 @@ class Matrix {
   }
 
   const Options& options_;
+  Heights ours_;
+  Heights counterparts_;
   int rows_ = 0;
   int worse_ = 0;
 };
@@ -161,6 +193,7 @@ int main(int argc, char** argv) {
     app.add_option("--correcting-velocities", options.correcting_velocities, "m/s; 0: without limit")->delimiter(',');
     app.add_option("--draw", options.attitudes.draw, "another number drops them in other attitudes");
     app.add_option("--largest-tilt", options.attitudes.largest_tilt, "degrees, 1 to 90")->check(CLI::Range(1, 90));
+    app.add_flag("--look-ahead", options.looks_ahead, "give our bodies contacts before they overlap, and the counterparts none");
     app.add_flag("--all", options.prints_all, "print the other rows, too");
     CLI11_PARSE(app, argc, argv);
     return run(options);

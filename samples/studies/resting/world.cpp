@@ -14,7 +14,8 @@ constexpr int kMostRoom = 8;       // contacts
 
 }  // namespace
 
-World::World(dSpaceID space, double step, int room) : space_(space), step_(step), room_(room) {
+World::World(dSpaceID space, double step, int room, bool looks_ahead)
+    : space_(space), step_(step), room_(room), looks_ahead_(looks_ahead) {
   dWorldSetGravity(world_, 0, 0, static_cast<dReal>(-kGravity));
   dWorldSetAutoDisableFlag(world_, 1);
 }
@@ -45,6 +46,7 @@ dBodyID World::add(dGeomID geom, const dMass& mass) {
   const dBodyID body = dBodyCreate(world_);
   dBodySetMass(body, &mass);
   dGeomSetBody(geom, body);
+  if (looks_ahead_ && dGeomGetClass(geom) == snGeomClass()) snGeomSetLookAhead(geom, static_cast<dReal>(step_));
   return body;
 }
 
@@ -65,6 +67,7 @@ void World::near_callback(void* self, dGeomID o1, dGeomID o2) {
     contact.surface.mode = dContactApprox1;
     contact.surface.mu = static_cast<dReal>(0.5);
     world.overlap_ = std::max(world.overlap_, double{contact.geom.depth});
+    snContactLookAhead(&contact, static_cast<dReal>(world.step_));
     dJointAttach(dJointCreateContact(world.world_, world.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
   }
 }

@@ -10,8 +10,9 @@ namespace resting {
 /// ODE's defaults, gravity along -z, auto-disable, and Coulomb friction of 0.5 between all surfaces.
 class World {
  public:
-  /// `space` is destroyed with the world; `step` is in s, `room` for contacts a pair, 1 to 8.
-  World(dSpaceID space, double step, int room);
+  /// `space` is destroyed with the world; `step` is in s, `room` for contacts a pair, 1 to 8. With `looks_ahead` the bodies of
+  /// Supernormal have contacts before they overlap.
+  World(dSpaceID space, double step, int room, bool looks_ahead);
   ~World();
   World(const World&) = delete;
   World(World&&) = delete;
@@ -42,6 +43,7 @@ class World {
   dJointGroupID joints_ = dJointGroupCreate(0);
   double step_;
   int room_;
+  bool looks_ahead_;
   double overlap_ = 0;
 };
 
