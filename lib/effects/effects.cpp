@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -72,9 +71,9 @@ std::size_t gather_region(std::span<dContact> contacts) {
 
 /// Moves the contacts that are ahead of touch behind the others, and returns how many the others are.
 std::size_t put_ahead_last(std::span<dContact> contacts) {
-  const auto is_ahead = [](const dContact& contact) { return contact.geom.depth < 0; };
-  if (std::ranges::none_of(contacts, is_ahead)) return contacts.size();
-  return contacts.size() - std::ranges::stable_partition(contacts, std::not_fn(is_ahead)).size();
+  const auto touches = [](const dContact& contact) { return !(contact.geom.depth < 0); };
+  if (std::ranges::all_of(contacts, touches)) return contacts.size();
+  return static_cast<std::size_t>(std::stable_partition(contacts.begin(), contacts.end(), touches) - contacts.begin());
 }
 
 /// Lets all geoms of ours on a body look ahead.
