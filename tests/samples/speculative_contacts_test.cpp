@@ -123,7 +123,10 @@ TEST_CASE("speculative contacts: a bed has a third of the overlap, at most") {
 TEST_CASE("speculative contacts: --check names the longest step, and has no doubts about fast grains") {
   const std::string fast = replaced(replaced(kSceneText, "height = 0.01", "height = 20"), "step = 0.0005", "step = 0.002");
   CHECK(doubts_about(scene_of(fast)).size() == 1);
-  CHECK(doubts_about(scene_of(fast + kSection)).empty());
+  CHECK(doubts_about(scene_of(replaced(fast, "[surface_layer]\nrelative_depth = 0.002\n", "") + kSection)).empty());
+  const std::vector<std::string> doubts = doubts_about(scene_of(fast + kSection));
+  REQUIRE(doubts.size() == 1);
+  check_says(doubts.front(), {"surface_layer leaves grains that rest 6e-06 m deep", "speculative_contacts"});
   CHECK_FALSE(step_for_look_ahead(scene_of(fast)).has_value());
   // The peas of 3 mm are round, and the dice of 6 mm have faces.
   CHECK(*step_for_look_ahead(scene_of(fast + kSection)) == relative(std::sqrt(6e-3 / 9.81) / 25).epsilon(1e-3));

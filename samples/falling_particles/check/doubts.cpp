@@ -107,6 +107,16 @@ void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
+void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
+  if (!scene.looks_ahead()) return;
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const layer = std::get_if<supernormal::effects::SurfaceLayer>(&effect);
+    if (layer == nullptr) continue;
+    doubts.push_back("surface_layer leaves grains that rest " + rounded(layer->depth) +
+                     " m deep in one another, and speculative_contacts have no need of it: one of both would do");
+  }
+}
+
 /// What moves or is driven from the end of the run on stands.
 void add_late(const Scene& scene, const Part& part, std::vector<std::string>& doubts) {
   const auto is_late = [&](double from) { return from >= scene.time.duration; };
@@ -213,6 +223,7 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   std::vector<std::string> doubts;
   add_fall(scene, doubts);
   add_solver(scene, doubts);
+  add_layer(scene, doubts);
   add_parts(scene, doubts);
   add_feeders(scene, doubts);
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
