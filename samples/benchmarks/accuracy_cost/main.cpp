@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "atlas.hpp"
+#include "box_cost.hpp"
 #include "measurement.hpp"
 #include "ode/collider_cost.hpp"
 #include "ode/collider_sweep.hpp"
@@ -23,6 +24,7 @@ using namespace accuracy_cost;
 
 constexpr std::size_t kAtlasPairs = 240;     // for each class and situation: 6000 in all
 constexpr std::size_t kAtlasMeshPairs = 12;  // each is four meshes at every size
+constexpr std::size_t kAtlasBodies = 1000;   // of each class, for bounding boxes
 constexpr std::size_t kAtlasPoses = 100;     // for each collider
 
 struct Options {
@@ -37,13 +39,14 @@ struct Options {
   bool atlas = false;
   bool scene = false;
   bool literature = false;
+  bool boxes = false;
   std::string scene_path = "samples/scenes/pile.toml";
   std::string out = "out/accuracy_cost";
 };
 
 void run(const Options& options) {
   const Effort effort{options.rounds, options.batch_us * 1e-6};
-  if (options.atlas || options.scene || options.literature) {
+  if (options.atlas || options.scene || options.literature || options.boxes) {
     std::vector<Part> parts;
     if (options.atlas) {
       parts.push_back(query_costs(kAtlasPairs, options.seed, effort));
@@ -51,6 +54,7 @@ void run(const Options& options) {
       parts.push_back(collider_sweep(kAtlasPoses, options.seed, effort));
     }
     if (options.atlas || options.literature) parts.push_back(literature_costs(kAtlasPairs, options.seed, effort));
+    if (options.atlas || options.boxes) parts.push_back(box_costs(kAtlasBodies, options.seed, effort));
     if (options.atlas || options.scene) {
       for (const auto& make : {scene_forms, scene_growth, scene_outcomes}) parts.push_back(make(options.scene_path));
     }
@@ -105,9 +109,10 @@ int main(int argc, char** argv) {
     app.add_flag("--atlas", options.atlas, "measures all levels instead: queries, meshes, colliders, scenes")->excludes(csv);
     app.add_flag("--scene", options.scene, "times a scene of grains in the form of several classes instead")->excludes(csv);
     app.add_flag("--literature", options.literature, "compares with the methods of the literature instead")->excludes(csv);
+    app.add_flag("--boxes", options.boxes, "compares the ways to a bounding box instead")->excludes(csv);
     app.add_option("--scene-file", options.scene_path, "with --atlas and --scene: the grains, in a box")->capture_default_str();
     app.add_option("--out", options.out,
-                   "with --atlas, --scene and --literature: folder for the results; what is there is not measured again")
+                   "with --atlas, --scene, --literature and --boxes: folder for the results; what is there is not measured again")
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     run(options);

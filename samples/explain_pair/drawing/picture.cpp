@@ -68,7 +68,8 @@ void draw_titles(Svg& svg, const Explanation& explanation, double close_up) {
 
 /// The legend of the paths, which is a table of the solvers.
 void draw_table(Svg& svg, const Box& box, const Explanation& explanation) {
-  const std::array<double, 4> columns = {box.x, box.x + 190, box.x + 262, box.x + 392};
+  const double room = explanation.paths.size() > kRows ? 34 : 0;  // px; the names of the literature's methods are longer
+  const std::array<double, 4> columns = {box.x, box.x + room + 190, box.x + room + 262, box.x + room + 392};
   const std::array heads = {"solver", "evaluations", "", ""};
   double y = box.y + 14;
   svg.text({columns[0] + 44, y}, heads[0], kSubtitle);
