@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/ahead/meeting.hpp"
 #include "contact/manifold/convex_polygon.hpp"
 #include "proximity/tangent_plane.hpp"
 #include "supernormal/contact/body_box.hpp"
@@ -20,13 +19,6 @@ constexpr double kLargestTurn = 0.1;
 
 // From this multiple of the largest turn on, the lever is that of the largest turn; below it is in between, so that no force jumps.
 constexpr double kFarTooLarge = 2;
-
-// An impact that is faster than this, in smallest half-extents within the time, has one contact: quickstep's 20 iterations leave a
-// share of some 1e-3 of a velocity that several contacts stop together.
-constexpr double kOneContact = 100;
-
-// A ball around the middle that is in the body, as a share of the smallest half-extent: that of an octahedron is 0.577.
-constexpr double kInnerBall = 0.5;
 
 /// The place of the contacts that is nearest to `point`, a point of their tangent plane.
 Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
@@ -43,11 +35,6 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
 Vector3 middle_of(const BodyAhead& body) {
   if (body.shape.is_symmetric()) return body.pose.position;
   return body.pose.position + body.pose.rotation * BodyBox::of(body.shape).centre;
-}
-
-/// How far a ball in the body, around its middle, is behind the plane through `place`, m; `normal` points out of the body.
-double height_of(const BodyAhead& body, const Vector3& normal, const Vector3& place) {
-  return normal.dot(place - middle_of(body)) - kInnerBall * body.shape.half_extents().minCoeff();
 }
 
 /// m/s; of the point of the body that is at `place`.
@@ -80,8 +67,8 @@ class LeverLimit {
         turn_(time * (share * body1.motion.angular_velocity - (1 - share) * body2.motion.angular_velocity)),
         largest_turn_(share * largest_turn_of(body1) + (1 - share) * largest_turn_of(body2)),
         approach_(approach_at(under_centre(contact.contact))),
-        height_(std::max(0.0, share * height_of(body1, normal_, contact.contact) +
-                                  (1 - share) * height_of(body2, -normal_, contact.contact) + std::min(0.0, contact.gap))) {}
+        height_(std::max(0.0, share * normal_.dot(contact.contact - middle_of(body1)) -
+                                  (1 - share) * normal_.dot(contact.contact - middle_of(body2)) + std::min(0.0, contact.gap))) {}
 
   /// m; how much nearer the centres of mass would come than the contact lets the bodies.
   double approach() const { return approach_; }
@@ -162,7 +149,7 @@ class LeverLimit {
   Vector3 turn_;         // radians; in which the bodies are already
   double largest_turn_;  // radians; by an impact
   double approach_;      // m
-  double height_;        // m; by so much the middles may come nearer at any attitude
+  double height_;        // m; by so much the middles may come nearer, none through the plane
 };
 
 /// The larger of the turns that a contact of two free bodies gives them, in largest turns. It takes `approach` (m) away.
@@ -206,7 +193,7 @@ void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, dou
   manifold.deepest.contact += limit.shift_of(manifold.deepest.contact);  // with room for one it acts alone
   // Of contacts that are all on one side of the centre only the nearest acts, but quickstep does not find that.
   const bool is_beside = manifold.corner_count > 0 && place != under && limit.part_at(place) < 1;
-  if (is_beside || limit.approach() > kOneContact * smaller_thickness(body1.shape, body2.shape)) {
+  if (is_beside) {
     manifold.deepest.contact = place + shift;
     manifold.corner_count = 0;
   }
