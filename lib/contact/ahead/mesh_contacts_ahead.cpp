@@ -116,6 +116,7 @@ struct MeshContactsAhead::Search {
   double near;   // m; a gap up to this is a contact
   double reach;  // m
   double share;  // of the body in the motion of both
+  double size;   // m; the smallest half-extent of the body
   double graze;  // m; a body that is in the surface by more has met it
 };
 
@@ -147,6 +148,7 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
                       near,
                       there.motion.velocity.norm() * time + near,
                       share_of_first(body.motion, surface),
+                      size,
                       kGraze * size};
   add_overlaps(search);
   double left = time;
@@ -198,7 +200,10 @@ void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
 }
 
 void MeshContactsAhead::add(const Search& search, const Proximity& there, int triangle, const Vector3& way) {
-  ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there);
+  const MotionAhead& motion = search.now.motion;
+  const double approach = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way));
+  const double tilt = tilt_ahead(motion, search.surface, search.time, approach, search.size);
+  ContactManifold manifold = find_plane_manifold_of_tilt(search.body.shape, search.body.pose, there, tilt);
   draw_in_corners(manifold, search.triangles);
   take_back(manifold, way, search.share);
   manifold.reach = search.reach;

@@ -56,6 +56,19 @@ void unite(ManifoldCorner& corner, ManifoldCorner& other, double floor, double l
   other = corner;
 }
 
+/// Rotates the corners so that the first two are the neighbours that are least deep, where these are less deep by `shallow` (m).
+/// United with a corner that is far above, a deep one stays where it is, and the far one is held no more: a body that comes down
+/// on the other three has its centre over their border. With contacts of overlaps no corner is so far above.
+void put_highest_pair_first(std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners, double shallow) {
+  const auto depth_of_pair = [&](std::size_t k) { return std::max(corners[k].depth, corners[(k + 1) % corners.size()].depth); };
+  std::size_t highest = 0;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    if (depth_of_pair(k) < depth_of_pair(highest)) highest = k;
+  }
+  if (depth_of_pair(0) - depth_of_pair(highest) <= shallow) return;
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(highest), corners.end());
+}
+
 /// Moves corners that are near to each other to their mean, as deep as the deepest of them: not at all from twice the distance on,
 /// to one place within it.
 void draw_together(std::span<ManifoldCorner> corners, double distance) {
@@ -154,6 +167,7 @@ ContactManifold reduced_to(ContactManifold manifold, int room) {
   const double depth = -manifold.deepest.gap;
   const double shallow = std::max(depth, manifold.shallow);
   const double least_weight = kLeastShare * shallow;
+  if (room == 3) put_highest_pair_first(corners, shallow);
   if (room < 4) unite(corners[0], corners[1], depth - shallow, least_weight);
   if (room < 3) unite(corners[2], corners[3], depth - shallow, least_weight);
   draw_together(corners, manifold.same_place);

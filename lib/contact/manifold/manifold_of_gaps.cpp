@@ -1,18 +1,13 @@
-// The manifold of bodies that are apart, touch or overlap slightly, by the gaps of its corners.
+#include "contact/manifold/manifold_of_gaps.hpp"
+
 #include <algorithm>
 #include <optional>
 
 #include "contact/manifold/common_corners.hpp"
 #include "contact/manifold/support_polygon.hpp"
-#include "supernormal/contact/contacts_ahead.hpp"
 
 namespace supernormal {
 namespace {
-
-// Tilt of the normal, radians: a corner is where the body touches a plane that leans by this much. A body that turns by less
-// within the time ahead comes down on what lies between its corners. From 0.05 to 0.2 bodies rest alike; with 0.02 coins topple,
-// since what comes down lies outside.
-constexpr double kTilt = 0.1;
 
 // Where two corners are united, one that is higher by this share of the distance within which corners are one weighs least.
 constexpr double kShallow = 0.1;
@@ -36,13 +31,22 @@ void write_gaps(const CornerList& corners, double gap, double size, ContactManif
 
 ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                       const Proximity& proximity, double share) {
+  return find_manifold_of_tilt(shape1, pose1, shape2, pose2, proximity, share, kLeastTilt);
+}
+
+ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity) {
+  return find_plane_manifold_of_tilt(shape, pose, proximity, kLeastTilt);
+}
+
+ContactManifold find_manifold_of_tilt(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
+                                      const Proximity& proximity, double share, double tilt) {
   ContactManifold manifold(proximity);
   manifold.deepest.contact += (0.5 - share) * proximity.gap * proximity.normal;
   if (!may_stand(shape1, proximity) || !may_stand(shape2, proximity)) return manifold;
-  const SupportPolygon polygon1 = SupportPolygon::of_tilt(shape1, pose1, proximity.normal, proximity.point1, kTilt);
+  const SupportPolygon polygon1 = SupportPolygon::of_tilt(shape1, pose1, proximity.normal, proximity.point1, tilt);
   manifold.evaluations = polygon1.evaluations();
   if (!polygon1.has_width()) return manifold;
-  const SupportPolygon polygon2 = SupportPolygon::of_tilt(shape2, pose2, -proximity.normal, proximity.point2, kTilt);
+  const SupportPolygon polygon2 = SupportPolygon::of_tilt(shape2, pose2, -proximity.normal, proximity.point2, tilt);
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, manifold.deepest.contact);
@@ -50,11 +54,11 @@ ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, co
   return manifold;
 }
 
-ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity) {
+ContactManifold find_plane_manifold_of_tilt(const Shape& shape, const Pose& pose, const Proximity& proximity, double tilt) {
   ContactManifold manifold(proximity);
   if (!may_stand(shape, proximity)) return manifold;
   const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;
-  const SupportPolygon polygon = SupportPolygon::of_tilt(shape, pose, proximity.normal, support_point, kTilt);
+  const SupportPolygon polygon = SupportPolygon::of_tilt(shape, pose, proximity.normal, support_point, tilt);
   manifold.evaluations = 1 + polygon.evaluations();
   if (!polygon.has_width()) return manifold;
   // At the border of a sheet the contact is beside the point on which the body would stand if the sheet went on.

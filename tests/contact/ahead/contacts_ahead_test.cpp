@@ -162,6 +162,36 @@ TEST_CASE("a fast impact at one end acts nearer to the centre of mass") {
   }
 }
 
+TEST_CASE("a body that turns has its corners where it comes down, and those of two bodies are as far apart") {
+  const Superellipsoid brick({0.1, 0.07, 0.05}, 8, 8);
+  const Box floor(Vector3(1, 1, 0.1));
+  const auto half_length_at = [&](double turn, bool on_plane) {
+    BodyAhead body = standing(brick, {Vector3(0, 0, 0.0502), Matrix3::Identity()});
+    body.motion.mobility = 1;
+    body.motion.turn_rate = turn / kTime;
+    body.motion.arm = 0.14;
+    const BodyAhead below = standing(floor, {Vector3(0, 0, -0.1), Matrix3::Identity()});
+    const ContactManifold manifold =
+        on_plane ? find_plane_contacts_ahead(body, kTime, find_plane_proximity(brick, body.pose, Vector3::UnitZ(), 0))
+                 : find(body, below);
+    REQUIRE(manifold.corner_count == 4);
+    return std::abs(manifold.corners[0].point.x());
+  };
+  for (const bool on_plane : {true, false}) {
+    const double resting = half_length_at(0, on_plane);
+    CHECK(half_length_at(0.09, on_plane) == resting);
+    CHECK(half_length_at(0.3, on_plane) > 1.1 * resting);
+    CHECK(half_length_at(3, on_plane) == half_length_at(30, on_plane));
+    double before = resting;
+    for (int k = 1; k <= 100; ++k) {  // nothing jumps
+      const double now = half_length_at(0.01 * k, on_plane);
+      CHECK(now >= before);
+      CHECK(now - before < 0.02 * resting);
+      before = now;
+    }
+  }
+}
+
 TEST_CASE("nothing is found from numbers that are none, and nothing is lost") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(1, 1, 0.01));

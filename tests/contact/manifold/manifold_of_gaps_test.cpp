@@ -131,3 +131,23 @@ TEST_CASE("with less room the nearest corner keeps its gap") {
     }
   }
 }
+
+TEST_CASE("with room for three a brick that leans is held around its centre, whichever corner is the nearest") {
+  for (int k = 0; k < 36; ++k) {
+    const double direction = (5 + 10 * k) * std::numbers::pi / 180;
+    Pose pose{Vector3::Zero(), turned(0.05, Vector3(std::cos(direction), std::sin(direction), 0))};
+    pose.position.z() = 1e-3 - find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0).gap;
+    const Proximity proximity = find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0);
+    const ContactManifold three = reduced_to(find_plane_manifold_of_gaps(kBrick, pose, proximity), 3);
+    REQUIRE(three.corner_count == 3);
+    // The parts of a weight at the centre that each of the three bears.
+    Matrix3 corners;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vector3& point = three.corners[static_cast<std::size_t>(corner)].point;
+      corners.col(corner) = Vector3(point.x(), point.y(), 1);
+    }
+    const Vector3 parts = corners.inverse() * Vector3(0, 0, 1);
+    CAPTURE(direction);
+    CHECK(parts.minCoeff() > 0.1);
+  }
+}
