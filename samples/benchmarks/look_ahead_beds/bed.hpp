@@ -1,0 +1,72 @@
+// A bed of grains of one kind: what every simulation of it starts from, and the ruler that measures all of them.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace look_ahead_beds {
+
+inline constexpr double kDensity = 1300;             // kg/m^3
+inline constexpr double kGravity = 9.81;             // m/s^2
+inline constexpr double kFriction = 0.5;             // Coulomb's coefficient, between all surfaces
+inline constexpr double kSmallestHalfAxis = 2.5e-3;  // m; of the mean grain, and the unit of overlaps
+
+struct Pose {
+  std::array<double, 3> position{};    ///< m
+  std::array<double, 4> quaternion{};  ///< unit; w, x, y, z
+};
+
+struct Grain {
+  std::array<double, 3> half_axes{};  ///< m
+  Pose start;
+};
+
+/// Grains above the floor z = 0, between the walls |x|, |y| = half_width.
+struct Bed {
+  double exponent = 2;  ///< of both sections
+  double half_width = 0;
+  std::vector<Grain> grains;
+
+  /// The five walls, (normal, distance) as dCreatePlane takes them.
+  std::array<std::array<double, 4>, 5> walls() const;
+};
+
+/// Layers of grains with half-axes in the ratio 4 : 3 : 2 and sizes that differ by up to 20 %, at random orientations.
+Bed make_bed(int count, double exponent, unsigned seed);
+
+/// The geom of a grain, at its start.
+dGeomID create_geom(dSpaceID space, const Bed& bed, const Grain& grain);
+
+void set_pose(dGeomID geom, const Pose& pose);
+
+/// Measures overlaps by snGeomProximity, with geoms of its own: it neither uses nor changes what a simulation remembers.
+class Ruler {
+ public:
+  explicit Ruler(const Bed& bed);
+  ~Ruler();
+  Ruler(const Ruler&) = delete;
+  Ruler(Ruler&&) = delete;
+  Ruler& operator=(const Ruler&) = delete;
+  Ruler& operator=(Ruler&&) = delete;
+
+  /// Takes in one moment.
+  void measure(const std::vector<Pose>& poses);
+
+  double deepest() const { return deepest_; }                                                ///< of all moments, half-axes
+  double mean() const { return overlaps_ > 0 ? sum_ / static_cast<double>(overlaps_) : 0; }  ///< of what overlaps, half-axes
+
+ private:
+  static void near_callback(void* self, dGeomID o1, dGeomID o2);
+
+  dSpaceID grains_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+  dSpaceID walls_ = dSimpleSpaceCreate(nullptr);
+  std::vector<dGeomID> geoms_;
+  double deepest_ = 0;
+  double sum_ = 0;
+  std::size_t overlaps_ = 0;
+};
+
+}  // namespace look_ahead_beds

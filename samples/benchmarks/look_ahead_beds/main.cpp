@@ -1,0 +1,229 @@
+// What contacts before overlap save in a bed of grains: pours the same beds with plain contacts, with contacts ahead and, where it
+// is there, with Bullet, at several steps. Prints overlaps and costs, and the ratio of times at an equal overlap.
+
+#include <ode/ode.h>
+#include <supernormal/supernormal.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bed.hpp"
+#include "simulation.hpp"
+
+namespace {
+
+using namespace look_ahead_beds;
+
+constexpr int kMoments = 25;  // of the second half, at which overlaps and the energy are measured
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> all = {
+      {"plain", start_plain},
+      {"ahead", start_ahead},
+#ifdef LOOK_AHEAD_BEDS_BULLET
+      {"Bullet", start_bullet},
+#endif
+  };
+  return all;
+}
+
+struct Options {
+  std::vector<std::string> methods = {"plain", "ahead"};
+  int grains = 600;
+  std::vector<double> exponents = {2, 4, 8, 20, 60};
+  std::vector<double> steps = {0.00025, 0.0005, 0.001, 0.002, 0.004, 0.008};
+  std::vector<int> iterations = {40};
+  int draws = 1;
+  double duration = 1;  // s
+  double deepest = 1e-3;
+  double mean = 2.7e-4;
+  std::string csv;
+};
+
+/// The second half of a run, when the bed lies. Costs are those of a simulated second.
+struct Outcome {
+  double step = 0;     ///< s
+  double deepest = 0;  ///< smallest half-axes of the mean grain
+  double mean = 0;     ///< likewise, of the pairs that overlap
+  double energy = 0;   ///< J
+  Costs costs;
+};
+
+Outcome pour(const Method& method, const Bed& bed, const Settings& settings, double duration) {
+  const std::unique_ptr<Simulation> simulation = method.start(bed, settings);
+  const int half = std::max(kMoments, static_cast<int>(std::lround(0.5 * duration / settings.step)));
+  for (int step = 0; step < half; ++step) simulation->step();
+  simulation->forget_costs();
+  Ruler ruler(bed);
+  Outcome outcome;
+  outcome.step = settings.step;
+  std::vector<Pose> poses(bed.grains.size());
+  int moments = 0;
+  for (int step = 1; step <= half; ++step) {
+    simulation->step();
+    if (step % (half / kMoments) != 0) continue;
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = simulation->pose(i);
+    ruler.measure(poses);
+    outcome.energy += simulation->kinetic_energy();
+    ++moments;
+  }
+  const double seconds = half * settings.step;
+  const Costs& costs = simulation->costs();
+  outcome.costs = {costs.finding / seconds, costs.solving / seconds, costs.rows / seconds, costs.evaluations / seconds};
+  outcome.energy /= moments;
+  outcome.deepest = ruler.deepest();
+  outcome.mean = ruler.mean();
+  return outcome;
+}
+
+/// Means over the draws; of overlaps and energies, which scatter by factors, geometric ones.
+Outcome mean_of(const std::vector<Outcome>& draws) {
+  const double share = 1 / static_cast<double>(draws.size());
+  Outcome mean{draws.front().step, 1, 1, 1, {}};
+  for (const Outcome& draw : draws) {
+    mean.deepest *= std::pow(draw.deepest, share);
+    mean.mean *= std::pow(draw.mean, share);
+    mean.energy *= std::pow(draw.energy, share);
+    mean.costs.finding += share * draw.costs.finding;
+    mean.costs.solving += share * draw.costs.solving;
+    mean.costs.rows += share * draw.costs.rows;
+    mean.costs.evaluations += share * draw.costs.evaluations;
+  }
+  return mean;
+}
+
+/// The time of a simulated second at which a sweep has that overlap, by the powers between neighbouring steps, s. No value: it has
+/// none so small or so large.
+std::optional<double> time_at(const std::vector<Outcome>& sweep, double Outcome::*overlap, double value) {
+  for (std::size_t k = sweep.size(); k-- > 1;) {  // from the longest step: an overlap that scatters may have it twice
+    const Outcome& one = sweep[k - 1];
+    const Outcome& other = sweep[k];
+    if (!(one.*overlap <= value && value <= other.*overlap)) continue;
+    const double part = std::log(value / one.*overlap) / std::log(other.*overlap / one.*overlap);
+    return one.costs.seconds() * std::pow(other.costs.seconds() / one.costs.seconds(), part);
+  }
+  return {};
+}
+
+class Beds {
+ public:
+  explicit Beds(const Options& options) : options_(options) {
+    if (options.csv.empty()) return;
+    csv_.open(options.csv, std::ios::app);
+    if (!csv_) throw std::runtime_error("cannot write " + options.csv);
+    if (csv_.tellp() > 0) return;
+    csv_
+        << "method,grains,exponent,iterations,step_s,deepest,mean,energy_J,row_iterations,evaluations,finding_s,solving_s,time_s\n";
+  }
+
+  void run() {
+    std::printf(
+        "overlaps in smallest half-axes of the mean grain; costs of a simulated second: times in s of the processor\n\n"
+        "| grains, exponent | method | iterations | step, ms | deepest | mean | energy, J | M row-iterations | M evaluations "
+        "| finding | solving | time |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+    for (const double exponent : options_.exponents) {
+      for (const int iterations : options_.iterations) {
+        for (const Method& method : methods()) {
+          const bool is_wanted = std::find(options_.methods.begin(), options_.methods.end(), method.name) != options_.methods.end();
+          if (is_wanted) sweep(method, exponent, iterations);
+        }
+      }
+    }
+    std::printf("\n%s", ratios_.c_str());
+  }
+
+ private:
+  void sweep(const Method& method, double exponent, int iterations) {
+    std::vector<Outcome> sweep;
+    for (const double step : options_.steps) {
+      std::vector<Outcome> draws;
+      for (int draw = 1; draw <= options_.draws; ++draw) {
+        const Bed bed = make_bed(options_.grains, exponent, static_cast<unsigned>(draw));
+        draws.push_back(pour(method, bed, {step, iterations}, options_.duration));
+      }
+      sweep.push_back(mean_of(draws));
+      write(method.name, exponent, iterations, sweep.back());
+    }
+    std::sort(sweep.begin(), sweep.end(), [](const Outcome& one, const Outcome& other) { return one.step < other.step; });
+    add_ratio(method.name, exponent, iterations, sweep);
+  }
+
+  void write(const std::string& method, double exponent, int iterations, const Outcome& o) {
+    std::printf("| %d, %g | %s | %d | %g | %.1e | %.1e | %.0e | %.0f | %.2f | %.2f | %.2f | %.2f |\n", options_.grains, exponent,
+                method.c_str(), iterations, 1e3 * o.step, o.deepest, o.mean, o.energy, 1e-6 * o.costs.rows,
+                1e-6 * o.costs.evaluations, o.costs.finding, o.costs.solving, o.costs.seconds());
+    std::fflush(stdout);
+    if (!csv_.is_open()) return;
+    csv_ << method << ',' << options_.grains << ',' << exponent << ',' << iterations << ',' << o.step << ',' << o.deepest << ','
+         << o.mean << ',' << o.energy << ',' << o.costs.rows << ',' << o.costs.evaluations << ',' << o.costs.finding << ','
+         << o.costs.solving << ',' << o.costs.seconds() << std::endl;
+  }
+
+  void add_ratio(const std::string& method, double exponent, int iterations, const std::vector<Outcome>& sweep) {
+    const auto text = [&](double Outcome::*overlap, const char* name, double value) {
+      std::array<char, 100> line;
+      const std::optional<double> time = time_at(sweep, overlap, value);
+      if (time) {
+        std::snprintf(line.data(), line.size(), "%s overlap of %g: %.2f s", name, value, *time);
+      } else {
+        std::snprintf(line.data(), line.size(), "%s overlap of %g: at none of these steps", name, value);
+      }
+      return std::string(line.data());
+    };
+    std::array<char, 100> head;
+    std::snprintf(head.data(), head.size(), "%d, %g, %s, %d iterations: ", options_.grains, exponent, method.c_str(), iterations);
+    ratios_ += std::string(head.data()) + text(&Outcome::deepest, "deepest", options_.deepest) + "; " +
+               text(&Outcome::mean, "mean", options_.mean) + "\n";
+  }
+
+  const Options& options_;
+  std::ofstream csv_;
+  std::string ratios_;
+};
+
+void run(const Options& options) {
+  dInitODE2(0);
+  dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
+  Beds(options).run();
+  snClose();
+  dCloseODE();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    Options options;
+    CLI::App app("What contacts before overlap save in a bed of grains");
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    app.add_option("--methods", options.methods, "plain, ahead, Bullet (with libbullet-dev; exponent 2)")
+        ->check(CLI::IsMember(names))
+        ->delimiter(',');
+    app.add_option("--grains", options.grains, "in the bed")->check(CLI::Range(1, 100000))->capture_default_str();
+    app.add_option("--exponents", options.exponents, "of the grains, above 1")->delimiter(',');
+    app.add_option("--steps", options.steps, "s")->check(CLI::Range(1e-6, 1.0))->delimiter(',');
+    app.add_option("--iterations", options.iterations, "of the solver")->check(CLI::Range(1, 100000))->delimiter(',');
+    app.add_option("--draws", options.draws, "beds of each kind, of which means are taken")->check(CLI::Range(1, 1000));
+    app.add_option("--duration", options.duration, "s")->check(CLI::Range(0.01, 1000.0))->capture_default_str();
+    app.add_option("--deepest", options.deepest, "overlap at which times are compared")->check(CLI::PositiveNumber);
+    app.add_option("--mean", options.mean, "likewise")->check(CLI::PositiveNumber);
+    app.add_option("--csv", options.csv, "file to which the results are added");
+    CLI11_PARSE(app, argc, argv);
+    run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "look_ahead_beds: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
