@@ -1,5 +1,5 @@
 // What contacts before overlap save in a bed of grains: pours the same beds with plain contacts, with contacts ahead and, where it
-// is there, with Bullet, at several steps. Prints overlaps and costs, and the ratio of times at an equal overlap.
+// is there, with Bullet, at several steps. Prints overlaps and costs, and the times at an equal overlap.
 
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
