@@ -168,7 +168,7 @@ TEST_CASE("a body that turns has its corners where it comes down, and those of t
   const auto half_length_at = [&](double turn, bool on_plane) {
     BodyAhead body = standing(brick, {Vector3(0, 0, 0.0502), Matrix3::Identity()});
     body.motion.mobility = 1;
-    body.motion.turn_rate = turn / kTime;
+    body.motion.angular_velocity = Vector3(turn / kTime, 0, 0);
     body.motion.arm = 0.14;
     const BodyAhead below = standing(floor, {Vector3(0, 0, -0.1), Matrix3::Identity()});
     const ContactManifold manifold =
