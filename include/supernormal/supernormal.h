@@ -172,7 +172,7 @@ SUPERNORMAL_API void snSetWarmStart(int on);
  * step of the simulation. With a time > 0 dCollide also returns contacts of pairs that may meet within it, each with depth = -gap <
  * 0; hand them to snContactLookAhead before dJointCreateContact. So a body does not tunnel through what it would hit within a step,
  * and what rests comes in by next to nothing, at longer steps. lib/guide.md, "Contacts before overlap", names the exceptions:
- * bodies whose centre of mass is off the middle of their geom, and two free bodies that are many sizes a step fast.
+ * bodies of several geoms, and two free bodies that meet off centre, where they go many sizes in a step.
  *
  * dCollide takes velocities and forces from the bodies of the geoms (dGeomGetBody); a geom without one stands still. It moves both
  * without rotation to where they meet, and takes the normals from there: what passes by has no contact. Rotation, gravity, forces
@@ -239,8 +239,8 @@ typedef struct snImpact {
  * now, linear and angular, about their centres of mass; a geom without body stands still. At `time` the gap is within the tolerance
  * of the geoms' solver settings. No impact is missed, however fast the geoms turn: that they are apart before is proved. Geoms that
  * overlap or touch now hit at time 0, but for those that touch and part. The geoms are those of snGeomProximity, in either order.
- * Of a dTriMesh or dHeightfield every triangle counts, from both sides, and nothing behind it. Returns 1; 0 (and snLastError) when
- * the pair is not supported, the horizon is out of range, or a pose, velocity or length is not finite. */
+ * Of a dTriMesh or dHeightfield every triangle counts, from both sides, and nothing behind it; a dRay is a segment. Returns 1; 0 (and
+ * snLastError) when the pair is not supported, the horizon is out of range, or a pose, velocity or length is not finite. */
 SUPERNORMAL_API int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out);
 
 /* --- many pairs at once ------------------------------------------------------------------------------------------------ */
