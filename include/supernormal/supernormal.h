@@ -239,8 +239,8 @@ typedef struct snImpact {
  * now, linear and angular, about their centres of mass; a geom without body stands still. At `time` the gap is within the tolerance
  * of the geoms' solver settings. No impact is missed, however fast the geoms turn: that they are apart before is proved. Geoms that
  * overlap or touch now hit at time 0, but for those that touch and part. The geoms are those of snGeomProximity, in either order.
- * Of a dTriMesh or dHeightfield every triangle counts, from both sides, and nothing behind it; a dRay is a segment. Returns 1; 0 (and
- * snLastError) when the pair is not supported, the horizon is out of range, or a pose, velocity or length is not finite. */
+ * Of a dTriMesh or dHeightfield every triangle counts, from both sides, and nothing behind it; a dRay is a segment. Returns 1; 0
+ * (and snLastError) when the pair is not supported, the horizon is out of range, or a pose, velocity or length is not finite. */
 SUPERNORMAL_API int snGeomTimeOfImpact(dGeomID g1, dGeomID g2, dReal horizon, snImpact* out);
 
 /* --- many pairs at once ------------------------------------------------------------------------------------------------ */
