@@ -2,14 +2,13 @@
 
 #include <Eigen/LU>
 
-#include "quadtree_start.hpp"
 #include "tangents.hpp"
 
 namespace literature {
 
-CommonNormal common_normal_angles(const Bodies& bodies, const Options& options) {
+CommonNormal common_normal_angles(const Bodies& bodies, const Options& options, Start start) {
   int evaluations = 0;
-  std::array<Vector2, 2> angles = start_angles(bodies, options, evaluations);
+  std::array<Vector2, 2> angles = start_angles(bodies, options, start, evaluations);
   Eigen::Vector4d residual;
   Eigen::Matrix4d jacobian;
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {

@@ -1,12 +1,12 @@
 // Method 2: the common normal in the angles of both surfaces.
 #pragma once
 
-#include "method.hpp"
+#include "start.hpp"
 
 namespace literature {
 
 /// Newton's method for the latitude and longitude of both points, with an analytic Jacobian: the normal of body 1 is across both
 /// tangents of body 2, and so is the line between the points (the parametric form of Goncalves et al. 2017).
-CommonNormal common_normal_angles(const Bodies& bodies, const Options& options);
+CommonNormal common_normal_angles(const Bodies& bodies, const Options& options, Start start);
 
 }  // namespace literature

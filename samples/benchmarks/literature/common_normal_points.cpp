@@ -2,14 +2,13 @@
 
 #include <Eigen/LU>
 
-#include "quadtree_start.hpp"
 #include "tangents.hpp"
 
 namespace literature {
 
-CommonNormal common_normal_points(const Bodies& bodies, const Options& options) {
+CommonNormal common_normal_points(const Bodies& bodies, const Options& options, Start start) {
   int evaluations = 0;
-  const std::array<Vector2, 2> angles = start_angles(bodies, options, evaluations);
+  const std::array<Vector2, 2> angles = start_angles(bodies, options, start, evaluations);
   Vector3 p = bodies.body1.point(angles[0]);  // each in the frame of its body
   Vector3 q = bodies.body2.point(angles[1]);
   Eigen::Matrix<double, 6, 1> residual;

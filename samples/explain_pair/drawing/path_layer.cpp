@@ -95,8 +95,13 @@ PathStyle style_of(const SolverPath& path) {
   if (path.solver == Solver::Newton) return {kVermilion, "7 3", Triangle};
   if (path.solver == Solver::FixedPoint) return {kPurple, "2 3", Square};
   // The methods of the literature have their numbers in their names: a colour for each, dashes for the ways to do it.
-  if (path.name.ends_with("(1)")) return {kBlue, "none", Diamond};
-  if (path.name.ends_with("(2)")) return {kGreen, path.name.starts_with("normal") ? "5 4" : "none", Diamond};
+  if (path.name.ends_with("(1)")) return {kBlue, path.name.find("quadtree") == std::string::npos ? "none" : "2 4", Diamond};
+  if (path.name.ends_with("(2)"))
+    return {kGreen,
+            path.name.starts_with("normal")                   ? "5 4"
+            : path.name.find("quadtree") == std::string::npos ? "none"
+                                                              : "2 4",
+            Diamond};
   if (path.name.ends_with("(3)")) return {kOrange, "none", Diamond};
   return {kBrown, path.name.ends_with("fixed point (4)") ? "none" : path.name.ends_with("distance (4)") ? "5 4" : "2 4", Diamond};
 }

@@ -89,7 +89,7 @@ TEST_CASE(
       ++drawn;
     }
   }
-  CHECK(drawn >= 7);
+  CHECK(drawn >= 9);
   CHECK(explain(hard_case("colliders: an ellipsoid above a box, gap -0.0625"), {}, Methods::OfLiteratureToo).paths.size() == 1);
 }
 

@@ -1,4 +1,4 @@
-#include "quadtree_start.hpp"
+#include "start.hpp"
 
 #include <limits>
 #include <numbers>
@@ -14,13 +14,12 @@ Vector2 middle(const Vector2& angles, const Vector2& reach, std::size_t quarter)
   return angles + reach.cwiseProduct(Vector2(kQuarters[quarter][0], kQuarters[quarter][1]));
 }
 
-}  // namespace
+std::array<Vector2, 2> angles_of(const Bodies& bodies, const Vector3& normal) {
+  return {bodies.body1.angles_of(normal), bodies.body2.angles_of(-(bodies.rotation.transpose() * normal))};
+}
 
-std::array<Vector2, 2> start_angles(const Bodies& bodies, const Options& options, int& evaluations) {
-  if (options.first_normal != nullptr) {
-    const Vector3& n = *options.first_normal;
-    return {bodies.body1.angles_of(n), bodies.body2.angles_of(-(bodies.rotation.transpose() * n))};
-  }
+/// Quarters the angles of both surfaces six times and keeps the pair of quarters whose middles are nearest.
+std::array<Vector2, 2> quadtree(const Bodies& bodies, int& evaluations) {
   std::array<Vector2, 2> best = {Vector2::Zero(), Vector2::Zero()};
   Vector2 reach(std::numbers::pi / 2, std::numbers::pi);
   for (int level = 0; level < kLevels; ++level) {
@@ -44,6 +43,16 @@ std::array<Vector2, 2> start_angles(const Bodies& bodies, const Options& options
     reach /= 2;
   }
   return best;
+}
+
+}  // namespace
+
+std::array<Vector2, 2> start_angles(const Bodies& bodies, const Options& options, Start start, int& evaluations) {
+  if (options.first_normal == nullptr && start == Start::Quadtree) return quadtree(bodies, evaluations);
+  ++evaluations;
+  if (options.first_normal != nullptr) return angles_of(bodies, *options.first_normal);
+  const double distance = bodies.offset.norm();
+  return angles_of(bodies, distance > 0 ? Vector3(bodies.offset / distance) : Vector3::UnitX());
 }
 
 }  // namespace literature
