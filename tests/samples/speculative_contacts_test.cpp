@@ -74,6 +74,7 @@ TEST_CASE("a compression with speculative contacts is refused: it works by overl
 TEST_CASE("speculative contacts: grains of 500 m/s stay in their container at steps of 5 ms") {
   Scene scene = scene_of(Box{{0.05, 0.05}}, {{ball(), 1}});
   scene.time.step = 5e-3;
+  scene.solver.iterations = 80;  // with 40, three walls at once are wrong by 1 % of the speed, a quarter of the box in a step
   for (const Point& velocity : {Point{500, 0, 0}, Point{0, -500, 0}, Point{0, 0, -500}, Point{300, 300, -300}}) {
     CHECK(leaves(scene, velocity));
     CHECK_FALSE(leaves(ahead(scene), velocity));

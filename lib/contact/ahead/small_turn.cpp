@@ -96,13 +96,14 @@ class LeverLimit {
   double approach_at(const Vector3& place) const { return (normal_.dot(closing_at(place)) + gained_) * time_ - gap_; }
 
   /// Friction turns a body by how far before the centre of mass it acts. It is no stronger than what presses, and ends when the
-  /// bodies slide no more.
+  /// bodies slide no more. What presses is the impact: the weight rolls the body, in steps of any length.
   Vector3 shift_for_friction(const Vector3& place, const Vector3& arm) const {
     const Vector3 closing = closing_at(place);
     const Vector3 slip = closing - normal_.dot(closing) * normal_;
     const double speed = slip.norm();
-    if (!(speed > 0)) return Vector3::Zero();
-    return (part_for_small_turn(arm, slip / speed, std::min(speed * time_, approach_)) - 1) * arm;
+    const double way = std::min(speed * time_, approach_ - gained_ * time_);
+    if (!(way > 0)) return Vector3::Zero();
+    return (part_for_small_turn(arm, slip / speed, way) - 1) * arm;
   }
 
   /// The largest part of a lever with which a force against `direction` that takes this way from the body turns it by no more than
