@@ -120,6 +120,7 @@ const std::vector<Section>& sections() {
        {"kind"}},
       {"[periodic]", "periodic", ""},
       {"[compression]", "compression", ""},
+      {"[query]", "query", ""},
       {"[broad_phase]", "broad_phase", ""},
       {"[output]", "output", ""}};
   return all;

@@ -96,6 +96,11 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
                            rounded(fall->way) + " m a step, " + rounded(fall->way / scene.smallest_half_axis()) +
                            " of the smallest half-axis");
   }
+  if (scene.query) {
+    lines.add("query", name_of(scene.query->solver) + ", tolerance " + shortest(scene.query->tolerance) + ", up to " +
+                           std::to_string(scene.query->max_evaluations) + " evaluations, warm start " +
+                           (scene.query->warm_start ? "on" : "off"));
+  }
   for (const Feeder& feeder : scene.feeders) lines.add("feeders", describe(feeder));
   for (const Sink& sink : scene.sinks) lines.add("sinks", sink.name);
   for (const Part& part : scene.parts) lines.add("parts", describe(part));

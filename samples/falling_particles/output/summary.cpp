@@ -99,6 +99,7 @@ void add_queries(Lines& lines, const Summary& s) {
   lines.section("collision");
   lines.add("pairs_tested", s.costs.pairs_tested, "whose bounding boxes met, in all steps");
   lines.add("sweep_axis", toml_string(name_of(s.sweep_axis)), "of the broad phase, in the last step");
+  if (s.scene.query) lines.add("solver", toml_string(name_of(s.scene.query->solver)), "of the queries of two smooth bodies");
   lines.add("queries_cold", n.queries_cold, "pairs without a remembered normal; mesh and ground have none");
   lines.add("queries_warm", n.queries_warm, "with one");
   lines.add("evaluations_per_cold_query", ratio(n.evaluations_cold, n.queries_cold), "of the gap function, mean");

@@ -109,6 +109,11 @@ std::string list_sections() {
   overlap          in (0, 0.1]; of the grains that are pressed, relative to their distance
   final_overlap    above 0, up to overlap
   damping          in [0, 1]; the part of all velocities that a step takes away
+[query]
+  solver           "hybrid", "newton" or "fixed_point"; of two smooth bodies; "hybrid" without it
+  tolerance        in [1e-15, 1]; of the gap, relative to the smallest half-extent; 1e-9 without it
+  max_evaluations  a whole number from 1 to 1000000; of a query; 1000 without it
+  warm_start       true or false; whether a pair starts from its last normal; true without it
 [broad_phase]
   axis             "x", "y" or "z"; as the grains lie without it
 [output]

@@ -223,7 +223,7 @@ std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::fi
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed", "catalogue",   "container",   "drop",        "grain",
                                     "time", "solver",      "compression", "broad_phase", "output",
-                                    "part", "measurement", "feeder",      "sink",        "periodic"};
+                                    "part", "measurement", "feeder",      "sink",        "periodic", "query"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
@@ -251,6 +251,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   scene.feeders = load_feeders(root, scene);
   scene.measurements = load_measurements(root, scene);
   scene.sweep_axis = read_sweep_axis(root);
+  scene.query = load_query(root);
   read_output(root, scene);
   check_memory(root, most_at_once(scene));
   check_fit(root, scene);

@@ -13,6 +13,7 @@
 #include "measurements/request.hpp"
 #include "parts/part.hpp"
 #include "population/feeder.hpp"
+#include "query.hpp"
 #include "simulation/sweep_space.hpp"
 #include "size_distribution.hpp"
 
@@ -70,6 +71,7 @@ struct Scene {
   std::vector<std::string> pictures = {};             ///< formats that a run leaves besides its tables (output/picture.hpp)
   bool forces = false;                                ///< whether pictures show the forces of the contacts
   std::vector<Part> parts = {};                       ///< walls besides those of the container, or in its place
+  std::optional<Query> query = {};                    ///< of two smooth bodies; the library's defaults if empty
   std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen by the positions of the grains if empty
   std::vector<MeasurementRequest> measurements = {};  ///< those that the scene names, and no others
   std::vector<Feeder> feeders = {};                   ///< from which grains come during the run

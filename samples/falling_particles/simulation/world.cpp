@@ -125,7 +125,7 @@ dMass mass_of(const Body& body) {
   return mass;
 }
 
-World::World(const Scene& scene) : scene_(scene) {
+World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();

@@ -14,6 +14,7 @@
 #include "parts/part_bodies.hpp"
 #include "periodic_cell.hpp"
 #include "placement.hpp"
+#include "query_defaults.hpp"
 #include "scene/material.hpp"
 #include "scene/scene.hpp"
 #include "sweep_space.hpp"
@@ -163,6 +164,7 @@ class World {
   void restore(const SavedBody& saved);
 
   const Scene& scene_;
+  QueryDefaults query_defaults_;  // before any geom
   dWorldID world_;
   std::unique_ptr<SweepSpace> sweep_;
   std::unique_ptr<supernormal::effects::Effects> effects_;
