@@ -1,5 +1,6 @@
 #include "proximity/nearest_in_overlap.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,5 +1,6 @@
 #include "supernormal/contact/mesh_contacts_ahead.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

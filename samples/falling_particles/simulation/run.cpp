@@ -238,9 +238,11 @@ constexpr const char* kStopNote =
 RunEnd run_in(OutputFolder& folder, Checkpoints& checkpoints, const Scene& scene, const RunOptions& options) {
   if (checkpoints.are_on()) catch_stop_requests(kStopNote);
   Run run(scene, folder, checkpoints, options);
-  if (options.resume && !options.quiet) {
-    std::fprintf(stderr, folder.is_resumed() ? "Goes on after step %d of %d\n" : "No checkpoint: starts at step %d of %d\n",
-                 run.step(), scene.time.steps());
+  // That nothing is resumed is said to those who want to hear little, too.
+  if (options.resume && !folder.is_resumed()) {
+    std::fprintf(stderr, "No checkpoint: starts at step %d of %d\n", run.step(), scene.time.steps());
+  } else if (options.resume && !options.quiet) {
+    std::fprintf(stderr, "Goes on after step %d of %d\n", run.step(), scene.time.steps());
   }
   if (run.advance()) return run.finish();
   std::fprintf(stderr, "Stopped after step %d of %d: --resume goes on from there.\n", run.step(), scene.time.steps());
