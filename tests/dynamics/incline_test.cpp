@@ -65,11 +65,17 @@ struct Creeping {
   Vec lying_axis;  // it is turned by 90 degrees about this axis; none if it is 0
 };
 
+enum class Slope { Plane, LargeBox };
+
 /// How fast the body moves down the incline (rad) once it lies there, m/s.
-double creep(const Creeping& what, double incline, double step, int room) {
+double creep(const Creeping& what, Slope slope, double incline, double step, int room) {
   OdeSession session;
   World world;
-  dCreatePlane(world.space(), 0, 0, 1, 0);
+  if (slope == Slope::Plane) {
+    dCreatePlane(world.space(), 0, 0, 1, 0);
+  } else {
+    dGeomSetPosition(dCreateBox(world.space(), 20, 20, 10), 0, 0, -5);
+  }
   dWorldSetGravity(world.id(), dReal(kGravity * std::sin(incline)), 0, dReal(-kGravity * std::cos(incline)));
   dWorldSetQuickStepNumIterations(world.id(), 100);
   world.surface.mode = dContactApprox1;
@@ -133,7 +139,8 @@ TEST_CASE("what friction holds on an incline does not creep, whatever the expone
           CAPTURE(degrees);
           CAPTURE(step);
           CAPTURE(room);
-          CHECK(std::abs(creep(body, degrees * kDegree, step, room)) <= 5e-8);  // 0.0 um/s
+          CHECK(std::abs(creep(body, Slope::Plane, degrees * kDegree, step, room)) <= 5e-8);  // 0.0 um/s
+          if (step > 0.001 && room == 4) CHECK(std::abs(creep(body, Slope::LargeBox, degrees * kDegree, step, room)) <= 5e-8);
         }
       }
     }
