@@ -1,4 +1,5 @@
 // snGeomProximity, snGeomProximityCertified and snGeomTimeOfImpact.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -61,11 +62,14 @@ void write(const Impact& impact, bool swapped, snImpact& out) {
   out.converged = impact.status == ImpactStatus::NotConverged ? 0 : 1;
 }
 
-void require_finite_velocities(dGeomID geom) {
+void require_velocities_in_range(dGeomID geom, double horizon) {
   const dBodyID body = dGeomGetBody(geom);
   if (body == nullptr) return;
-  require_finite("linear velocity", to_vector(dBodyGetLinearVel(body)));
-  require_finite("angular velocity", to_vector(dBodyGetAngularVel(body)));
+  const double most_turn = kMaxMotion / std::max(1.0, horizon);  // the angle of the turn is in the range, too
+  for (int axis = 0; axis < 3; ++axis) {
+    require_in("linear velocity", dBodyGetLinearVel(body)[axis], -kMaxMotion, kMaxMotion, "m/s");
+    require_in("angular velocity", dBodyGetAngularVel(body)[axis], -most_turn, most_turn, "rad/s");
+  }
 }
 
 void require_two(dGeomID g1, dGeomID g2, const void* out) {
@@ -88,8 +92,8 @@ int answer_impact(dGeomID g1, dGeomID g2, double horizon, snImpact* out) {
   return guarded("snGeomTimeOfImpact", 0, [&] {
     require_two(g1, g2, out);
     require_in("horizon", horizon, 0, kMaxHorizon, "s");
-    require_finite_velocities(g1);
-    require_finite_velocities(g2);
+    require_velocities_in_range(g1, horizon);
+    require_velocities_in_range(g2, horizon);
     const bool swapped = find_body(g1) == nullptr;
     const dGeomID ours = swapped ? g2 : g1, collider = swapped ? g1 : g2;
     const Impact impact = find_impact(ours, collider, horizon);

@@ -11,7 +11,8 @@ namespace supernormal::ode {
 namespace {
 
 void require_usable_pose(dGeomID geom) {
-  if (dGeomGetClass(geom) == dPlaneClass) return;  // it has no pose
+  // These have no pose, or may have none; ODE ends the program where it is asked for.
+  if (dGeomGetClass(geom) == dPlaneClass || dGeomGetClass(geom) == dHeightfieldClass) return;
   const Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
   if (is_usable(pose)) return;
   const Vector3& p = pose.position;
@@ -26,7 +27,7 @@ void refuse_pair(dGeomID ours, dGeomID collider) {
   require_usable_pose(ours);
   require_usable_pose(collider);
   throw std::invalid_argument("the numbers that describe " + geom_class_name(collider) +
-                              ", or what a user-defined body returned, are not finite");
+                              " and its pose, or what a user-defined body returned, are not finite");
 }
 
 }  // namespace supernormal::ode

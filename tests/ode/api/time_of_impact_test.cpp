@@ -214,6 +214,24 @@ TEST_CASE("time of impact: what is refused") {
   CHECK(snGeomTimeOfImpact(box, ball, 0, &impact) == 1);
 }
 
+TEST_CASE("time of impact: no velocity asks a heightfield without pose for its pose, where ODE would abort") {
+  const OdeSession session;
+  const TestWorld world;
+  const Terrain terrain(Terrain::Layout{}, [](int /*i*/, int /*j*/) { return 0.0; });
+  const Geom field(dCreateHeightfield(nullptr, terrain.data(), 0));
+  const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));
+  Mover mover(world.id, ball);
+  dBodySetPosition(dGeomGetBody(ball), 0, 3, 0);
+  for (const double speed : {1.0, 1e20, 1e200}) {
+    CAPTURE(speed);
+    if (speed > double{std::numeric_limits<dReal>::max()}) continue;
+    dBodySetLinearVel(dGeomGetBody(ball), 0, dReal(-speed), 0);
+    snImpact impact;
+    CHECK(snGeomTimeOfImpact(ball, field, 1, &impact) == (speed < 1e75 ? 1 : 0));
+    if (speed > 1e75) CHECK(refused_with("linear velocity = -1e+200"));
+  }
+}
+
 TEST_CASE("time of impact: a heightfield, as snGeomProximity has it") {
   const OdeSession session;
   const TestWorld world;
