@@ -105,6 +105,12 @@ void remove_repeated(ContactManifold& manifold) {
   manifold.corner_count = static_cast<int>(end - kept);
 }
 
+bool has_more_places_than(int count, ContactManifold manifold) {
+  draw_together(manifold.corners, manifold.same_place);
+  remove_repeated(manifold);
+  return manifold.corner_count > count;
+}
+
 /// Sorts the corners by depth. Those that are equally deep but for rounding stay in order around the contact, because quickstep's
 /// forces depend on the order.
 void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
@@ -165,10 +171,17 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
 // Which corners are united does not depend on where they are, and corners that approach each other are drawn together before they
 // become one: so no force jumps. Quickstep starts each step from zero and ends before it has converged, so that the contact that
 // comes first carries more: with the deepest first, bodies drift least (lib/contact/README.md).
+// Two contacts let a body turn about the line through them. Where it has all its velocity yet, a face is stopped at one place, near
+// the line through its centre of mass (ahead/small_turn).
 ContactManifold reduced_to(ContactManifold manifold, int room) {
   if (room < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
+  const bool is_ahead = manifold.shallow > 0;
+  if (room == 2 && is_ahead && has_more_places_than(2, manifold)) {
+    manifold.corner_count = 0;
+    return manifold;
+  }
   const double depth = -manifold.deepest.gap;
   const double shallow = std::max(depth, manifold.shallow);
   const double least_weight = kLeastShare * shallow;

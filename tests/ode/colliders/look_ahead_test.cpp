@@ -425,7 +425,7 @@ TEST_CASE("a geom beside its body's centre, and every space: the same") {
   }
 }
 
-TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets are stopped with room for one") {
+TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets are stopped with any room") {
   OdeSession session;
   World world;
   const Front front(world.space(), Wall::Box, 0.01);
@@ -438,7 +438,7 @@ TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets a
   REQUIRE(snGeomSetLookAhead(geom, dReal(0.02)) == 1);
   for (int room = 1; room < 8; ++room) {
     const std::vector<dContactGeom> contacts = collide(geom, box, room);
-    CHECK(static_cast<int>(contacts.size()) == std::min(room, 4));
+    CHECK(static_cast<int>(contacts.size()) == (room < 3 ? 1 : std::min(room, 4)));  // two would hold a line of the face
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       CHECK(contacts[k].depth < 0);
       CHECK(contacts[k].depth <= contacts[0].depth);
@@ -446,9 +446,9 @@ TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets a
     }
   }
   Random random(8);
-  for (int k = 0; k < 30; ++k) {
+  for (int k = 0; k < 90; ++k) {
     World one;
-    one.room = 1;
+    one.room = 1 + k % 3;
     const Front wall(one.space(), Wall::Ours, 0.01);
     const dGeomID bullet = body_of(one.space(), {0.02, 0.015, 0.01}, any_exponent(random), any_exponent(random));
     const dBodyID of_bullet = one.add(bullet, 1000);
