@@ -120,6 +120,12 @@ TEST_CASE("doubts: a mesh does not hold what falls on the backs of its triangles
   Scene two_sided = in_mesh(false);
   std::get<MeshShape>(two_sided.parts[0].shape).two_sided = true;
   CHECK(doubts_about(two_sided).empty());
+  for (const bool from_inside : {true, false}) {  // nothing else is below the grains
+    Scene alone = in_open("[[part]]\nname = \"p\"\nshape = \"plane\"\n");
+    alone.parts = in_mesh(from_inside).parts;
+    std::get<MeshShape>(alone.parts[0].shape).two_sided = true;
+    CHECK(doubts_about(alone).empty());
+  }
 }
 
 TEST_CASE("doubts: a feeder that no grain is due from, or that throws too fast") {

@@ -1,5 +1,7 @@
 #include "check/sight.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -23,7 +25,7 @@ dGeomID geom_of(const HalfSpace& below) {
 }  // namespace
 
 Sight::Sight(const World& world) : world_(world), ray_(dCreateRay(nullptr, kLargestLength), dGeomDestroy) {
-  dGeomRaySetClosestHit(ray_.get(), 1);
+  dGeomRaySetClosestHit(ray_.get(), 0);
   if (world.parts() != nullptr) solids_ = world.parts()->geoms();
   solids_.insert(solids_.end(), world.walls().geoms().begin(), world.walls().geoms().end());
   for (const Sink& sink : world.scene().sinks) {
@@ -38,15 +40,26 @@ std::optional<Sight::Seen> Sight::look(const Point& from, const Vector3& directi
   double nearest = INFINITY;
   const std::size_t parts = world_.scene().parts.size();
   for (std::size_t i = 0; i < solids_.size(); ++i) {
-    dContactGeom hit;
-    if (dCollide(solids_[i], ray_.get(), 1, &hit, sizeof hit) == 0 || !(hit.depth < nearest)) continue;
-    nearest = hit.depth;
+    const std::optional<dContactGeom> hit = hit_of(solids_[i]);
+    if (!hit || !(hit->depth < nearest)) continue;
+    nearest = hit->depth;
     seen = Seen{nearest, {}, false};
     if (i >= parts) continue;
     seen->part = i;
-    seen->is_back = is_back_of(world_.scene().parts[i], hit.side1, direction);
+    seen->is_back = is_back_of(world_.scene().parts[i], hit->side1, direction);
   }
   return seen;
+}
+
+// Of the two windings of a triangle of a two-sided mesh ODE would look at one for the closest hit, and that may be the one that the
+// mesh then leaves out.
+std::optional<dContactGeom> Sight::hit_of(dGeomID solid) const {
+  constexpr int kMostHits = 64;
+  std::array<dContactGeom, kMostHits> hits;
+  const int count = dCollide(solid, ray_.get(), kMostHits, hits.data(), sizeof hits[0]);
+  if (count == 0) return {};
+  return *std::min_element(hits.begin(), hits.begin() + count,
+                           [](const dContactGeom& one, const dContactGeom& other) { return one.depth < other.depth; });
 }
 
 bool Sight::is_back_of(const Part& part, int triangle, const Vector3& direction) const {

@@ -31,6 +31,7 @@ class Sight {
  private:
   using Geom = std::unique_ptr<dxGeom, decltype(&dGeomDestroy)>;
 
+  std::optional<dContactGeom> hit_of(dGeomID solid) const;
   bool is_back_of(const Part& part, int triangle, const Vector3& direction) const;
 
   const World& world_;
