@@ -23,7 +23,7 @@ void turn_into_constraint(dContact& contact, double step) {
   if (!(contact.geom.depth < 0)) return;
   const double of_surface = (contact.surface.mode & dContactMotionN) != 0 ? double{contact.surface.motionN} : 0;
   const double motion = of_surface + double{contact.geom.depth} / step;
-  const double largest = double{std::numeric_limits<dReal>::max()};
+  const auto largest = double{std::numeric_limits<dReal>::max()};
   if (!(std::abs(motion) <= largest)) {
     throw std::invalid_argument("step = " + to_text(step) + " s closes the gap of " + to_text(-double{contact.geom.depth}) +
                                 " m with " + to_text(-motion) + " m/s, but motionN must be within " + to_text(largest) + " m/s");
