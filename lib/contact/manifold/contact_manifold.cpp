@@ -11,8 +11,8 @@
 namespace supernormal {
 namespace {
 
-// A depth below this share of the smallest half-extent is rounding.
-constexpr double kLeastDepth = 1e-12;
+// A support point that is below a contact by less than this share of the smallest half-extent is there but for rounding.
+constexpr double kBelow = 1e-12;
 
 // Two corners that are nearer than this share of that length differ by rounding only.
 constexpr double kMoved = 0.01;
@@ -24,11 +24,10 @@ constexpr double kSameDepth = 1e-9;
 // that is ContactManifold::shallow above the deepest has this share of that.
 constexpr double kLeastShare = 0.01;
 
-/// Whether bodies overlap so that a shape may have corners. `thickness` is the smallest half-extent of both, m: on a large floor a
-/// small body has the depth of a small one.
-bool may_have_corners(const Shape& shape, const Proximity& proximity, double thickness) {
+/// At any depth: what rests has one of rounding alone, and a body that stands on a point for a step slides.
+bool may_have_corners(const Shape& shape, const Proximity& proximity) {
   const bool is_answer = proximity.status != Status::InvalidInput && proximity.status != Status::Apart;
-  return is_answer && may_have_corners(shape) && -proximity.gap > kLeastDepth * thickness;
+  return is_answer && may_have_corners(shape) && proximity.gap < 0;
 }
 
 /// Faces count as flat between their corners: what counts is by how much a corner leans more than another. A corner that leans by
@@ -132,15 +131,12 @@ void put_deepest_first(std::span<ManifoldCorner> corners, double shallow) {
 ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                       const Proximity& proximity) {
   ContactManifold manifold(proximity);
-  const double thickness1 = shape1.half_extents().minCoeff();
-  const double thickness2 = shape2.half_extents().minCoeff();
-  const double least = std::min(thickness1, thickness2);
-  if (!may_have_corners(shape1, proximity, least) || !may_have_corners(shape2, proximity, least)) return manifold;
+  if (!may_have_corners(shape1, proximity) || !may_have_corners(shape2, proximity)) return manifold;
   const double depth = -proximity.gap;
-  const SupportPolygon polygon1(shape1, pose1, proximity.normal, proximity.point1, depth, thickness2);
+  const SupportPolygon polygon1(shape1, pose1, proximity.normal, proximity.point1, depth, shape2.half_extents().minCoeff());
   manifold.evaluations = polygon1.evaluations();
   if (!polygon1.has_width()) return manifold;
-  const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth, thickness1);
+  const SupportPolygon polygon2(shape2, pose2, -proximity.normal, proximity.point2, depth, shape1.half_extents().minCoeff());
   manifold.evaluations += polygon2.evaluations();
   if (!polygon2.has_width()) return manifold;
   const std::optional<CornerList> corners = find_common_corners(polygon1, polygon2, proximity.normal, proximity.contact);
@@ -152,11 +148,11 @@ ContactManifold find_contact_manifold(const Shape& shape1, const Pose& pose1, co
 
 ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity) {
   ContactManifold manifold(proximity);
-  if (!may_have_corners(shape, proximity, shape.half_extents().minCoeff())) return manifold;
+  if (!may_have_corners(shape, proximity)) return manifold;
   // At the border of a sheet the contact is beside the point on which the body would stand if the sheet went on.
   const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;
   const double below = std::max(0.0, proximity.normal.dot(support_point - proximity.point1));
-  const bool is_beside = below > kLeastDepth * shape.half_extents().minCoeff();
+  const bool is_beside = below > kBelow * shape.half_extents().minCoeff();
   const Vector3& stands_on = is_beside ? support_point : proximity.point1;
   const double depth = is_beside ? below - proximity.gap : -proximity.gap;
   const SupportPolygon polygon(shape, pose, proximity.normal, stands_on, depth);
