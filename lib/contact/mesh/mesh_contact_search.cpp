@@ -39,6 +39,7 @@ std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const P
   for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
     for (int side = 0; side < 3; ++side) find_on_edge(probe, static_cast<int>(f), side);
   }
+  add_near_edges(probe);
   for (std::size_t p = 0; p < supports_.size(); ++p) find_beyond_rim(probe, p);
   add_beyond_rim();
   find_other_separations(probe);
@@ -58,6 +59,7 @@ void MeshContactSearch::prepare(const Shape& shape, const Pose& pose, std::span<
                [&](const MeshTriangle& triangle) { return searched.touches(pose, triangle.vertices); });
   surface_.build(near_, pose.position, length_unit_);
   supports_.clear();
+  near_edges_.clear();
   settled_.assign(at(surface_.corner_count()), 0);
   found_.clear(length_unit_);
   beyond_rim_.clear(length_unit_);
@@ -142,6 +144,9 @@ double MeshContactSearch::arc_tolerance() const {
   return std::max(kArcTolerance * settings_.tolerance * length_unit_, 1e-3 * surface_.rounding());
 }
 
+// Gaps that differ by less than this (m) are the same to a query.
+double MeshContactSearch::touch() const { return settings_.tolerance * length_unit_ + surface_.rounding(); }
+
 void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const Arc& arc, const ArcSample& low,
                                     const ArcSample& high) {
   const Face& face = surface_.faces()[at(f)];
@@ -225,8 +230,7 @@ bool MeshContactSearch::touches_surface(SupportProbe& probe, const SurfaceContac
 // Whether a face and the body, that meet as found, overlap so that there may be a contact with this gap. Within the tolerance the
 // query does not tell from which side the body touches: one that touches an edge from outside is far below the planes of its faces.
 bool MeshContactSearch::overlaps(const Proximity& found, double gap) const {
-  const double touch = settings_.tolerance * length_unit_ + surface_.rounding();
-  return found.status != Status::Apart && found.gap <= 0 && (found.gap < -touch || gap >= -touch);
+  return found.status != Status::Apart && found.gap <= 0 && (found.gap < -touch() || gap >= -touch());
 }
 
 Proximity MeshContactSearch::meet_face(SupportProbe& probe, const Face& face) const {

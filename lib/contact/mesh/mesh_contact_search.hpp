@@ -33,6 +33,13 @@ class MeshContactSearch {
     bool is_over = false;  // whether the point is over the patch itself
   };
 
+  /// What was found at vertex k of a face, with a normal that may be that of an edge there.
+  struct VertexContact {
+    int face;
+    int k;
+    Proximity found;
+  };
+
   void prepare(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles);
   void look_at_patches(SupportProbe& probe);
   SurfaceContact contact_at(int face, const Vector3& normal, double gap, const Vector3& body_point) const;
@@ -41,6 +48,9 @@ class MeshContactSearch {
   void find_on_edge(SupportProbe& probe, int face, int side);
   void find_on_arc(SupportProbe& probe, int face, int side, const Arc& arc, const ArcSample& low, const ArcSample& high);
   void find_on_vertex(SupportProbe& probe, int face, int k, const Vector3& start);
+  void add_near_edges(SupportProbe& probe);
+  bool is_found_beside(int corner, const Vector3& normal, double gap) const;
+  bool is_corner_of_patch(int corner, int patch) const;
   Proximity solve_for_hull(SupportProbe& probe, const Vector3& origin, const Vector3* start);
   bool add_at_vertex(SupportProbe& probe, int face, int k, const Proximity& found);
   double stands_on(SupportProbe& probe, const Vector3& face_normal, const Vector3& place) const;
@@ -55,6 +65,7 @@ class MeshContactSearch {
   void find_shorter_over_edges(SupportProbe& probe, int face, double known);
   void find_shorter_over_vertices(SupportProbe& probe, int part, double known);
   double arc_tolerance() const;
+  double touch() const;
   bool is_edge_owned_by_neighbour(int face, int side) const;
   bool is_normal_of_edge_at(int corner, const Vector3& normal) const;
   bool is_outside_at(int corner, const Vector3& normal) const;
@@ -70,9 +81,10 @@ class MeshContactSearch {
   double length_unit_ = 1;
   Settings settings_;
   Surface surface_;
-  std::vector<PatchSupport> supports_;  // one for each patch
-  std::vector<char> settled_;           // for each corner: whether a contact there is found, or ruled out
-  std::vector<Vector3> hull_;           // points whose hull is solved for
+  std::vector<PatchSupport> supports_;     // one for each patch
+  std::vector<char> settled_;              // for each corner: whether a contact there is found, or ruled out
+  std::vector<VertexContact> near_edges_;  // undecided until the contacts of the edges are known
+  std::vector<Vector3> hull_;              // points whose hull is solved for
   DistinctContacts found_;
   DistinctContacts beyond_rim_;  // candidates for contacts beyond the rim of a patch
   std::vector<MeshContact> contacts_;

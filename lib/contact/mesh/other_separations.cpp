@@ -25,6 +25,7 @@ void MeshContactSearch::find_other_separations(SupportProbe& probe) {
     for (int f = 0; f < static_cast<int>(surface_.faces().size()); ++f) {
       if (surface_.part_of(surface_.faces()[at(f)]) == part) find_shorter_over_edges(probe, f, *known);
     }
+    add_near_edges(probe);
     find_shorter_over_vertices(probe, part, *known);
   }
 }
@@ -78,7 +79,7 @@ void MeshContactSearch::find_shorter_over_vertices(SupportProbe& probe, int part
     }
   }
   const int corner = surface_.faces()[at(highest_face)].corner[at(highest)];
-  if (!is_normal_of_edge_at(corner, -found.normal)) add_at_vertex(probe, highest_face, highest, found);
+  if (!is_found_beside(corner, -found.normal, found.gap)) add_at_vertex(probe, highest_face, highest, found);
 }
 
 }  // namespace supernormal

@@ -10,7 +10,7 @@
 namespace supernormal {
 namespace {
 
-// Normals that differ by less than this (radians) are indistinguishable at the tolerance of the gap.
+// A normal is known to the root of the tolerance of its gap, radians: within this angle it may be that of an edge or a face.
 constexpr double kNearEdgeNormal = 1e-5;
 
 double angle_at(const Face& face, int k) {
@@ -34,11 +34,47 @@ void MeshContactSearch::find_on_vertex(SupportProbe& probe, int f, int k, const 
   const Proximity found = solve_for_hull(probe, surface_.faces()[at(f)].vertices[at(k)], &start);
   if (found.status == Status::InvalidInput) return;
   const bool is_apart = found.status == Status::Apart || found.gap > 0;
-  // The contact of another edge is found over that edge; but the edge that led here may touch a flat side of the body, any point
-  // of which was as good as the one found there.
-  const bool is_other_edge = (found.normal + start).norm() > kNearEdgeNormal && is_normal_of_edge_at(corner, -found.normal);
+  if (!is_apart && is_normal_of_edge_at(corner, -found.normal)) {
+    near_edges_.push_back({f, k, found});
+    return;
+  }
   // If the normal is not one of the vertex, another edge may lead to another maximum.
-  settled_[at(corner)] = is_apart || (!is_other_edge && add_at_vertex(probe, f, k, found)) ? 1 : 0;
+  settled_[at(corner)] = is_apart || add_at_vertex(probe, f, k, found) ? 1 : 0;
+}
+
+// The normal does not tell whether a contact is that of the vertex or of an edge there: a body whose side is nearly parallel to the
+// edge has nearly the same normal at both. The contact is that of the vertex if the edge has none of its own.
+void MeshContactSearch::add_near_edges(SupportProbe& probe) {
+  for (const VertexContact& contact : near_edges_) {
+    const int corner = surface_.faces()[at(contact.face)].corner[at(contact.k)];
+    if (settled_[at(corner)] != 0 || is_found_beside(corner, -contact.found.normal, contact.found.gap)) continue;
+    settled_[at(corner)] = add_at_vertex(probe, contact.face, contact.k, contact.found) ? 1 : 0;
+  }
+  near_edges_.clear();
+}
+
+// Whether a face or an edge at the corner, of which `normal` is a normal, has a contact that is no deeper.
+bool MeshContactSearch::is_found_beside(int corner, const Vector3& normal, double gap) const {
+  const std::vector<SurfaceContact>& contacts = found_.contacts();
+  return std::any_of(contacts.begin(), contacts.end(), [&](const SurfaceContact& contact) {
+    if (contact.gap < gap - touch()) return false;
+    const Face& face = surface_.faces()[at(contact.face)];
+    if (contact.crease < 0) return is_corner_of_patch(corner, face.patch) && (contact.normal - normal).norm() <= kNearEdgeNormal;
+    const int side = contact.crease - surface_.corner_count() - 3 * contact.face;
+    if (side < 0) return false;  // the contact of a vertex
+    const int next = next_corner(side);
+    const Vector3 edge = face.vertices[at(next)] - face.vertices[at(side)];
+    return (face.corner[at(side)] == corner || face.corner[at(next)] == corner) &&
+           std::abs(normal.dot(edge)) <= kNearEdgeNormal * edge.norm();
+  });
+}
+
+bool MeshContactSearch::is_corner_of_patch(int corner, int patch) const {
+  for (int f = surface_.patches()[at(patch)].first_face; f >= 0; f = surface_.faces()[at(f)].next_in_patch) {
+    const std::array<int, 3>& corners = surface_.faces()[at(f)].corner;
+    if (std::find(corners.begin(), corners.end(), corner) != corners.end()) return true;
+  }
+  return false;
 }
 
 bool MeshContactSearch::is_normal_of_edge_at(int corner, const Vector3& normal) const {

@@ -12,6 +12,8 @@
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "supernormal/shapes/capsule.hpp"
+#include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
 
@@ -24,6 +26,20 @@ namespace {
 double separation_along(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, const Vector3& normal) {
   return normal.dot(pose2.position - pose1.position) - shape1.support(pose1.rotation.transpose() * normal) -
          shape2.support(pose2.rotation.transpose() * -normal);
+}
+
+// The body moves out from the middle of the hull until the gap is the wanted one.
+Pose placed_at_gap(double wanted, const Shape& body, const Matrix3& rotation, const Shape& hull, const Pose& hull_pose,
+                   const Vector3& way) {
+  Pose pose{hull_pose.position, rotation};
+  double inside = 0;
+  double outside = 10;
+  for (int step = 0; step < 25; ++step) {
+    const double middle = 0.5 * (inside + outside);
+    pose.position = hull_pose.position + middle * way;
+    (find_proximity(body, pose, hull, hull_pose).gap < wanted ? inside : outside) = middle;
+  }
+  return pose;
 }
 
 // The nearest of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a corner.
@@ -145,17 +161,9 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
     const std::unique_ptr<Shape> body = draw.body();
     const double smallest = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
-    // The body moves out from the middle until the gap is the wanted one.
-    Pose pose{mesh_pose.position, draw.rotation()};
+    const Matrix3 rotation = draw.rotation();
     const double wanted = i % 5 == 0 ? 0 : draw.uniform(-0.1, 0.02) * smallest;
-    const Vector3 way = draw.direction();
-    double inside = 0;
-    double outside = 10;
-    for (int step = 0; step < 25; ++step) {
-      const double middle = 0.5 * (inside + outside);
-      pose.position = mesh_pose.position + middle * way;
-      (find_proximity(*body, pose, hull, mesh_pose).gap < wanted ? inside : outside) = middle;
-    }
+    const Pose pose = placed_at_gap(wanted, *body, rotation, hull, mesh_pose, draw.direction());
     const Proximity expected = find_proximity(*body, pose, hull, mesh_pose);
     const std::vector<MeshContact> contacts = contacts_of(*body, pose, mesh.placed(mesh_pose));
     if (std::abs(expected.gap) < 1e-9 * smallest) continue;  // neither apart nor overlapping, to the tolerance
@@ -175,6 +183,39 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     CHECK((contact.point2 - expected.point2).norm() < 1e-3 * smallest);
   }
   CHECK(overlapping > 1500);
+}
+
+// A flat side has nearly the same normal at an edge and at the edge's end, where the contact is once the body reaches beyond it.
+TEST_CASE("a body nearly parallel to a closed mesh, beyond the end of an edge: the gap of the solid hull, at a place in the mesh") {
+  Draw draw(4);
+  int overlapping = 0;
+  for (int i = 0; i < 1200; ++i) {
+    CAPTURE(i);
+    const Vector3 half_lengths{draw.uniform(0.1, 1), draw.uniform(0.1, 1), 1};
+    const TriangleMesh mesh = box_mesh(half_lengths);
+    const Polytope hull(mesh.vertices);
+    const double radius = draw.uniform(0.1, 1);
+    const double half_length = draw.uniform(0.1, 1);
+    const Cylinder cylinder(radius, half_length);
+    const Capsule capsule(radius, half_length);
+    const Superellipsoid can({radius, radius, half_length}, 2, 100);
+    const Shape& body = i % 3 == 0 ? static_cast<const Shape&>(cylinder) : i % 3 == 1 ? static_cast<const Shape&>(capsule) : can;
+    const double tilt = std::pow(10.0, draw.uniform(-9, -2));
+    const Pose mesh_pose{Vector3::Zero(), Eigen::AngleAxisd(tilt, draw.direction()).toRotationMatrix()};
+    const double smallest = std::min(body.half_extents().minCoeff(), hull.half_extents().minCoeff());
+    const double wanted = -smallest * std::pow(10.0, draw.uniform(-6, -2));
+    const Pose pose = placed_at_gap(wanted, body, Matrix3::Identity(), hull, mesh_pose, draw.direction());
+    const Proximity expected = find_proximity(body, pose, hull, mesh_pose);
+    if (!(expected.gap < -1e-7 * smallest)) continue;
+    ++overlapping;
+    const std::vector<MeshContact> contacts = contacts_of(body, pose, mesh.placed(mesh_pose));
+    REQUIRE(!contacts.empty());
+    const Proximity& deepest = contacts[0].proximity;
+    CHECK(std::abs(deepest.gap - expected.gap) < 1e-9 * smallest);
+    const Vector3 place = mesh_pose.rotation.transpose() * deepest.contact;
+    CHECK(((place.cwiseAbs() - half_lengths).array() < 1e-9 * smallest - deepest.gap).all());
+  }
+  CHECK(overlapping > 1000);
 }
 
 TEST_CASE("a ball on one triangle: the face's normal where it stands, the distance of its centre beside the border") {
