@@ -76,8 +76,8 @@ std::vector<Body> draw_bodies(BodyClass body_class, std::size_t count, std::uint
   const double cell = std::cbrt(volume / kVolumeFraction / static_cast<double>(bodies.size()));
   Random random(seed);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Vector3 corner(static_cast<double>(i % cells), static_cast<double>(i / cells % cells),
-                         static_cast<double>(i / cells / cells));
+    const std::size_t layer = i / (cells * cells), row = i / cells % cells;
+    const Vector3 corner(static_cast<double>(i % cells), static_cast<double>(row), static_cast<double>(layer));
     const double x = random.uniform(), y = random.uniform(), z = random.uniform();
     bodies[i].pose = {cell * (corner + Vector3(x, y, z)), random_attitude(random)};
   }
@@ -156,6 +156,7 @@ Part box_costs(std::size_t bodies, std::uint64_t seed, const Effort& effort) {
     part.tasks.push_back({std::string{letter(body_class)}, [=] {
                             const std::vector<Body> all = draw_bodies(body_class, bodies, seed);
                             std::vector<std::string> lines;
+                            lines.reserve(std::size(kWays));
                             for (const Way& way : kWays) lines.push_back(line(body_class, way, all, effort));
                             return lines;
                           }});

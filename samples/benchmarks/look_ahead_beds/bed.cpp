@@ -29,7 +29,8 @@ Bed make_bed(int count, double exponent, unsigned seed) {
     const double size = kSmallestHalfAxis * (1 + kSpread * uniform());
     Grain grain{{2 * size, 1.5 * size, size}, {}};
     const auto place = [side](int index) { return kColumn * (index + 0.5 * (1 - side)); };
-    grain.start.position = {place(i % side), place(i / side % side), kColumn * (1 + i / (side * side))};
+    const int layer = i / (side * side);
+    grain.start.position = {place(i % side), place(i / side % side), kColumn * (1 + layer)};
     double square = 0;
     for (double& q : grain.start.quaternion) square += std::pow(q = uniform(), 2);
     for (double& q : grain.start.quaternion) q /= std::sqrt(square);

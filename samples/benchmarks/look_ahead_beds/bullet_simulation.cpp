@@ -92,7 +92,7 @@ class BulletSimulation final : public Simulation {
   void step() override {
     const double start = processor_time();
     world_.stepSimulation(step_, 0);
-    costs_.solving += processor_time() - start;
+    spent().solving += processor_time() - start;
   }
 
   Pose pose(std::size_t grain) const override {

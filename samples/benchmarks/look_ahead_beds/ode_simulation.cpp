@@ -65,11 +65,11 @@ class OdeSimulation final : public Simulation {
     const double found = processor_time();
     dWorldQuickStep(world_, static_cast<dReal>(settings_.step));
     dJointGroupEmpty(joints_);
-    costs_.finding += found - start;
-    costs_.solving += processor_time() - found;
+    spent().finding += found - start;
+    spent().solving += processor_time() - found;
     snStatistics statistics;
     snGetStatistics(&statistics);
-    costs_.evaluations += static_cast<double>(statistics.evaluations_cold + statistics.evaluations_warm);
+    spent().evaluations += static_cast<double>(statistics.evaluations_cold + statistics.evaluations_warm);
   }
 
   Pose pose(std::size_t grain) const override {
@@ -100,7 +100,7 @@ class OdeSimulation final : public Simulation {
       snContactLookAhead(&contact, static_cast<dReal>(world.settings_.step));
       dJointAttach(dJointCreateContact(world.world_, world.joints_, &contact), dGeomGetBody(o1), dGeomGetBody(o2));
     }
-    world.costs_.rows += kRowsOfContact * count * world.settings_.iterations;
+    world.spent().rows += kRowsOfContact * count * world.settings_.iterations;
   }
 
   Settings settings_;

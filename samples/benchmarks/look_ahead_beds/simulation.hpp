@@ -41,6 +41,9 @@ class Simulation {
   void forget_costs() { costs_ = {}; }
 
  protected:
+  Costs& spent() { return costs_; }
+
+ private:
   Costs costs_;
 };
 

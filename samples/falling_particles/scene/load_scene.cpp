@@ -221,9 +221,9 @@ std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::fi
 
 /// The names of the sections at the top of the file.
 std::vector<std::string> sections() {
-  std::vector<std::string> names = {"seed", "catalogue",   "container",   "drop",        "grain",
-                                    "time", "solver",      "compression", "broad_phase", "output",
-                                    "part", "measurement", "feeder",      "sink",        "periodic", "query"};
+  std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
+                                    "solver", "compression", "broad_phase", "output", "part",  "measurement",
+                                    "feeder", "sink",        "periodic",    "query"};
   for (std::string& name : effect_sections()) names.push_back(std::move(name));
   return names;
 }
