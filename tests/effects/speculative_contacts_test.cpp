@@ -131,8 +131,10 @@ TEST_CASE("speculative contacts: Newton's cradle hands the velocity on") {
       OdeSession session;
       EffectsWorld scene({fx::Restitution{e, 0, {}}, fx::SpeculativeContacts{}}, step);
       constexpr double kSpeed = 0.3;  // m/s
+      constexpr int kBalls = 5;
       std::vector<dBodyID> balls;
-      for (int k = 0; k < 5; ++k)
+      balls.reserve(kBalls);
+      for (int k = 0; k < kBalls; ++k)
         balls.push_back(scene.add_ball(kRadius, kDensity, {0, 0, -2.05 * k * kRadius - (k > 0 ? 0.1 : 0)}));
       dBodySetLinearVel(balls.front(), 0, 0, dReal(-kSpeed));
       scene.run_until(1.5);
@@ -198,7 +200,8 @@ TEST_CASE("speculative contacts: an elastic gas keeps its energy where bodies go
     Random random(8);
     std::vector<dBodyID> balls;
     for (int k = 0; k < 27; ++k) {
-      balls.push_back(scene.add_ball(kRadius, kDensity, {0.05 + 0.1 * (k % 3), 0.05 + 0.1 * (k / 3 % 3), 0.05 + 0.1 * (k / 9)}));
+      const int column = k % 3, row = k / 3 % 3, layer = k / 9;
+      balls.push_back(scene.add_ball(kRadius, kDensity, {0.05 + 0.1 * column, 0.05 + 0.1 * row, 0.05 + 0.1 * layer}));
       const Vec v = random.uniform(0.2, 1) * random.direction();
       dBodySetLinearVel(balls.back(), dReal(v[0]), dReal(v[1]), dReal(v[2]));
       dGeomMoved(dBodyGetFirstGeom(balls.back()));

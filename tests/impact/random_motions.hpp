@@ -148,7 +148,7 @@ inline double apart_until(const MovingPair& pair, double horizon, double level, 
   const double speed = fastest(pair);
   double t = 0;
   for (int step = 0; step < most_steps; ++step) {
-    const double excess = static_cast<double>(gap_at(pair, t) - level);
+    const auto excess = static_cast<double>(gap_at(pair, t) - level);
     if (excess <= 0) return t;
     if (speed * (horizon - t) <= excess) return horizon;
     t += excess / speed;
