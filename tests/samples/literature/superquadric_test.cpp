@@ -47,7 +47,7 @@ TEST_CASE("superquadric: the implicit function's derivatives are those of its di
       const Implicit f = body.implicit(x);
       CHECK(f.value == doctest::Approx(body.value(x)).epsilon(1e-12));
       for (int k = 0; k < 3; ++k) {
-        const double slope = difference<double>([&](const Vector3& y) { return body.value(y); }, x, k);
+        const auto slope = difference<double>([&](const Vector3& y) { return body.value(y); }, x, k);
         CHECK(std::abs(f.gradient[k] - slope) <= kDifference * (1 + f.gradient.norm() + std::abs(f.value)));
         const Vector3 column = difference<Vector3>([&](const Vector3& y) -> Vector3 { return body.implicit(y).gradient; }, x, k);
         CHECK((f.hessian.col(k) - column).norm() <= kDifference * (1 + f.hessian.norm() + f.gradient.norm()));
