@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 
 #include "random_motions.hpp"
 
@@ -39,15 +40,8 @@ int number(const char* text) {
   return end.ec == std::errc() && *end.ptr == '\0' ? value : -1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const int pairs = argc == 3 ? number(argv[1]) : -1;
-  const int seed = argc == 3 ? number(argv[2]) : -1;
-  if (pairs < 1 || seed < 0) {
-    std::fprintf(stderr, "impacts PAIRS SEED: PAIRS is a number from 1, SEED one from 0\n");
-    return 2;
-  }
+/// Returns how many pairs were wrong.
+long run(int pairs, int seed) {
   std::printf("%-22s %8s %8s %8s %14s %12s %8s %6s\n", "motion", "pairs", "hits", "apart", "not converged", "evaluations", "most",
               "wrong");
   long wrong = 0;
@@ -59,5 +53,22 @@ int main(int argc, char** argv) {
                 static_cast<double>(tally.evaluations) / pairs, tally.most, tally.wrong);
     wrong += tally.wrong;
   }
-  return wrong == 0 ? 0 : 1;
+  return wrong;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int pairs = argc == 3 ? number(argv[1]) : -1;
+  const int seed = argc == 3 ? number(argv[2]) : -1;
+  if (pairs < 1 || seed < 0) {
+    std::fprintf(stderr, "impacts PAIRS SEED: PAIRS is a number from 1, SEED one from 0\n");
+    return 2;
+  }
+  try {
+    return run(pairs, seed) == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "impacts: %s\n", error.what());
+    return 2;
+  }
 }
