@@ -62,7 +62,7 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
   const double approach = approach_of(body1.motion, body2.motion, time, meeting.there.normal, now.gap);
   const double tilt = tilt_ahead(body1.motion, body2.motion, time, approach, size);
   ContactManifold manifold =
-      find_manifold_of_tilt(there1.shape, there1.pose, there2.shape, there2.pose, meeting.there, share, tilt);
+      find_manifold_of_gaps(there1.shape, there1.pose, there2.shape, there2.pose, meeting.there, share, tilt);
   take_back(manifold, body1, body2, meeting.time, share, now.gap);
   manifold.deepest.evaluations = meeting.evaluations;
   manifold.reach = reach;
@@ -81,7 +81,7 @@ ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, co
   const double reach = reach_towards(body.motion, now.normal, time, size);
   if (now.gap > reach) return none(now, now.evaluations);
   const double tilt = tilt_ahead(body.motion, {}, time, approach_of(body.motion, {}, time, now.normal, now.gap), size);
-  ContactManifold manifold = find_plane_manifold_of_tilt(body.shape, body.pose, now, tilt);
+  ContactManifold manifold = find_plane_manifold_of_gaps(body.shape, body.pose, now, tilt);
   manifold.reach = reach;
   limit_turn(body, {body.shape, body.pose, {}}, time, 1, manifold);
   return manifold;

@@ -204,7 +204,7 @@ void MeshContactsAhead::add(const Search& search, const Proximity& there, int tr
   const MotionAhead& motion = search.now.motion;
   const double approach = approach_of(motion, search.surface, search.time, there.normal, there.gap + there.normal.dot(way));
   const double tilt = tilt_ahead(motion, search.surface, search.time, approach, search.size);
-  ContactManifold manifold = find_plane_manifold_of_tilt(search.body.shape, search.body.pose, there, tilt);
+  ContactManifold manifold = find_plane_manifold_of_gaps(search.body.shape, search.body.pose, there, tilt);
   draw_in_corners(manifold, search.triangles);
   take_back(manifold, way, search.share);
   manifold.reach = search.reach;

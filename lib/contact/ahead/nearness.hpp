@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/manifold/manifold_of_gaps.hpp"
 #include "supernormal/contact/contacts_ahead.hpp"
 
 namespace supernormal {

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/manifold/convex_polygon.hpp"
 #include "proximity/tangent_plane.hpp"

@@ -104,10 +104,11 @@ void remove_repeated(ContactManifold& manifold) {
   manifold.corner_count = static_cast<int>(end - kept);
 }
 
-bool has_more_places_than(int count, ContactManifold manifold) {
+/// Whether the corners are at more places than an edge has.
+bool is_face(ContactManifold manifold) {
   draw_together(manifold.corners, manifold.same_place);
   remove_repeated(manifold);
-  return manifold.corner_count > count;
+  return manifold.corner_count > 2;
 }
 
 /// Sorts the corners by depth. Those that are equally deep but for rounding stay in order around the contact, because quickstep's
@@ -174,7 +175,7 @@ ContactManifold reduced_to(ContactManifold manifold, int room) {
   if (manifold.corner_count == 0) return manifold;
   std::array<ManifoldCorner, ContactManifold::kMaxCorners>& corners = manifold.corners;
   const bool is_ahead = manifold.shallow > 0;
-  if (room == 2 && is_ahead && has_more_places_than(2, manifold)) {
+  if (room == 2 && is_ahead && is_face(manifold)) {
     manifold.corner_count = 0;
     return manifold;
   }

@@ -1,10 +1,10 @@
-#include "contact/manifold/manifold_of_gaps.hpp"
-
+// The manifold of bodies that are apart, touch or overlap slightly, by the gaps of its corners.
 #include <algorithm>
 #include <optional>
 
 #include "contact/manifold/common_corners.hpp"
 #include "contact/manifold/support_polygon.hpp"
+#include "supernormal/contact/contacts_ahead.hpp"
 
 namespace supernormal {
 namespace {
@@ -30,15 +30,6 @@ void write_gaps(const CornerList& corners, double gap, double size, ContactManif
 }  // namespace
 
 ContactManifold find_manifold_of_gaps(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
-                                      const Proximity& proximity, double share) {
-  return find_manifold_of_tilt(shape1, pose1, shape2, pose2, proximity, share, kLeastTilt);
-}
-
-ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity) {
-  return find_plane_manifold_of_tilt(shape, pose, proximity, kLeastTilt);
-}
-
-ContactManifold find_manifold_of_tilt(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                       const Proximity& proximity, double share, double tilt) {
   ContactManifold manifold(proximity);
   manifold.deepest.contact += (0.5 - share) * proximity.gap * proximity.normal;
@@ -54,7 +45,7 @@ ContactManifold find_manifold_of_tilt(const Shape& shape1, const Pose& pose1, co
   return manifold;
 }
 
-ContactManifold find_plane_manifold_of_tilt(const Shape& shape, const Pose& pose, const Proximity& proximity, double tilt) {
+ContactManifold find_plane_manifold_of_gaps(const Shape& shape, const Pose& pose, const Proximity& proximity, double tilt) {
   ContactManifold manifold(proximity);
   if (!may_stand(shape, proximity)) return manifold;
   const Vector3 support_point = pose.rotation * shape.point(pose.rotation.transpose() * proximity.normal) + pose.position;

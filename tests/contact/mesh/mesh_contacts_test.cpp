@@ -28,20 +28,6 @@ double separation_along(const Shape& shape1, const Pose& pose1, const Shape& sha
          shape2.support(pose2.rotation.transpose() * -normal);
 }
 
-// The body moves out from the middle of the hull until the gap is the wanted one.
-Pose placed_at_gap(double wanted, const Shape& body, const Matrix3& rotation, const Shape& hull, const Pose& hull_pose,
-                   const Vector3& way) {
-  Pose pose{hull_pose.position, rotation};
-  double inside = 0;
-  double outside = 10;
-  for (int step = 0; step < 25; ++step) {
-    const double middle = 0.5 * (inside + outside);
-    pose.position = hull_pose.position + middle * way;
-    (find_proximity(body, pose, hull, hull_pose).gap < wanted ? inside : outside) = middle;
-  }
-  return pose;
-}
-
 // The nearest of all points of the triangle. `kind`: 0 inside, 1 on an edge, 2 a corner.
 Vector3 nearest_point(const MeshTriangle& triangle, const Vector3& point, int& kind) {
   const Vector3 normal = normal_of(triangle);

@@ -21,20 +21,6 @@ namespace {
 
 constexpr std::array kGaps = {0.5, 0.05, 0.01, 0.0, -0.01, -0.03, -0.1};  // relative to the smallest half-extent
 
-// The pose at which the body, moved along `way`, has about the wanted gap.
-Pose placed_at(double wanted, const Shape& body, const Shape& hull, const Pose& hull_pose, const Vector3& way,
-               const Matrix3& turn) {
-  Pose pose{hull_pose.position, turn};
-  double inside = 0;
-  double outside = 10;
-  for (int step = 0; step < 25; ++step) {
-    const double middle = 0.5 * (inside + outside);
-    pose.position = hull_pose.position + middle * way;
-    (find_proximity(body, pose, hull, hull_pose).gap < wanted ? inside : outside) = middle;
-  }
-  return pose;
-}
-
 double height_over(const Shape& shape, const Pose& pose, const Vector3& normal, const Vector3& point) {
   return normal.dot(point - pose.position) - shape.support(pose.rotation.transpose() * normal);
 }
@@ -55,7 +41,9 @@ TEST_CASE("2000 bodies and closed meshes, apart, touching, overlapping by up to 
     const Pose mesh_pose{draw.in_box({5, 5, 5}), draw.rotation()};
     const std::unique_ptr<Shape> body = draw.body();
     const double unit = std::min(body->half_extents().minCoeff(), hull.half_extents().minCoeff());
-    const Pose pose = placed_at(kGaps[i % kGaps.size()] * unit, *body, hull, mesh_pose, draw.direction(), draw.rotation());
+    const Matrix3 turn = draw.rotation();
+    const Vector3 way = draw.direction();
+    const Pose pose = placed_at_gap(kGaps[i % kGaps.size()] * unit, *body, turn, hull, mesh_pose, way);
     const GapBounds expected = bound_gap(*body, pose, hull, mesh_pose, 1e-10 * unit);
     REQUIRE(expected.upper - expected.lower <= 1.1e-10 * unit);
     const std::vector<MeshTriangle> triangles = mesh.placed(mesh_pose);

@@ -11,6 +11,7 @@
 
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/pose.hpp"
+#include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 
@@ -163,6 +164,20 @@ inline std::vector<MeshContact> contacts_of(const Shape& shape, const Pose& pose
 /// The outward unit normal.
 inline Vector3 normal_of(const MeshTriangle& t) {
   return (t.vertices[1] - t.vertices[0]).cross(t.vertices[2] - t.vertices[0]).normalized();
+}
+
+/// The pose of the body that has moved `way` (unit) from the middle of the hull until the gap is the wanted one, m.
+inline Pose placed_at_gap(double wanted, const Shape& body, const Matrix3& rotation, const Shape& hull, const Pose& hull_pose,
+                          const Vector3& way) {
+  Pose pose{hull_pose.position, rotation};
+  double inside = 0;
+  double outside = 10;
+  for (int step = 0; step < 25; ++step) {
+    const double middle = 0.5 * (inside + outside);
+    pose.position = hull_pose.position + middle * way;
+    (find_proximity(body, pose, hull, hull_pose).gap < wanted ? inside : outside) = middle;
+  }
+  return pose;
 }
 
 }  // namespace supernormal::test
