@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "ode/geom/convert.hpp"
+#include "ode/geom/look_ahead.hpp"
 
 namespace supernormal::effects {
 
@@ -14,13 +15,7 @@ inline Vector3 acceleration_of(dBodyID body) {
   if (body == nullptr || dBodyIsKinematic(body) != 0) return Vector3::Zero();
   dMass mass;
   dBodyGetMass(body, &mass);
-  Vector3 acceleration = ode::to_vector(dBodyGetForce(body)) / mass.mass;
-  if (dBodyGetGravityMode(body) != 0) {
-    dVector3 gravity;
-    dWorldGetGravity(dBodyGetWorld(body), gravity);
-    acceleration += ode::to_vector(gravity);
-  }
-  return acceleration;
+  return ode::acceleration_of(body, mass);
 }
 
 inline Vector3 velocity_at(dBodyID body, const Vector3& point) {

@@ -82,7 +82,7 @@ void let_leave(dContact& contact, const Bounce& bounce) {
 double least_half_extent(const Patch& patch) {
   double least = std::numeric_limits<double>::infinity();
   for (const dGeomID geom : {patch.geom1(), patch.geom2()}) {
-    if (const ode::Body* const ours = ode::find_body(geom)) least = std::min(least, ours->shape().half_extents().minCoeff());
+    if (const ode::Body* const ours = ode::find_body(geom)) least = std::min(least, ours->size());
   }
   return least;
 }

@@ -11,17 +11,6 @@ namespace {
 
 std::atomic<double> default_time{0};
 
-/// m/s^2; what gravity and the forces that were added since the last step do to the body.
-double acceleration_of(dBodyID body, double mobility) {
-  Vector3 acceleration = mobility * to_vector(dBodyGetForce(body));
-  if (dBodyGetGravityMode(body) != 0) {
-    dVector3 gravity;
-    dWorldGetGravity(dBodyGetWorld(body), gravity);
-    acceleration += to_vector(gravity);
-  }
-  return acceleration.norm();
-}
-
 /// 1/m^2; the inverse of the inertia tensor times the mass, in the world frame.
 Matrix3 turning_of(dBodyID body, const dMass& mass) {
   const Matrix3 rotation = to_rotation(dBodyGetRotation(body));
@@ -34,6 +23,16 @@ double default_look_ahead() { return default_time.load(std::memory_order_relaxed
 
 void set_default_look_ahead(double time) { default_time.store(time, std::memory_order_relaxed); }
 
+Vector3 acceleration_of(dBodyID body, const dMass& mass) {
+  Vector3 acceleration = to_vector(dBodyGetForce(body)) / mass.mass;
+  if (dBodyGetGravityMode(body) != 0) {
+    dVector3 gravity;
+    dWorldGetGravity(dBodyGetWorld(body), gravity);
+    acceleration += to_vector(gravity);
+  }
+  return acceleration;
+}
+
 // The body's centre moves straight on, and the origin of the geom about it: along the tangent, and beside it by no more than twice
 // its distance from the centre times the angle.
 MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) {
@@ -42,9 +41,9 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) 
   const dBodyID body = dGeomGetBody(geom);
   if (body == nullptr) return motion;
   motion.centre = to_vector(dBodyGetPosition(body));
+  dMass mass;
+  dBodyGetMass(body, &mass);
   if (dBodyIsKinematic(body) == 0) {
-    dMass mass;
-    dBodyGetMass(body, &mass);
     motion.mobility = 1 / double{mass.mass};
     motion.turning = turning_of(body, mass);
   }
@@ -53,7 +52,7 @@ MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) 
   const Vector3 from_centre = origin - motion.centre;
   motion.velocity = to_vector(dBodyGetLinearVel(body)) + motion.angular_velocity.cross(from_centre);
   motion.arm = radius + 2 * from_centre.norm();
-  if (motion.mobility > 0) motion.acceleration = acceleration_of(body, motion.mobility);
+  if (motion.mobility > 0) motion.acceleration = acceleration_of(body, mass).norm();
   return motion;
 }
 

@@ -11,6 +11,9 @@ namespace supernormal::ode {
 double default_look_ahead();
 void set_default_look_ahead(double time);
 
+/// m/s^2; what gravity and the forces that were added since the last step do to a body of this mass.
+Vector3 acceleration_of(dBodyID body, const dMass& mass);
+
 /// The motion of a geom, about the point `origin` (m, world frame) of it, beyond which it reaches by no more than `radius` (m). A
 /// geom without a body stands still, and so does one whose body sleeps.
 MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius);
