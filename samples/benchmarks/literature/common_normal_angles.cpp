@@ -1,7 +1,6 @@
 #include "common_normal_angles.hpp"
 
-#include <Eigen/LU>
-
+#include "newton_step.hpp"
 #include "tangents.hpp"
 
 namespace literature {
@@ -33,11 +32,11 @@ CommonNormal common_normal_angles(const Bodies& bodies, const Options& options, 
       jacobian.block<1, 2>(2 + k, 0) = -t.transpose() * surface1.point_rate;
       jacobian.block<1, 2>(2 + k, 2) = t.transpose() * d_rate + d.transpose() * t_rate;
     }
-    const Eigen::Vector4d step = jacobian.partialPivLu().solve(residual);
-    if (!step.allFinite()) break;
-    angles[0] -= step.head<2>();
-    angles[1] -= step.tail<2>();
-    if (step.norm() > options.tolerance) continue;
+    const auto step = newton_step(jacobian, residual);
+    if (!step) break;
+    angles[0] -= step->head<2>();
+    angles[1] -= step->tail<2>();
+    if (step->norm() > options.tolerance) continue;
     return judged(bodies, surface1.point, n1.vector, point2, bodies.rotation * n2.vector, options.tolerance * bodies.size(),
                   evaluations);
   }

@@ -1,7 +1,6 @@
 #include "common_normal_points.hpp"
 
-#include <Eigen/LU>
-
+#include "newton_step.hpp"
 #include "tangents.hpp"
 
 namespace literature {
@@ -37,12 +36,12 @@ CommonNormal common_normal_points(const Bodies& bodies, const Options& options, 
     residual[5] = f2.value;
     jacobian.row(4) << f1.gradient.transpose(), Eigen::RowVector3d::Zero();
     jacobian.row(5) << Eigen::RowVector3d::Zero(), f2.gradient.transpose();
-    const Eigen::Matrix<double, 6, 1> step = jacobian.partialPivLu().solve(residual);
-    if (!step.allFinite()) break;
-    p -= step.head<3>();
-    q -= step.tail<3>();
+    const auto step = newton_step(jacobian, residual);
+    if (!step) break;
+    p -= step->head<3>();
+    q -= step->tail<3>();
     const double accuracy = options.tolerance * bodies.size();
-    if (step.norm() > accuracy) continue;
+    if (step->norm() > accuracy) continue;
     return judged(bodies, p, n1.vector, bodies.rotation * q + bodies.offset, bodies.rotation * n2.vector, accuracy, evaluations);
   }
   return {.evaluations = evaluations};

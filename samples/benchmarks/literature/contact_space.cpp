@@ -144,12 +144,12 @@ CommonNormal least_squares(const Bodies& bodies, const Options& options, Vector2
     }
     const Squares next = squares_at(angles - step, next_jet);
     const double predicted = step.dot(2 * squares.gradient - squares.hessian * step);
-    const double ratio = (squares.sum - next.sum) / predicted;
-    if (!(ratio > 0)) {
+    const double decrease = squares.sum - next.sum;
+    if (!(decrease > 0 && predicted > 0)) {
       damping.refuse();
       continue;
     }
-    damping.accept(ratio);
+    damping.accept(decrease / predicted);
     angles -= step;
     jet = next_jet;
     squares = next;
@@ -170,15 +170,17 @@ CommonNormal contact_space_fixed_point(const Bodies& bodies, const Options& opti
   gap.evaluate(n, Order::Point, before);
   if (options.path != nullptr) options.path->push_back(n);
   n = (n + before.d.normalized()).normalized();
+  if (n.isZero(0)) return answer(gap, before, false);  // the distance is opposite to the normal
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     gap.evaluate(n, Order::Point, jet);
     if (options.path != nullptr) options.path->push_back(n);
     // The point of the boundary is the offset less d; its centre of curvature is that less the radius times n.
     const double squared_sine = jet.n.cross(before.n).squaredNorm();
     const Vector3 across = jet.n - jet.n.dot(before.n) * before.n;
+    if (squared_sine == 0) break;  // the normal of before: no centre of curvature
     const double radius = across.dot(before.d - jet.d) / squared_sine;
     const Vector3 next = (jet.d + radius * jet.n).normalized();
-    if (!next.allFinite()) break;
+    if (!next.allFinite() || next.isZero(0)) break;
     if ((next - jet.n).norm() <= options.tolerance) return answer(gap, jet, true);
     before = jet;
     n = next;

@@ -1,8 +1,9 @@
 #include "extent.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "newton_step.hpp"
 
 namespace literature {
 namespace {
@@ -38,9 +39,9 @@ Extent extent_by_newton(const Superquadric& body, const Vector3& direction, doub
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     Eigen::Matrix4d jacobian;
     jacobian << now.unknowns[3] * now.f.hessian, now.f.gradient, now.f.gradient.transpose(), 0;
-    Vector4 step = jacobian.partialPivLu().solve(now.residual);
-    if (!step.allFinite()) step = jacobian.fullPivLu().solve(now.residual);  // singular where the body is flat
-    if (!step.allFinite()) break;
+    const auto found = newton_step_of_any_rank(jacobian, now.residual);  // singular where the body is flat
+    if (!found) break;
+    const Vector4& step = *found;
     const bool is_last = step.head<3>().norm() <= tolerance * body.half_axes.minCoeff();
     Iterate next(body, direction, now.unknowns - step);
     ++result.evaluations;

@@ -1,9 +1,10 @@
 #include "midway_point.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "newton_step.hpp"
 
 namespace literature {
 namespace {
@@ -35,10 +36,11 @@ class Newton {
     return result;
   }
 
-  /// The multiplier that makes both gradients equally long.
+  /// The multiplier that makes both gradients equally long; 1 at the centre of body 2, which has no gradient.
   Iterate at(const Vector3& x) {
     Iterate result = at(x, 1);
-    result.mu = std::sqrt(result.f1.gradient.norm() / result.f2.gradient.norm());
+    const double length2 = result.f2.gradient.norm();
+    if (length2 > 0) result.mu = std::sqrt(result.f1.gradient.norm() / length2);
     result.residual.head<3>() = result.f1.gradient + result.mu * result.mu * result.f2.gradient;
     return result;
   }
@@ -57,9 +59,9 @@ class Newton {
       Eigen::Matrix4d jacobian;
       jacobian << now.f1.hessian + now.mu * now.mu * now.f2.hessian, 2 * now.mu * now.f2.gradient,
           (now.f1.gradient - now.f2.gradient).transpose(), 0;
-      Vector4 step = jacobian.partialPivLu().solve(now.residual);
-      if (!step.allFinite()) step = jacobian.fullPivLu().solve(now.residual);  // singular where both bodies are flat
-      if (!step.allFinite()) return false;
+      const auto found = newton_step_of_any_rank(jacobian, now.residual);  // singular where both bodies are flat
+      if (!found) return false;
+      const Vector4& step = *found;
       const double moved = step.head<3>().norm();
       Iterate next = at(now.x - step.head<3>(), now.mu - step[3]);
       double share = 1;
@@ -81,7 +83,9 @@ class Newton {
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       ++line_evaluations_;
       const Implicit f = body.implicit(x + distance * direction);
-      const double step = f.value / f.gradient.dot(direction);
+      const double slope = f.gradient.dot(direction);
+      if (slope == 0) break;
+      const double step = f.value / slope;
       distance -= step;
       if (!(std::abs(step) > options_.tolerance * bodies_.size())) return distance;
     }

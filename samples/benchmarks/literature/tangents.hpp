@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "superquadric.hpp"
 
@@ -16,14 +17,15 @@ struct Tangents {
 
 Tangents tangents_of(const Vector3& normal);
 
-/// A unit vector and its derivative from those of a vector of any length.
+/// A unit vector and its derivative from those of a vector of any length; no numbers where that vector is zero.
 template <int kColumns>
 struct Normalized {
   Vector3 vector;
   Eigen::Matrix<double, 3, kColumns> rate;
 
   Normalized(const Vector3& v, const Eigen::Matrix<double, 3, kColumns>& v_rate) {
-    const double length = v.norm();
+    double length = v.norm();
+    if (length == 0) length = std::numeric_limits<double>::quiet_NaN();
     vector = v / length;
     rate = (v_rate - vector * (vector.transpose() * v_rate)) / length;
   }

@@ -1,11 +1,14 @@
 #include "method/literature_path.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "literature/method.hpp"
 
 namespace explain_pair {
 namespace {
+
+constexpr double kUnit = 1e-9;  // far above rounding; where an iterate has no normal, it is zero or not a number
 
 supernormal::Status status_of(literature::Outcome outcome) {
   switch (outcome) {
@@ -34,7 +37,7 @@ std::vector<SolverPath> literature_paths(const Pair& pair, const supernormal::Se
         {.tolerance = settings.tolerance, .first_normal = pair.first_normal ? &*pair.first_normal : nullptr, .path = &normals});
     SolverPath path{name, std::nullopt, {}, {}, {}};
     for (const Vector3& n : normals) {
-      if (!n.allFinite()) break;  // the method has left its domain
+      if (!(std::abs(n.squaredNorm() - 1) <= kUnit)) break;  // the method has left its domain
       path.evaluations.push_back(gap.evaluate_in_body1(n));
     }
     if (path.evaluations.empty()) continue;
