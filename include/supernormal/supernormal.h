@@ -298,7 +298,13 @@ typedef struct snStatistics {
   snCount evaluations_warm; /**< and in the latter */
   snCount closed_forms;     /**< pairs settled without iteration, such as body and plane */
   snCount contacts;         /**< contacts that dCollide was given */
-  snCount not_converged;    /**< queries whose error exceeds the tolerance */
+  snCount not_converged; /**< queries whose error exceeds the tolerance: the following three, and those with a pose or shape that is
+                            not finite */
+  snCount stalled;       /**< no further ascent in double precision */
+  snCount out_of_evaluations;     /**< the largest number of evaluations was reached */
+  snCount diverged;               /**< SN_SOLVER_NEWTON or SN_SOLVER_FIXED_POINT left its domain */
+  snCount contacts_not_converged; /**< contacts of all these queries: their normal and place are estimates, and their depth
+                                     separates the bodies along that normal */
 } snStatistics;
 /** Copies the counts of this thread to `out`. */
 SUPERNORMAL_API void snGetStatistics(snStatistics* out);

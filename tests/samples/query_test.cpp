@@ -55,6 +55,9 @@ TEST_CASE("query: the settings reach the library, and the next world has the lib
   CHECK(evaluations(loose) < evaluations(before));
   const Outcome short_of = outcome(Query{.solver = SN_SOLVER_FIXED_POINT, .max_evaluations = 2});
   CHECK(short_of.counts.not_converged > 0);
+  CHECK(short_of.counts.out_of_evaluations == short_of.counts.not_converged);
+  CHECK(short_of.counts.contacts_not_converged > 0);
+  CHECK(short_of.counts.contacts_not_converged <= short_of.counts.contacts);
   CHECK(outcome({}).places == before.places);
 }
 

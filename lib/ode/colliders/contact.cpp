@@ -32,7 +32,7 @@ int append_contact(const Proximity& proximity, const ContactArray& out, int coun
   contact.g2 = out.o2;
   contact.side1 = -1;
   contact.side2 = side2;
-  count_contact();
+  count_contact(proximity.status);
   return count + 1;
 }
 

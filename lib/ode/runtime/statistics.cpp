@@ -7,18 +7,25 @@ namespace {
 
 thread_local snStatistics statistics{};
 
+bool is_settled(Status status) { return status == Status::Converged || status == Status::Apart; }
+
 }  // namespace
 
 void count_query(const Proximity& result, bool warm) noexcept {
   (warm ? statistics.queries_warm : statistics.queries_cold) += 1;
   (warm ? statistics.evaluations_warm : statistics.evaluations_cold) += static_cast<unsigned long long>(result.evaluations);
-  const bool settled = result.status == Status::Converged || result.status == Status::Apart;
-  if (!settled) ++statistics.not_converged;
+  if (!is_settled(result.status)) ++statistics.not_converged;
+  if (result.status == Status::Stalled) ++statistics.stalled;
+  if (result.status == Status::EvaluationLimit) ++statistics.out_of_evaluations;
+  if (result.status == Status::Diverged) ++statistics.diverged;
 }
 
 void count_closed_form() noexcept { ++statistics.closed_forms; }
 
-void count_contact() noexcept { ++statistics.contacts; }
+void count_contact(Status status) noexcept {
+  ++statistics.contacts;
+  if (!is_settled(status)) ++statistics.contacts_not_converged;
+}
 
 snStatistics thread_statistics() noexcept { return statistics; }
 
@@ -32,6 +39,10 @@ void add_statistics(const snStatistics& more) noexcept {
   statistics.closed_forms += more.closed_forms;
   statistics.contacts += more.contacts;
   statistics.not_converged += more.not_converged;
+  statistics.stalled += more.stalled;
+  statistics.out_of_evaluations += more.out_of_evaluations;
+  statistics.diverged += more.diverged;
+  statistics.contacts_not_converged += more.contacts_not_converged;
 }
 
 }  // namespace supernormal::ode

@@ -12,7 +12,8 @@ void count_query(const Proximity& result, bool warm) noexcept;
 /// Counts a pair that was settled without iteration.
 void count_closed_form() noexcept;
 
-void count_contact() noexcept;
+/// Counts a contact that was given; `status`: how its query ended.
+void count_contact(Status status) noexcept;
 
 /// The counts of this thread so far.
 snStatistics thread_statistics() noexcept;

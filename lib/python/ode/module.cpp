@@ -170,7 +170,7 @@ auto statistics() {
   snStatistics s{};
   snGetStatistics(&s);
   return std::tuple(s.queries_cold, s.queries_warm, s.evaluations_cold, s.evaluations_warm, s.closed_forms, s.contacts,
-                    s.not_converged);
+                    s.not_converged, s.stalled, s.out_of_evaluations, s.diverged, s.contacts_not_converged);
 }
 
 void bind_geoms(py::module_& m) {

@@ -344,6 +344,10 @@ class Statistics(NamedTuple):
     closedForms: int
     contacts: int
     notConverged: int
+    stalled: int
+    outOfEvaluations: int
+    diverged: int
+    contactsNotConverged: int
 
 
 def getStatistics() -> Statistics:

@@ -106,6 +106,13 @@ void add_queries(Lines& lines, const Summary& s) {
   lines.add("evaluations_per_warm_query", ratio(n.evaluations_warm, n.queries_warm));
   lines.add("closed_forms", n.closed_forms, "pairs settled without iteration: grain and wall");
   lines.add("not_converged", n.not_converged, "queries whose error bound exceeds the tolerance");
+  if (n.not_converged > 0) {
+    lines.add("stalled", n.stalled, "of these, without further ascent in double precision");
+    lines.add("out_of_evaluations", n.out_of_evaluations, "of these, with max_evaluations used up");
+    lines.add("diverged", n.diverged, "of these, out of the domain of an unguarded solver");
+    lines.add("contacts_not_converged", n.contacts_not_converged,
+              "of these queries; they separate the bodies, along an estimated normal");
+  }
   lines.add("contacts", s.costs.contacts, "in all steps");
   if (s.scene.looks_ahead()) lines.add("contacts_ahead", contacts_ahead(s), "of these, ahead of touch: the bodies were apart");
   lines.add("contacts_per_step", ratio(s.costs.contacts, steps), "mean");

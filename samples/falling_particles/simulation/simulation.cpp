@@ -10,9 +10,12 @@ namespace {
 
 using supernormal::effects::Cost;
 
-constexpr std::array kCounts = {&snStatistics::queries_cold,     &snStatistics::queries_warm, &snStatistics::evaluations_cold,
-                                &snStatistics::evaluations_warm, &snStatistics::closed_forms, &snStatistics::contacts,
-                                &snStatistics::not_converged};
+constexpr std::array kCounts = {&snStatistics::queries_cold,          &snStatistics::queries_warm,
+                                &snStatistics::evaluations_cold,      &snStatistics::evaluations_warm,
+                                &snStatistics::closed_forms,          &snStatistics::contacts,
+                                &snStatistics::not_converged,         &snStatistics::stalled,
+                                &snStatistics::out_of_evaluations,    &snStatistics::diverged,
+                                &snStatistics::contacts_not_converged};
 static_assert(sizeof(snStatistics) == kCounts.size() * sizeof(snCount));
 
 }  // namespace

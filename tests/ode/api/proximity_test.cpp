@@ -170,6 +170,8 @@ TEST_CASE("a pair uses the tighter tolerance and the larger limit; the limit end
   CHECK(cut.gap <= fine.gap);  // every normal gives a lower bound
   CHECK(fine.gap - cut.gap <= cut.error);
   CHECK(statistics().not_converged == 1);
+  CHECK(statistics().out_of_evaluations == 1);
+  CHECK(statistics().stalled + statistics().diverged == 0);
 
   REQUIRE(snGeomSetSolver(g2, SN_SOLVER_HYBRID, 1, 1000) == 1);  // g1: limit 1, tolerance 1e-9
   CHECK(proximity_of(g1, g2).evaluations == fine.evaluations);
