@@ -18,7 +18,7 @@ std::optional<Eigen::Vector<double, kSize>> newton_step(const Eigen::Matrix<doub
   return step;
 }
 
-/// The shortest x that comes nearest to it where the matrix is singular.
+/// The same; where the matrix is singular, the x of its regular part, with zeros for the unknowns that it leaves open.
 template <int kSize>
 std::optional<Eigen::Vector<double, kSize>> newton_step_of_any_rank(const Eigen::Matrix<double, kSize, kSize>& jacobian,
                                                                     const Eigen::Vector<double, kSize>& residual) {
