@@ -46,18 +46,6 @@ Range exponents_of(BodyClass body_class) {
   throw std::logic_error("no such class");
 }
 
-std::shared_ptr<const Shape> random_body(Random& random, BodyClass body_class) {
-  const double a = uniform(random, 0.5, 1.5);
-  const double b = uniform(random, 0.5, 1.5);
-  const double c = uniform(random, 0.5, 1.5);
-  if (body_class == BodyClass::Ellipsoid) return std::make_shared<supernormal::Ellipsoid>(Vector3(a, b, c));
-  const Range range = exponents_of(body_class);
-  const double delta = uniform(random, range.low, range.high);
-  const double epsilon = uniform(random, range.low, range.high);
-  const double thin = body_class == BodyClass::Needle ? 0.1 : 1;
-  return std::make_shared<supernormal::Superellipsoid>(Vector3(thin * a, thin * b, c), delta, epsilon);
-}
-
 double wanted_gap(Random& random, Situation situation, double size) {
   switch (situation) {
     case Situation::Shallow:
@@ -115,6 +103,18 @@ Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Shape> random_body(Random& random, BodyClass body_class) {
+  const double a = uniform(random, 0.5, 1.5);
+  const double b = uniform(random, 0.5, 1.5);
+  const double c = uniform(random, 0.5, 1.5);
+  if (body_class == BodyClass::Ellipsoid) return std::make_shared<supernormal::Ellipsoid>(Vector3(a, b, c));
+  const Range range = exponents_of(body_class);
+  const double delta = uniform(random, range.low, range.high);
+  const double epsilon = uniform(random, range.low, range.high);
+  const double thin = body_class == BodyClass::Needle ? 0.1 : 1;
+  return std::make_shared<supernormal::Superellipsoid>(Vector3(thin * a, thin * b, c), delta, epsilon);
+}
 
 char letter(BodyClass body_class) { return "EMBON"[static_cast<int>(body_class)]; }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "simulation/random.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 
@@ -41,6 +42,9 @@ struct Pair {
   supernormal::Vector3 warm_normal;  ///< body 1's frame; the answer for a pose 1e-3 (m and rad) away
   std::array<supernormal::Vector3, kNormalsPerPair> normals;  ///< body 1's frame; within 0.1 rad of the answer, to time evaluations
 };
+
+/// A body of one class.
+std::shared_ptr<const supernormal::Shape> random_body(falling_particles::Random& random, BodyClass body_class);
 
 /// Draws about `count` pairs, equally many of each class and situation, mixed. Same seed, same pairs, on every machine. The
 /// bodies touch along a random normal and are then moved along it, so that they lie the given distance apart unless that normal

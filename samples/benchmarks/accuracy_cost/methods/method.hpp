@@ -106,7 +106,9 @@ Methods ode_mesh_methods();
 Methods literature_methods(Start start, double tolerance);
 
 /// Meshes of 160, 960 and 3840 triangles, by ODE's trimesh and, as convex hulls, by libccd's GJK and EPA.
-Methods literature_mesh_methods();
+/// Bodies that move are placed anew in every query; others once, outside of the measured time.
+enum class Motion { None, Moves };
+Methods literature_mesh_methods(Motion motion = Motion::None);
 
 /// The unit of cost instead of a query: the gap function at Pair::normals, up to this order.
 std::unique_ptr<Method> evaluation_cost(supernormal::Order order);

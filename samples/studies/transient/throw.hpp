@@ -1,0 +1,82 @@
+// Superellipsoids that are thrown into one another and into a box, in a world of ODE whose pairs of bodies are solved by any
+// method.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "pairs.hpp"
+
+namespace transient {
+
+using supernormal::Vector3;
+
+struct Setup {
+  accuracy_cost::BodyClass body_class = accuracy_cost::BodyClass::Ellipsoid;
+  int bodies = 8;
+  bool has_friction = false;  ///< Coulomb's 0.5, gravity and no bounce; otherwise elastic, without friction and gravity
+  double step = 1e-3;         ///< s
+  std::uint64_t seed = 1;
+};
+
+/// Two bodies whose bounding boxes meet, numbered.
+struct Neighbours {
+  std::size_t body1, body2;
+};
+
+/// What a method says of them: where they overlap, the contact.
+struct Touch {
+  bool overlaps = false;
+  double depth = 0;                    ///< m
+  Vector3 normal = Vector3::UnitX();   ///< unit, from body 1 to body 2
+  Vector3 position = Vector3::Zero();  ///< m
+};
+
+/// The start depends on the class, the number and the seed alone. A world can be moved by 1e-12 of a body's size at the start.
+class Throw {
+ public:
+  Throw(const Setup& setup, bool is_disturbed);
+  ~Throw();
+  Throw(const Throw&) = delete;
+  Throw& operator=(const Throw&) = delete;
+
+  /// The pairs of now, by bounding boxes that hold the bodies exactly.
+  const std::vector<Neighbours>& neighbours();
+
+  /// A step with these contacts, one for each pair of neighbours(), and those with the walls, which are closed forms.
+  void step(const std::vector<Touch>& touches);
+
+  std::size_t bodies() const { return bodies_.size(); }
+  const std::shared_ptr<const supernormal::Shape>& shape(std::size_t body) const { return shapes_[body]; }
+  supernormal::Pose pose(std::size_t body) const;
+  Vector3 position(std::size_t body) const;
+  double kinetic_energy() const;  ///< J
+  /// kg m/s; the largest change of the total momentum by a step in which no body touched a wall
+  double momentum_drift() const { return momentum_drift_; }
+  double momentum_scale() const { return momentum_scale_; }  ///< kg m/s; the sum of all bodies' at the start
+
+ private:
+  static void neighbour_callback(void* self, dGeomID geom1, dGeomID geom2);
+  static void wall_callback(void* self, dGeomID geom1, dGeomID geom2);
+  void place_bodies(bool is_disturbed);
+  void add_contact(dContact& contact, dBodyID body1, dBodyID body2);
+  Vector3 momentum() const;
+
+  Setup setup_;
+  dWorldID world_ = dWorldCreate();
+  dSpaceID space_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+  dSpaceID walls_ = dSimpleSpaceCreate(nullptr);
+  dJointGroupID joints_ = dJointGroupCreate(0);
+  std::vector<std::shared_ptr<const supernormal::Shape>> shapes_;
+  std::vector<dBodyID> bodies_;
+  std::deque<std::size_t> numbers_;  // of the bodies; geoms point at them
+  std::vector<Neighbours> neighbours_;
+  bool touches_wall_ = false;
+  double momentum_drift_ = 0, momentum_scale_ = 0;
+};
+
+}  // namespace transient
