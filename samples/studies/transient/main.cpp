@@ -62,6 +62,10 @@ class Study {
       for (const int bodies : options_.bodies) {
         for (const std::string& contacts : options_.contacts) {
           for (const double step : options_.steps) {
+            if (options_.duration < step) {
+              throw std::invalid_argument("--duration is " + std::to_string(options_.duration) + " s; allowed: a step or more, " +
+                                          std::to_string(step) + " s");
+            }
             const Setup setup{class_of(body_class), bodies, contacts == "friction", step, options_.seed};
             run_all(body_class, contacts, {setup, options_.duration, options_.judged});
           }
@@ -166,7 +170,9 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app("Superellipsoids that collide, with every method as the narrow phase of the same world");
     std::vector<std::string> names;
-    for (const Contestant& contestant : contestants()) names.push_back(contestant.name);
+    for (const Contestant& contestant : contestants()) {
+      if (std::ranges::find(names, contestant.name) == names.end()) names.push_back(contestant.name);  // once for cold and warm
+    }
     app.add_option("--classes", options.classes, "E (ellipsoids), M (exponents 1.3 to 5), B (6 to 20), N (needles)")
         ->check(CLI::IsMember(std::vector<std::string>{"E", "M", "B", "N"}))
         ->delimiter(',');

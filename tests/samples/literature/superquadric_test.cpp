@@ -49,7 +49,7 @@ TEST_CASE("superquadric: the implicit function's derivatives are those of its di
       for (int k = 0; k < 3; ++k) {
         const auto slope = difference<double>([&](const Vector3& y) { return body.value(y); }, x, k);
         CHECK(std::abs(f.gradient[k] - slope) <= kDifference * (1 + f.gradient.norm() + std::abs(f.value)));
-        const Vector3 column = difference<Vector3>([&](const Vector3& y) -> Vector3 { return body.implicit(y).gradient; }, x, k);
+        const auto column = difference<Vector3>([&](const Vector3& y) -> Vector3 { return body.implicit(y).gradient; }, x, k);
         CHECK((f.hessian.col(k) - column).norm() <= kDifference * (1 + f.hessian.norm() + f.gradient.norm()));
       }
     }
@@ -68,8 +68,8 @@ TEST_CASE("superquadric: points of the angles are on the surface, with the gradi
       CHECK((surface.point - body.point(angles)).norm() <= 1e-14);
       CHECK((body.point(body.angles_of(3 * surface.normal)) - surface.point).norm() <= 1e-9);
       for (int k = 0; k < 2; ++k) {
-        const Vector3 point = difference<Vector3>([&](const Vector2& a) -> Vector3 { return body.surface(a).point; }, angles, k);
-        const Vector3 normal = difference<Vector3>([&](const Vector2& a) -> Vector3 { return body.surface(a).normal; }, angles, k);
+        const auto point = difference<Vector3>([&](const Vector2& a) -> Vector3 { return body.surface(a).point; }, angles, k);
+        const auto normal = difference<Vector3>([&](const Vector2& a) -> Vector3 { return body.surface(a).normal; }, angles, k);
         const double near_axis =
             1 / std::pow(std::sin(2 * angles[0]) * std::sin(2 * angles[1]), 2);  // third derivatives grow there
         CHECK((surface.point_rate.col(k) - point).norm() <= kDifference * (1 + near_axis));
