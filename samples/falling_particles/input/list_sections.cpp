@@ -72,7 +72,7 @@ std::string list_sections() {
   length           m, in (0, 1000]
   segments         a whole number from 8 to 10000; of its circumference
   rpm              revolutions a minute; up to a tenth of one in a step
-  smooth           true or false; whether its ends have no friction; false without it
+  smooth           true or false; whether its flat sides stand and only their surface moves; false without it
   turns_at         s, from 0, before time.duration; 0 without it
 [container] kind = "tray"
   width            m, two numbers in (0, 1000]; along x and y

@@ -22,7 +22,7 @@ namespace {
 const std::vector<std::string> kShapes = {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"};
 
 /// The keys that describe a shape.
-std::vector<std::string> keys_of(const std::string& shape) {
+std::vector<std::string> keys_of_shape(const std::string& shape) {
   if (shape == "box") return {"size"};
   if (shape == "cylinder") return {"radius", "length"};
   if (shape == "mesh") return {"file", "unit", "two_sided"};
@@ -41,7 +41,7 @@ std::vector<std::string> with_common_keys(std::vector<std::string> keys) {
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   for (const std::string& shape : kShapes) {
-    for (std::string& key : keys_of(shape)) {
+    for (std::string& key : keys_of_shape(shape)) {
       if (std::ranges::find(keys, key) == keys.end()) keys.push_back(std::move(key));
     }
   }
@@ -118,7 +118,7 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
 
 PartShape read_shape(const TomlTable& table, const std::string& scene_path) {
   const std::string shape = table.choice("shape", kShapes);
-  table.refuse_unknown_keys(with_common_keys(keys_of(shape)));
+  table.refuse_unknown_keys(with_common_keys(keys_of_shape(shape)));
   if (shape == "plane") return PlaneShape{};
   if (shape == "box") return BoxShape{read_sizes(table, "size")};
   if (shape == "cylinder") {

@@ -17,7 +17,7 @@ constexpr double kLargestFactor = 100;
 constexpr double kLargestRatio = 1000;
 constexpr std::int64_t kMostOpenings = 200;
 
-std::vector<std::string> keys_of(const std::string& distribution) {
+std::vector<std::string> keys_of_sizes(const std::string& distribution) {
   std::vector<std::string> keys = {"distribution", "by", "unit"};
   const auto add = [&keys](std::initializer_list<const char*> more) { keys.insert(keys.end(), more.begin(), more.end()); };
   if (distribution == "sieve") add({"openings", "passing"});
@@ -95,7 +95,7 @@ std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_
   if (!entry.has("size")) return std::nullopt;
   const TomlTable table = entry.table("size");
   const std::string kind = table.choice("distribution", {"uniform", "normal", "lognormal", "sieve"});
-  table.refuse_unknown_keys(keys_of(kind));
+  table.refuse_unknown_keys(keys_of_sizes(kind));
   const bool is_sieve = kind == "sieve";
   const By by = (table.has("by") ? table.choice("by", {"number", "mass"}) == "mass" : is_sieve) ? By::Mass : By::Number;
   const Lengths lengths(table, sieve_size);

@@ -31,12 +31,12 @@ void append_band(Mesh& mesh, unsigned int segments, unsigned int lower_ring) {
   }
 }
 
-struct Moments {
+struct ConeMoments {
   double volume = 0, first = 0;  // without the polygon's constant factor
 };
 
 /// Adds the part from height a to b, over which the radius is linear: Simpson's rule is then exact.
-void add_part(const Hopper& hopper, double a, double b, Moments& moments) {
+void add_part(const Hopper& hopper, double a, double b, ConeMoments& moments) {
   const double middle = (a + b) / 2;
   for (const auto& [height, weight] : std::array<std::array<double, 2>, 3>{{{a, 1}, {middle, 4}, {b, 1}}}) {
     const double radius = hopper.radius_at(hopper.clearance + height);
@@ -78,7 +78,7 @@ bool Hopper::has_room(const Point& lower, const Point& size) const {
 double Hopper::mean_height(double level) const {
   const double height = level - clearance;
   const double in_cone = std::fmin(height, cone_height());
-  Moments moments;
+  ConeMoments moments;
   add_part(*this, 0, in_cone, moments);
   if (height > in_cone) add_part(*this, in_cone, height, moments);
   return moments.first / moments.volume;

@@ -5,10 +5,10 @@
 #include <tuple>
 #include <utility>
 
+#include "world/to_vector.hpp"
+
 namespace falling_particles {
 namespace {
-
-Vector3 to_vector(const dReal* v) { return Vector3(v[0], v[1], v[2]); }
 
 /// A point of contact, with body 1 as PairContact has it.
 struct ContactPoint {

@@ -20,7 +20,7 @@ namespace falling_particles {
 namespace {
 
 /// Places from which grains of the start, or of a feeder, look around.
-struct Origin {
+struct Lookout {
   std::string name;  // of a feeder; empty for the start
   std::vector<Point> places;
   bool falls;  // straight down, where there is gravity
@@ -31,9 +31,9 @@ struct Origin {
   }
 };
 
-Origin start_of(const Scene& scene) {
+Lookout start_of(const Scene& scene) {
   Random random(scene.seed);
-  Origin origin{"", {}, true};
+  Lookout origin{"", {}, true};
   for (const Placement& placement : place(scene, random)) {
     constexpr std::size_t kEnough = 1000;  // they are in random order
     if (origin.places.size() < kEnough) origin.places.push_back(placement.position);
@@ -58,8 +58,8 @@ double smallest_radius(const Feeder& feeder, const Scene& scene) {
 }
 
 /// The outermost centres of grains in the region, and its middle.
-Origin origin_of(const Feeder& feeder, const Scene& scene) {
-  Origin origin{feeder.name, {}, true};
+Lookout origin_of(const Feeder& feeder, const Scene& scene) {
+  Lookout origin{feeder.name, {}, true};
   const double radius = smallest_radius(feeder, scene);
   const auto& [corner, size] = feeder.region;
   origin.places.push_back({corner[0] + size[0] / 2, corner[1] + size[1] / 2, corner[2] + size[2] / 2});
@@ -83,7 +83,7 @@ std::vector<Vector3> directions_of(const Scene& scene) {
   return directions;
 }
 
-void add_backs(const Sight& sight, const Scene& scene, const Origin& origin, std::vector<std::string>& doubts) {
+void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
   std::map<std::size_t, std::size_t> counts;  // of places, by part
   for (const Point& place : origin.places) {
     std::set<std::size_t> parts;
@@ -99,7 +99,7 @@ void add_backs(const Sight& sight, const Scene& scene, const Origin& origin, std
   }
 }
 
-void add_void(const Sight& sight, const Scene& scene, const Origin& origin, std::vector<std::string>& doubts) {
+void add_void(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
   const std::optional<Vector3> down = down_in(scene);
   if (!down || !origin.falls || origin.places.empty()) return;
   const auto lands = [&](const Point& place) {
@@ -113,7 +113,7 @@ void add_void(const Sight& sight, const Scene& scene, const Origin& origin, std:
                    " above nothing: no wall, part or sink is below them within the container, and they fall out of it");
 }
 
-void add_sunk(const Scene& scene, const Origin& origin, std::vector<std::string>& doubts) {
+void add_sunk(const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
   const auto is_in_sink = [&](const Point& place) {
     return std::ranges::any_of(scene.sinks, [&](const Sink& sink) { return sink.contains(place); });
   };
@@ -182,11 +182,11 @@ std::vector<std::string> doubts_about_origins(const Scene& scene) {
   if (std::holds_alternative<Periodic>(scene.container)) return doubts;
   const World world(scene, std::vector<Placement>{});
   const Sight sight(world);
-  std::vector<Origin> origins = {start_of(scene)};
+  std::vector<Lookout> origins = {start_of(scene)};
   for (const Feeder& feeder : scene.feeders) {
     if (!add_full(world, feeder, doubts)) origins.push_back(origin_of(feeder, scene));
   }
-  for (const Origin& origin : origins) {
+  for (const Lookout& origin : origins) {
     add_sunk(scene, origin, doubts);
     add_void(sight, scene, origin, doubts);
     add_backs(sight, scene, origin, doubts);

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "to_vector.hpp"
+
 namespace falling_particles {
 namespace {
 
@@ -11,8 +13,6 @@ namespace {
 bool is_moving_wall(dGeomID geom, const supernormal::effects::Side& side) {
   return body_of(geom) == nullptr && side.body != nullptr;
 }
-
-Vector3 to_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 /// Lets the joint ask for this velocity (m/s) of the first body relative to the second, along the directions of friction that the
 /// effects have set or ODE would choose.

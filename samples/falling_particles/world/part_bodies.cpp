@@ -7,6 +7,7 @@
 #include <string>
 
 #include "model/part_material.hpp"
+#include "to_vector.hpp"
 
 namespace falling_particles {
 namespace {
@@ -30,8 +31,6 @@ dBodyID create_body(dWorldID world) {
   dBodySetAngularDamping(body, 0);
   return body;
 }
-
-Vector3 to_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 

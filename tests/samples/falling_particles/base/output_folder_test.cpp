@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "base/input_error.hpp"
+#include "output/result_names.hpp"
 #include "temporary_folder.hpp"
 
 using namespace falling_particles;

@@ -18,8 +18,8 @@ using namespace falling_particles;
 
 namespace {
 
-constexpr double kRadius = 0.03;  // m, radius of the base
-constexpr double kBase = 0.01;    // m, its height
+constexpr double kBaseRadius = 0.03;  // m, radius of the base
+constexpr double kBase = 0.01;        // m, its height
 
 Grain pea() { return {"pea", {2e-3, 2e-3, 2e-3}, 2, 2, 0, 1200, "test"}; }
 
@@ -33,8 +33,8 @@ std::vector<Placement> on_a_cone(double degrees) {
       const double x = i * kSpacing;
       const double y = j * kSpacing;
       const double r = std::hypot(x, y);
-      if (r > kRadius) continue;
-      placements.push_back({0, {0.1 + x, 0.05 + y, kBase + 1e-3 + slope * (kRadius - r)}, {1, 0, 0, 0}});
+      if (r > kBaseRadius) continue;
+      placements.push_back({0, {0.1 + x, 0.05 + y, kBase + 1e-3 + slope * (kBaseRadius - r)}, {1, 0, 0, 0}});
     }
   }
   return placements;
@@ -48,13 +48,13 @@ TEST_CASE("the angle of a constructed cone of grains") {
     const std::vector<Placement> placements = on_a_cone(degrees);
     const Scene scene = scene_of(Box{{0.2, 0.1}}, {{pea(), static_cast<int>(placements.size())}});
     const World world(scene, placements);
-    const Heap heap = measure_heap(world, {0.1, 0.05, kBase}, kRadius);
+    const Heap heap = measure_heap(world, {0.1, 0.05, kBase}, kBaseRadius);
     CHECK(std::abs(heap.angle - degrees) < 0.2);
     CHECK(heap.standard_error < 0.2);
     CHECK(heap.grains == placements.size());
     CHECK(heap.has_flank);
     const double tangent = std::tan(degrees * std::numbers::pi / 180);
-    const double top = 1e-3 + tangent * kRadius + 2e-3 * std::hypot(1, tangent);  // height of the parallel cone
+    const double top = 1e-3 + tangent * kBaseRadius + 2e-3 * std::hypot(1, tangent);  // height of the parallel cone
     CHECK(heap.height == supernormal::test::relative(top).epsilon(0.02));
   }
 }
@@ -62,7 +62,7 @@ TEST_CASE("the angle of a constructed cone of grains") {
 TEST_CASE("no heap has no slope, and what lies beside or below the base does not count") {
   const Scene scene = scene_of(Box{{0.2, 0.1}}, {{pea(), 2}});
   const World world(scene, {{0, {0.05, 0.05, 0.02}, {1, 0, 0, 0}}, {0, {0.1, 0.06, 0.005}, {1, 0, 0, 0}}});
-  const Heap heap = measure_heap(world, {0.1, 0.05, kBase}, kRadius);
+  const Heap heap = measure_heap(world, {0.1, 0.05, kBase}, kBaseRadius);
   CHECK(!heap.has_flank);
   CHECK(heap.grains == 0);
 }

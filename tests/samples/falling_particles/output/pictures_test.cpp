@@ -75,7 +75,7 @@ Vector3 corner_at(std::size_t index) {
 class Written {
  public:
   explicit Written(std::string_view format, const std::vector<double>& scales = {})
-      : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures") {
+      : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures", result_names()) {
     const PictureFormat& found = *find_picture_format(format);
     const Contents contents{&scene_, {0, 1, 0, 1, 0}, parts_of_scene(scene_), scales};
     const std::unique_ptr<Picture> picture = found.make(out_, found, contents);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "output/picture.hpp"
+#include "output/result_names.hpp"
 #include "temporary_folder.hpp"
 
 using namespace falling_particles;
@@ -30,9 +31,9 @@ std::vector<Frame> frames() {
 }
 
 /// Writes the frames in one format, as a run does: the contents grow with them.
-class Written {
+class PictureOfChanges {
  public:
-  explicit Written(std::string_view name) : out_(folder_.path(), "changes") {
+  explicit PictureOfChanges(std::string_view name) : out_(folder_.path(), "changes", result_names()) {
     scene_.name = "changes";
     scene_.container = Open{};
     scene_.grains = {{{"pea", {0.003, 0.003, 0.003}, 2, 2, 0, 1200, "typical"}, 1}};
@@ -87,10 +88,10 @@ std::vector<float> track(const tinygltf::Model& model, int node, const std::stri
 }  // namespace
 
 TEST_CASE("lammps and vtk have the grains that are there, with their indices") {
-  const Written lammps("lammps");
+  const PictureOfChanges lammps("lammps");
   CHECK(after(lammps.text("grains.lammpstrj"), "NUMBER OF ATOMS\n", '\n') == std::vector<std::string>{"1", "2", "1", "1"});
   CHECK(after(lammps.text("grains.lammpstrj"), "roundness_theta\n", ' ') == std::vector<std::string>{"1", "1", "2", "2"});
-  const Written vtk("vtk");
+  const PictureOfChanges vtk("vtk");
   const std::string grain = "Name=\"grain\" NumberOfComponents=\"1\" format=\"ascii\">\n";
   CHECK(after(vtk.text("vtk/grains_000000.vtp"), "NumberOfPoints=\"", '"') == std::vector<std::string>{"1"});
   CHECK(after(vtk.text("vtk/grains_000001.vtp"), "NumberOfPoints=\"", '"') == std::vector<std::string>{"2"});
@@ -99,12 +100,12 @@ TEST_CASE("lammps and vtk have the grains that are there, with their indices") {
 }
 
 TEST_CASE("a still has the grains of the last frame") {
-  const Written written("povray");
+  const PictureOfChanges written("povray");
   CHECK(after(written.text("still.pov"), "object { Kind0 matrix ", '>').size() == 1);
 }
 
 TEST_CASE("glb: a node is scaled to nothing while its grain is not there") {
-  const Written written("glb");
+  const PictureOfChanges written("glb");
   tinygltf::Model model;
   tinygltf::TinyGLTF reader;
   std::string error, warning;
@@ -127,6 +128,6 @@ TEST_CASE("glb: a node is scaled to nothing while its grain is not there") {
 }
 
 TEST_CASE("page: the numbers of bodies in each frame are told") {
-  const Written written("page");
+  const PictureOfChanges written("page");
   CHECK(written.text("view.html").find("\"bodyCounts\":[1,2,2,2]") != std::string::npos);
 }

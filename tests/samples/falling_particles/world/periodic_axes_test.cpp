@@ -13,7 +13,7 @@
 #include "observe/container_picture.hpp"
 #include "observe/leaks.hpp"
 #include "relative.hpp"
-#include "samples/measurements/measured.hpp"
+#include "samples/falling_particles/observe/measured.hpp"
 #include "scenes.hpp"
 #include "world/placement.hpp"
 #include "world/population.hpp"

@@ -24,7 +24,7 @@ using supernormal::test::relative;
 
 namespace {
 
-constexpr double kStep = 1e-3;  // s
+constexpr double kStepOfChanges = 1e-3;  // s
 
 Grain pea() { return {"pea", {3e-3, 3e-3, 3e-3}, 2, 2, 0, 1200, "test"}; }
 Grain die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; }
@@ -32,7 +32,7 @@ Grain die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; }
 /// Grains fall from a region past a plane into a sink: nothing is in the way.
 Scene falling_scene(std::vector<Feeder> feeders) {
   Scene scene = scene_of(Open{{{-0.1, -0.1, 0}, {0.2, 0.2, 1}}, {{-1, -1, -1}, {2, 2, 3}}}, {{pea(), 0}, {die(), 0}});
-  scene.time = {2, kStep, 0.1};
+  scene.time = {2, kStepOfChanges, 0.1};
   scene.feeders = std::move(feeders);
   scene.sinks = {{"drain", HalfSpace{{0, 0, 0}, {0, 0, 1}}}};
   return scene;
@@ -51,13 +51,13 @@ struct Plant {
       : world(scene, placements), population(world, scene), stepper(world, scene), energy(world, scene), leaks(world, scene) {}
   void step() {
     ++steps;
-    energy.exchange(population.before_step(steps * kStep));
+    energy.exchange(population.before_step(steps * kStepOfChanges));
     stepper.step();
     energy.after_step();
-    leaks.after_step(steps * kStep);
+    leaks.after_step(steps * kStepOfChanges);
   }
   void run_until(double time) {
-    while ((steps + 0.5) * kStep < time) step();
+    while ((steps + 0.5) * kStepOfChanges < time) step();
   }
 
   World world;
@@ -164,7 +164,7 @@ TEST_CASE("grains come without overlap, with the velocity that they are given, w
   for (; plant.population.fed().grains < 100; ++plant.steps, plant.stepper.step()) {
     REQUIRE(plant.steps < 1000);
     const std::size_t before = plant.world.bodies().size();
-    plant.population.before_step((plant.steps + 1) * kStep);
+    plant.population.before_step((plant.steps + 1) * kStepOfChanges);
     for (std::size_t i = before; i < plant.world.bodies().size(); ++i) {
       const Body& body = plant.world.bodies()[i];
       CHECK(dBodyGetLinearVel(body.body)[0] == 0.1);
