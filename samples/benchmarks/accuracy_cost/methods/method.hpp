@@ -89,8 +89,11 @@ std::vector<Library> libraries();
 /// Bullet's GJK and EPA, with our shapes as support functions; empty if Bullet is missing, and likewise below.
 Methods bullet_methods();
 
+/// Pairs that stay where they are, or that move: what a method prepares for a pair, outside of the measured time, or for every query.
+enum class Motion { None, Moves };
+
 /// Signed distance and contact of ellipsoids, by their own shapes, at several tolerances.
-Methods fcl_methods();
+Methods fcl_methods(Motion motion = Motion::None);
 Methods simbody_methods();
 
 /// The mesh of a superellipsoid or ellipsoid.
@@ -106,8 +109,6 @@ Methods ode_mesh_methods();
 Methods literature_methods(Start start, double tolerance);
 
 /// Meshes of 160, 960 and 3840 triangles, by ODE's trimesh and, as convex hulls, by libccd's GJK and EPA.
-/// Bodies that move are placed anew in every query; others once, outside of the measured time.
-enum class Motion { None, Moves };
 Methods literature_mesh_methods(Motion motion = Motion::None);
 
 /// The unit of cost instead of a query: the gap function at Pair::normals, up to this order.
