@@ -115,7 +115,7 @@ void measure(const Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    CLI::App app("Measures what the pictures of a run cost.", "pictures_cost", result_names());
+    CLI::App app("Measures what the pictures of a run cost.", "pictures_cost");
     Options options;
     app.add_option("scene", options.scene, "scene file (TOML)")->required();
     app.add_option("--duration", options.duration, "simulated seconds")->check(CLI::PositiveNumber)->capture_default_str();

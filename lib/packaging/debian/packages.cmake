@@ -1,4 +1,4 @@
-# `cpack -G DEB` in the build folder makes Debian packages of what lib/install.cmake installs: for each of the two libraries one to run
+# `cpack -G DEB` in the build folder makes Debian packages of what lib/packaging/install.cmake installs: for each of the two libraries one to run
 # programs with, libsupernormal-core0 and libsupernormal0, and one to build them with, libsupernormal-core-dev and libsupernormal-dev.
 # So the core is had without ODE. A static library is all in the second. Every other generator makes one package of everything.
 set(CPACK_PACKAGE_NAME supernormal)
@@ -26,7 +26,7 @@ set(CPACK_SUPERNORMAL_CONTROL_DIR ${PROJECT_BINARY_DIR}/debian)
 set(CPACK_SUPERNORMAL_DOC_DIR ${CMAKE_INSTALL_DATAROOTDIR}/doc)
 set(CPACK_SUPERNORMAL_LIB_DIR ${CMAKE_INSTALL_LIBDIR})
 
-# supernormal_add_package(component package section description) makes one package of a component of lib/install.cmake.
+# supernormal_add_package(component package section description) makes one package of a component of lib/packaging/install.cmake.
 macro(supernormal_add_package component package section description)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   string(TOUPPER ${component} upper)

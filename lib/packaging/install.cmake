@@ -12,7 +12,7 @@ function(supernormal_at_install component code)
     CODE "set(SUPERNORMAL_LIBDIR [[${CMAKE_INSTALL_LIBDIR}]])
 set(SUPERNORMAL_INCLUDEDIR [[${CMAKE_INSTALL_INCLUDEDIR}]])
 set(SUPERNORMAL_ARCHITECTURE [[${CMAKE_LIBRARY_ARCHITECTURE}]])
-include([[${PROJECT_SOURCE_DIR}/lib/at_install.cmake]])
+include([[${PROJECT_SOURCE_DIR}/lib/packaging/at_install.cmake]])
 ${code}"
     COMPONENT ${component})
 endfunction()
@@ -38,7 +38,7 @@ endfunction()
 # supernormal_install_pkgconfig(component names...)
 function(supernormal_install_pkgconfig component)
   foreach(name ${ARGN})
-    configure_file(${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+    configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
     supernormal_at_install(${component} "supernormal_install_pc([[${PROJECT_BINARY_DIR}/${name}.pc]] [[${BUILD_SHARED_LIBS}]])")
   endforeach()
 endfunction()
@@ -56,7 +56,7 @@ install(
   PATTERN supernormal.h EXCLUDE
   PATTERN effects.hpp EXCLUDE)
 configure_package_config_file(
-  supernormalConfig.cmake.in ${PROJECT_BINARY_DIR}/supernormalConfig.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/supernormalConfig.cmake.in ${PROJECT_BINARY_DIR}/supernormalConfig.cmake
   INSTALL_DESTINATION ${package_dir}
   NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/supernormalConfigVersion.cmake COMPATIBILITY SameMinorVersion)
@@ -97,7 +97,7 @@ install(
   FILES ${PROJECT_SOURCE_DIR}/include/supernormal/supernormal.h ${PROJECT_SOURCE_DIR}/include/supernormal/effects.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supernormal
   COMPONENT supernormal_development)
-configure_file(supernormalOde.cmake.in ${PROJECT_BINARY_DIR}/supernormalOde.cmake @ONLY)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/supernormalOde.cmake.in ${PROJECT_BINARY_DIR}/supernormalOde.cmake @ONLY)
 install(
   FILES ${PROJECT_BINARY_DIR}/supernormalOde.cmake
   DESTINATION ${package_dir}

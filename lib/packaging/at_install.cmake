@@ -1,4 +1,4 @@
-# What lib/install.cmake leaves to `cmake --install` itself, which alone knows the prefix. Where the loader looks of itself, nothing tells
+# What lib/packaging/install.cmake leaves to `cmake --install` itself, which alone knows the prefix. Where the loader looks of itself, nothing tells
 # programs where the libraries are, as Debian's policy asks; from any other prefix programs start without LD_LIBRARY_PATH. Takes
 # SUPERNORMAL_LIBDIR and SUPERNORMAL_INCLUDEDIR, relative to the prefix or absolute, and SUPERNORMAL_ARCHITECTURE, Debian's name of it.
 cmake_path(ABSOLUTE_PATH SUPERNORMAL_LIBDIR BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" NORMALIZE OUTPUT_VARIABLE supernormal_full_libdir)
