@@ -16,7 +16,7 @@ namespace supernormal {
 
 namespace {
 
-// s(m) - s(n)| <= |m - n| L for bodies within L of each other, and GapFunction::rounding() is this many units of L. So normals
+// |s(m) - s(n)| <= |m - n| L for bodies within L of each other, and GapFunction::rounding() is this many units of L. So normals
 // nearer to each other than this have the same s, to rounding.
 constexpr double kSameNormal = 8 * std::numeric_limits<double>::epsilon();
 

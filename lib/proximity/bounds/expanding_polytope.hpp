@@ -25,7 +25,7 @@ class ExpandingPolytope {
 
   /// When a search ends, and from where it climbs.
   struct SearchLimits {
-    /// Relative to the best depth. The search ends when no smaller depth by more than this is possible.
+    /// Relative to the best depth: the search ends when it is proved that no depth is smaller by more than this.
     double relative_width;
     int max_evaluations;  ///< the search also ends after this many evaluations of the query, without the final climbs
     double cutoff;        ///< m; the ascent climbs from a normal that is higher than the best by more than this

@@ -151,7 +151,7 @@ PiecewiseModel::Peak PiecewiseModel::maximize(double radius) const {
   };
   double steepest = 0;
   for (const Piece& piece : pieces) steepest = std::max(steepest, piece.slope.norm());
-  // u| decreases with the shift, and |u| <= steepest / (low + shift).
+  // |u| decreases with the shift, and |u| <= steepest / (low + shift).
   double below = low > 0 ? 0 : -low;
   double above = std::max(steepest / radius - low, below + kLeastFraction * std::abs(low));
   if (low > 0) {

@@ -40,8 +40,8 @@ struct PiecewiseModel {
   Peak maximize() const;
 
   /// The maximum over |u| <= radius, approximately. It is the maximum of the model with A + shift I. The shift is the least (up to
-  /// a tenth of
-  /// u|) that makes this matrix positive definite and u short enough. The active pieces meet at u exactly, whatever the shift.
+  /// a tenth of |u|) that makes this matrix positive definite and u short enough. The active pieces meet at u exactly, whatever the
+  /// shift.
   Peak maximize(double radius) const;
 };
 
