@@ -86,4 +86,11 @@ TEST_CASE("every effect is described") {
     CHECK_FALSE(std::string(description.name).empty());
     CHECK_FALSE(std::string(description.source).empty());
   }
+  const auto parameters_of = [](const Effect& effect) { return std::string(descriptions()[effect.index()].parameters); };
+  CHECK(parameters_of(AnisotropicFriction{}) == "along, across [0, 100]; direction, of the body");
+  CHECK(parameters_of(RollingResistance{}) == "rolling, spinning [0, 1e3] m");
+  CHECK(parameters_of(Compliance{}) == "stiffness (0, 1e15] N/m; damping [0, 1e15] N s/m");
+  CHECK(parameters_of(Hertz{}) == "youngs_modulus (0, 1e15] Pa; poisson_ratio [0, 0.5]; restitution [0.05, 1]");
+  CHECK(parameters_of(Gravity{}) == "acceleration [-1e4, 1e4] m/s^2");
+  CHECK(parameters_of(SpeculativeContacts{}) == "none");
 }

@@ -1,0 +1,295 @@
+#include "effects/laws.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "shapes/validation.hpp"
+
+namespace supernormal::effects {
+namespace {
+
+/// Where a parameter may lie.
+struct Range {
+  double low, high;
+  const char* unit = "";
+  bool is_open = false;  ///< whether `low` itself is outside
+};
+
+constexpr Range above_zero(double high, const char* unit = "") { return {0, high, unit, true}; }
+constexpr Range closed(double low, double high, const char* unit = "") { return {low, high, unit}; }
+
+constexpr const char* kNoPass = "none; ODE does it";
+constexpr const char* kPerContact = "one per contact";
+constexpr const char* kPerBody = "one per body";
+
+/// The law of an effect: its name, the rows that it adds to a contact, the work of a step, its source, and its parameters with
+/// their ranges, which `list` shows to a visitor. An effect without a law must not compile.
+template <typename E>
+struct Law;
+
+template <>
+struct Law<Friction> {
+  static constexpr Description kText = {"friction", "", 2, kPerContact,
+                                        "Coulomb; cone kept by an inscribed square turned to the slip"};
+  static void list(const Friction& e, auto& visitor) { visitor.number("coefficient", e.coefficient, above_zero(100)); }
+};
+
+template <>
+struct Law<AnisotropicFriction> {
+  static constexpr Description kText = {"anisotropic_friction", "", 2, kPerContact,
+                                        "Goyal, Ruina and Papadopoulos, Wear 143 (1991)"};
+  static void list(const AnisotropicFriction& e, auto& visitor) {
+    visitor.number("along", e.along, closed(0, 100));
+    visitor.number("across", e.across, closed(0, 100));
+    visitor.not_both_zero("along", e.along, "across", e.across);
+    visitor.direction("direction", e.direction, "of the body");
+  }
+};
+
+template <>
+struct Law<RollingResistance> {
+  static constexpr Description kText = {"rolling_resistance", "", 3, kPerContact,
+                                        "Ai et al., Powder Technology 206 (2011), model A"};
+  static void list(const RollingResistance& e, auto& visitor) {
+    visitor.number("rolling", e.rolling, closed(0, 1e3, "m"));
+    visitor.number("spinning", e.spinning, closed(0, 1e3, "m"));
+    visitor.not_both_zero("rolling", e.rolling, "spinning", e.spinning);
+  }
+};
+
+template <>
+struct Law<Restitution> {
+  static constexpr Description kText = {"restitution", "", 0, kNoPass, "Newton"};
+  static void list(const Restitution& e, auto& visitor) {
+    visitor.number("coefficient", e.coefficient, above_zero(1));
+    visitor.number("threshold", e.threshold, closed(0, 100, "m/s"));
+  }
+};
+
+template <>
+struct Law<Compliance> {
+  static constexpr Description kText = {"compliance", "", 0, kPerContact, "Kelvin and Voigt"};
+  static void list(const Compliance& e, auto& visitor) {
+    visitor.number("stiffness", e.stiffness, above_zero(1e15, "N/m"));
+    visitor.number("damping", e.damping, closed(0, 1e15, "N s/m"));
+  }
+};
+
+template <>
+struct Law<Hertz> {
+  static constexpr Description kText = {"hertz", "", 0, kPerContact,
+                                        "Johnson, Contact Mechanics (1985), 4.2; Tsuji et al., Powder Technology 71 (1992)"};
+  static void list(const Hertz& e, auto& visitor) {
+    visitor.number("youngs_modulus", e.youngs_modulus, above_zero(1e15, "Pa"));
+    visitor.number("poisson_ratio", e.poisson_ratio, closed(0, 0.5));
+    visitor.number("restitution", e.restitution, closed(0.05, 1));
+  }
+};
+
+template <>
+struct Law<Adhesion> {
+  static constexpr Description kText = {"adhesion", "", 0, kPerContact,
+                                        "constant attraction, as Derjaguin, Muller and Toporov (1975)"};
+  static void list(const Adhesion& e, auto& visitor) { visitor.number("pull_off", e.pull_off, above_zero(1e9, "N")); }
+};
+
+template <>
+struct Law<Gravity> {
+  static constexpr Description kText = {"gravity", "", 0, kNoPass, "uniform field"};
+  static void list(const Gravity& e, auto& visitor) { visitor.vector("acceleration", e.acceleration, closed(-1e4, 1e4, "m/s^2")); }
+};
+
+template <>
+struct Law<QuadraticDrag> {
+  static constexpr Description kText = {"quadratic_drag", "", 0, kPerBody, "Newton; area of the body itself"};
+  static void list(const QuadraticDrag& e, auto& visitor) {
+    visitor.number("density", e.density, above_zero(1e5, "kg/m^3"));
+    visitor.number("coefficient", e.coefficient, above_zero(100));
+  }
+};
+
+template <>
+struct Law<StokesDrag> {
+  static constexpr Description kText = {"stokes_drag", "", 0, kPerBody, "Leith, Aerosol Science and Technology 6 (1987)"};
+  static void list(const StokesDrag& e, auto& visitor) { visitor.number("viscosity", e.viscosity, above_zero(1e6, "Pa s")); }
+};
+
+template <>
+struct Law<Buoyancy> {
+  static constexpr Description kText = {"buoyancy", "", 0, kPerBody, "Archimedes"};
+  static void list(const Buoyancy& e, auto& visitor) {
+    visitor.number("density", e.density, above_zero(1e5, "kg/m^3"));
+    visitor.number("level", e.level, closed(-1e6, 1e6, "m"));
+  }
+};
+
+template <>
+struct Law<Damping> {
+  static constexpr Description kText = {"damping", "", 0, kNoPass, "exponential decay"};
+  static void list(const Damping& e, auto& visitor) {
+    visitor.number("linear", e.linear, closed(0, 1e6, "1/s"));
+    visitor.number("angular", e.angular, closed(0, 1e6, "1/s"));
+    visitor.not_both_zero("linear", e.linear, "angular", e.angular);
+  }
+};
+
+template <>
+struct Law<AutoDisable> {
+  static constexpr Description kText = {"auto_disable", "", 0, kNoPass, "ODE manual"};
+  static void list(const AutoDisable& e, auto& visitor) {
+    visitor.number("linear", e.linear, above_zero(1e3, "m/s"));
+    visitor.number("angular", e.angular, above_zero(1e6, "rad/s"));
+    visitor.number("time", e.time, closed(0, 1e6, "s"));
+    visitor.number("samples", e.samples, closed(1, 1000));
+  }
+};
+
+template <>
+struct Law<MaxCorrectingVelocity> {
+  static constexpr Description kText = {"max_correcting_velocity", "", 0, kNoPass, "ODE manual"};
+  static void list(const MaxCorrectingVelocity& e, auto& visitor) {
+    visitor.number("velocity", e.velocity, above_zero(1e6, "m/s"));
+  }
+};
+
+template <>
+struct Law<SurfaceLayer> {
+  static constexpr Description kText = {"surface_layer", "", 0, kNoPass, "ODE manual"};
+  static void list(const SurfaceLayer& e, auto& visitor) { visitor.number("depth", e.depth, above_zero(1e3, "m")); }
+};
+
+template <>
+struct Law<SpeculativeContacts> {
+  static constexpr Description kText = {"speculative_contacts", "", 0, "one per contact ahead of touch",
+                                        "Anitescu and Potra, Nonlinear Dynamics 14 (1997)"};
+  static void list(const SpeculativeContacts& /*effect*/, auto& /*visitor*/) {}
+};
+
+/// Refuses what a law shows it.
+class Check {
+ public:
+  explicit Check(const char* name) : name_(name) {}
+
+  void number(const char* parameter, double value, const Range& range) const {
+    if (range.is_open) {
+      if (value > range.low && value <= range.high) return;
+      const std::string tail = std::string(*range.unit == '\0' ? "" : " ") + range.unit;
+      throw BadEffect(name_, parameter,
+                      full(parameter) + " = " + to_text(value) + tail + " is outside (" + to_text(range.low) + ", " +
+                          to_text(range.high) + "]" + tail);
+    }
+    try {
+      require_in(full(parameter).c_str(), value, range.low, range.high, range.unit);
+    } catch (const std::invalid_argument& error) {
+      throw BadEffect(name_, parameter, error.what());
+    }
+  }
+  void vector(const char* parameter, const Vector3& value, const Range& range) const {
+    for (const double component : value) number(parameter, component, range);
+  }
+  void direction(const char* parameter, const Vector3& value, const char* /*of*/) const {
+    if (value.allFinite() && value.norm() > 0) return;
+    throw BadEffect(name_, parameter,
+                    full(parameter) + " = (" + to_text(value.x()) + ", " + to_text(value.y()) + ", " + to_text(value.z()) +
+                        ") is no direction; it must be finite and not 0");
+  }
+  void not_both_zero(const char* first, double value1, const char* second, double value2) const {
+    if (value1 > 0 || value2 > 0) return;
+    throw BadEffect(name_, first, full(first) + " and " + second + " are both 0; one must be above 0, or the effect left out");
+  }
+
+ private:
+  std::string full(const char* parameter) const { return std::string(name_) + ": " + parameter; }
+  const char* name_;
+};
+
+/// Puts the parameters that a law shows it into words: "rolling, spinning [0, 1e3] m".
+class Words {
+ public:
+  void number(const char* parameter, double /*value*/, const Range& range) {
+    const std::string text = std::string(range.is_open ? " (" : " [") + short_text(range.low) + ", " + short_text(range.high) +
+                             "]" + (*range.unit == '\0' ? "" : " ") + range.unit;
+    // Parameters with one range have it once.
+    const bool has_same_range = text == range_;
+    if (has_same_range) text_.resize(text_.size() - range_.size());
+    text_ += (text_.empty() ? "" : has_same_range ? ", " : "; ") + std::string(parameter) + text;
+    range_ = text;
+  }
+  void vector(const char* parameter, const Vector3& /*value*/, const Range& range) { number(parameter, 0, range); }
+  void direction(const char* parameter, const Vector3& /*value*/, const char* of) {
+    text_ += std::string("; ") + parameter + ", " + of;
+    range_.clear();
+  }
+  static void not_both_zero(const char* /*first*/, double /*value1*/, const char* /*second*/, double /*value2*/) {}
+
+  std::string text() const { return text_.empty() ? "none" : text_; }
+
+ private:
+  /// Powers of ten from 1000 on as 1e3.
+  static std::string short_text(double value) {
+    const double power = std::round(std::log10(std::abs(value)));
+    if (!(std::abs(value) >= 1e3) || std::pow(10, power) != std::abs(value)) return to_text(value);
+    return std::string(value < 0 ? "-" : "") + "1e" + std::to_string(std::lround(power));
+  }
+
+  std::string text_, range_;
+};
+
+constexpr bool has_text(const char* text) { return text != nullptr && !std::string_view(text).empty(); }
+
+template <typename E>
+constexpr bool is_complete() {
+  constexpr Description kText = Law<E>::kText;
+  return has_text(kText.name) && has_text(kText.passes) && has_text(kText.source);
+}
+
+constexpr std::size_t kCount = std::variant_size_v<Effect>;
+
+/// The descriptions, with the texts of the parameters, to which they point.
+struct Descriptions {
+  template <std::size_t... kIs>
+  explicit Descriptions(std::index_sequence<kIs...> /*indices*/) {
+    static_assert((is_complete<std::variant_alternative_t<kIs, Effect>>() && ...), "the law of an effect leaves out a text");
+    (add<std::variant_alternative_t<kIs, Effect>>(kIs), ...);
+  }
+
+  std::array<std::string, kCount> parameters;
+  std::array<Description, kCount> all{};
+
+ private:
+  template <typename E>
+  void add(std::size_t index) {
+    Words words;
+    Law<E>::list(E(), words);
+    parameters[index] = words.text();
+    all[index] = Law<E>::kText;
+    all[index].parameters = parameters[index].c_str();
+  }
+};
+
+}  // namespace
+
+std::span<const Description> descriptions() {
+  static const Descriptions all{std::make_index_sequence<kCount>()};
+  return all.all;
+}
+
+void require_parameters(const Effect& effect) {
+  const auto check = [](const auto& e) {
+    using E = std::remove_cvref_t<decltype(e)>;
+    const Check visitor(Law<E>::kText.name);
+    if constexpr (requires { e.on; }) {
+      if (!e.on.is_all()) visitor.number("material", e.on.first(), closed(0, kLastMaterial));
+      if (e.on.is_pair()) visitor.number("material", e.on.second(), closed(0, kLastMaterial));
+    }
+    Law<E>::list(e, visitor);
+  };
+  std::visit(check, effect);
+}
+
+}  // namespace supernormal::effects

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# The laws of effects do not compile when one is missing or leaves out a text.
+# Usage: laws_test.sh SOURCE COMPILER FLAGS...
+set -euo pipefail
+source "$(dirname "$0")/../cli_test.bash"
+file=$1
+shift
+compile() { "$@" -fsyntax-only "$work/laws.cpp" >"$work/log" 2>&1; }
+
+cp "$file" "$work/laws.cpp"
+compile "$@" || fail "does not compile as it is: $(cat "$work/log")"
+laws=$(grep -c '^struct Law<' "$file")
+[ "$laws" -ge 16 ] || fail "only $laws laws"
+for i in 1 "$laws"; do
+  # Without the i-th law, and with the name alone for its texts.
+  awk -v i="$i" '/^template <>$/ { ++n } n == i && !done { if (/^};$/) done = 1; next } { print }' "$file" >"$work/laws.cpp"
+  ! compile "$@" || fail "compiles without law $i"
+  awk -v i="$i" '/^template <>$/ { ++n }
+    n == i && /static constexpr Description kText/ { print "  static constexpr Description kText = {\"name\"};"; cut = !/};$/; next }
+    cut { cut = !/};$/; next } { print }' "$file" >"$work/laws.cpp"
+  ! compile "$@" || fail "compiles with a name alone for law $i"
+  grep -q "leaves out a text" "$work/log" || fail "law $i is refused for another reason: $(head -3 "$work/log")"
+done
+echo "all passed"
