@@ -4,24 +4,13 @@
 #include <limits>
 
 namespace supernormal {
-namespace {
-
-// A bound is the length of a vector less s, and each of its three components has the rounding error of s. So the bound cannot fall
-// below about three rounding errors.
-constexpr double kFloor = 4;
-
-}  // namespace
-
-double absolute_tolerance(const GapFunction& gap, const Settings& settings) {
-  return std::max(settings.tolerance * gap.length_unit() - gap.rounding(), kFloor * gap.rounding());
-}
 
 double optimality_gap_bound(const GapJet& jet, double rolling_radius) {
   // Rounding of d may make this negative, because a large body's boundary point is rotated.
   return std::max((jet.d + rolling_radius * jet.n).norm() - (jet.s + rolling_radius), 0.0);
 }
 
-Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status) {
+Proximity answer(const GapFunction& gap, const StoppingRule& rule, const GapJet& jet, double model_error, Status status) {
   Proximity out;
   out.gap = jet.s;
   out.normal = jet.n;
@@ -31,7 +20,7 @@ Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet&
   out.evaluations = gap.evaluations();
   out.status = status;
   if (status == Status::Apart || status == Status::Diverged) model_error = std::numeric_limits<double>::infinity();
-  const double tolerance = absolute_tolerance(gap, settings);
+  const double tolerance = rule.tolerance();
   // s + rho is the gap function of the bodies without the balls that roll inside them. If it is positive, those bodies are apart,
   // and it is concave on the cone of the separating normals. If touching bodies have a stationary point with s = -x, the largest
   // gap is at most x, because s extended to all vectors is concave.
@@ -47,12 +36,11 @@ Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet&
   return out;
 }
 
-void place_contact(GapFunction& gap, const Settings& settings, const GapJet& jet, Proximity& out,
+void place_contact(GapFunction& gap, const StoppingRule& rule, const GapJet& jet, Proximity& out,
                    std::span<const WitnessPair> beside) {
   if (out.status == Status::InvalidInput) return;
   const bool is_guess = out.status == Status::Apart || out.status == Status::Diverged;
-  const int max_evaluations = is_guess ? 0 : settings.max_evaluations;
-  out.contact = contact_point(gap, jet, absolute_tolerance(gap, settings), max_evaluations, beside);
+  out.contact = contact_point(gap, jet, is_guess ? rule.with_at_most(0) : rule, beside);
   out.evaluations = gap.evaluations();
 }
 

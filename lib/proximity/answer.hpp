@@ -2,14 +2,11 @@
 #pragma once
 
 #include "proximity/contact_point.hpp"
+#include "proximity/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
 namespace supernormal {
-
-/// m; the error that a solver may leave: Settings::tolerance times GapFunction::length_unit(), less the rounding error, but at
-/// least a few rounding errors.
-double absolute_tolerance(const GapFunction& gap, const Settings& settings);
 
 /// m; an upper bound on max s - jet.s, because s(m) <= m.d <= |d|. With the ball of `rolling_radius` (m) taken out of the Minkowski
 /// difference (GapFunction::rolling_radius) the bound is tighter. It vanishes at the maximum if the bodies without the ball are
@@ -19,11 +16,11 @@ double optimality_gap_bound(const GapJet& jet, double rolling_radius);
 /// The answer at jet.n, in body 1's frame. `model_error` (m) bounds what is left to the local maximum in exact arithmetic. The
 /// answer adds rounding, and takes optimality_gap_bound() if that is smaller. The answer is global if the bodies without their
 /// rolling balls are apart, or if the bodies touch.
-Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status);
+Proximity answer(const GapFunction& gap, const StoppingRule& rule, const GapJet& jet, double model_error, Status status);
 
 /// Sets the contact of the answer `out` at `jet`, and its evaluations; contact_point() may add a few. A normal that only proves
 /// separation, or proves nothing, gets the point between its witness points.
-void place_contact(GapFunction& gap, const Settings& settings, const GapJet& jet, Proximity& out,
+void place_contact(GapFunction& gap, const StoppingRule& rule, const GapJet& jet, Proximity& out,
                    std::span<const WitnessPair> beside = {});
 
 }  // namespace supernormal

@@ -124,15 +124,15 @@ class WitnessPairs {
 /// normal tilted towards body 2's point has the farthest points of body 1 in this direction, and the farthest points of body 2 in
 /// the opposite direction. So this is GJK in the tangent plane. The mean of points on both sides is below the tangent plane by at
 /// most `below` (m), the tilt times the distance to the common point.
-Place common_point(GapFunction& gap, const GapJet& jet, double tolerance, double near, int max_evaluations,
+Place common_point(GapFunction& gap, const GapJet& jet, const StoppingRule& rule, double near,
                    std::span<const WitnessPair> beside) {
   WitnessPairs pairs(jet);
   for (const WitnessPair& pair : beside) pairs.add(pair);
   PiecewiseModel::Peak mean = pairs.nearest();
-  const double deepest = std::max(kDeepest * gap.length_unit(), tolerance);
-  double below = kTilt * tolerance;
+  const double deepest = std::max(kDeepest * gap.length_unit(), rule.tolerance());
+  double below = kTilt * rule.tolerance();
   GapJet trial;
-  while (!pairs.is_full() && gap.evaluations() < max_evaluations) {
+  while (!pairs.is_full() && rule.may_evaluate()) {
     const double apart = mean.u.norm();
     if (!(apart > near)) break;
     const Vector3 direction = pairs.plane().lift(mean.u / apart);
@@ -169,18 +169,17 @@ Vector3 contact_between(const GapFunction& gap, const GapJet& jet) {
   return contact_of_flat_bodies(gap, jet, middle);
 }
 
-Vector3 contact_point(GapFunction& gap, const GapJet& jet, double tolerance, int max_evaluations,
-                      std::span<const WitnessPair> beside) {
-  const double near = std::max(kNear * gap.length_unit(), tolerance);
+Vector3 contact_point(GapFunction& gap, const GapJet& jet, const StoppingRule& rule, std::span<const WitnessPair> beside) {
+  const double near = std::max(kNear * gap.length_unit(), rule.tolerance());
   Place place{contact_between(gap, jet), jet.jet1.r - gap.shape1().rolling_radius() * jet.n,
               jet.jet1.r + jet.d + gap.shape2().rolling_radius() * jet.n};
   // Where one body is round, the sharper body's own point is the best.
   if (!is_near_both(gap, jet, place.point, near)) place.point = contact_of_balls(gap, jet);
-  if (!is_near_both(gap, jet, place.point, near)) place = common_point(gap, jet, tolerance, near, max_evaluations, beside);
+  if (!is_near_both(gap, jet, place.point, near)) place = common_point(gap, jet, rule, near, beside);
   // Move the point halfway between the tangent planes. Points of tilted normals, and vertices beside an edge, are below these.
   place.point += (jet.jet1.h + 0.5 * jet.s - jet.n.dot(place.point)) * jet.n;
   if (!(jet.s < 0) || is_in_overlap(gap, place, near) || move_into_ball(gap, place, near)) return place.point;
-  return nearest_in_overlap(gap, jet, place.point, near, max_evaluations);
+  return nearest_in_overlap(gap, jet, place.point, near, rule);
 }
 
 }  // namespace supernormal

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "proximity/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {
@@ -20,11 +21,10 @@ struct WitnessPair {
 /// For round bodies the witness points are near each other, and a formula gives the point between them. To first order this is
 /// where they meet when the normal is tilted (`contact_between`). On a flat face no digit of a normal's boundary point is known,
 /// and the radii of curvature do not contain the extent of the face. There the contact is a point that both faces have in common,
-/// to within `tolerance` (m), the possible error of the gap (lib/proximity/README.md). Normals near jet.n are evaluated until the
-/// points of the two bodies meet. This takes no evaluation where the formula applies and about three elsewhere, and at most
-/// `max_evaluations` since `gap` was made. `beside` may contain pairs that were evaluated this near to the normal.
-Vector3 contact_point(GapFunction& gap, const GapJet& jet, double tolerance, int max_evaluations,
-                      std::span<const WitnessPair> beside = {});
+/// to within the tolerance of `rule`, the possible error of the gap (lib/proximity/README.md). Normals near jet.n are evaluated
+/// until the points of the two bodies meet. This takes no evaluation where the formula applies and about three elsewhere, and no
+/// more than `rule` allows. `beside` may contain pairs that were evaluated this near to the normal.
+Vector3 contact_point(GapFunction& gap, const GapJet& jet, const StoppingRule& rule, std::span<const WitnessPair> beside = {});
 
 /// The point between the witness points of `jet`, without an evaluation. In the plane it is their mean, each weighted by the other
 /// body's radius of curvature: p1 + A1 (A1 + A2)^-1 (p2 - p1). If a body has no Hessian, the body's smallest radius of curvature

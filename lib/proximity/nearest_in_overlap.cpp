@@ -175,7 +175,7 @@ bool move_into_ball(const GapFunction& gap, Place& place, double near) {
   return false;
 }
 
-Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, double near, int max_evaluations) {
+Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, double near, const StoppingRule& rule) {
   std::array<SampledBody, 2> bodies = {SampledBody(gap.shape1(), Vector3::Zero(), Matrix3::Identity()),
                                        SampledBody(gap.shape2(), gap.offset(), gap.rotation())};
   bodies[0].add(jet.jet1.r);
@@ -203,7 +203,7 @@ Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, d
       is_settled = {};
       continue;
     }
-    if (gap.evaluations() >= max_evaluations || bodies[0].is_full() || bodies[1].is_full()) return place;
+    if (!rule.may_evaluate() || bodies[0].is_full() || bodies[1].is_full()) return place;
     const std::size_t open = is_settled[0] || (!is_settled[1] && nearest2.norm > nearest1.norm) ? 1 : 0;
     const MinimumNormPoint nearest = bodies[open].nearest();
     gap.evaluate(open == 0 ? Vector3(-nearest.normal) : nearest.normal, Order::Point, trial);

@@ -1,6 +1,7 @@
 // The point of two bodies' overlap that is nearest to a contact's intended place.
 #pragma once
 
+#include "proximity/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {
@@ -24,7 +25,7 @@ bool move_into_ball(const GapFunction& gap, Place& place, double near);
 /// The point of the overlap that is nearest to `place`, with an error of at most a tenth of the distance. It is within `near` (m)
 /// of both bodies. All in body 1's frame. GJK finds the nearest points of both bodies. The place moves behind the tangent planes
 /// there, until it is in both bodies. `jet` is the answer's. Takes about four evaluations if the place is in both bodies already,
-/// at most 255, and at most `max_evaluations` since `gap` was made.
-Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, double near, int max_evaluations);
+/// at most 255, and no more than `rule` allows.
+Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, double near, const StoppingRule& rule);
 
 }  // namespace supernormal

@@ -70,7 +70,7 @@ class RayQuery {
   }
 
   EntrySearch::Result search(const Vector3& direction, double limit) {
-    EntrySearch search(gap_, direction, settings_, absolute_tolerance(gap_, settings_));
+    EntrySearch search(gap_, direction, settings_);
     return search.run(first_entry_normal(half_extents_, ray_.foot, direction), limit);
   }
 

@@ -91,8 +91,8 @@ Vector3 first_entry_normal(const Vector3& half_extents, const Vector3& c, const 
   return (n - n.dot(v) * v).normalized();
 }
 
-EntrySearch::EntrySearch(GapFunction& gap, const Vector3& direction, const Settings& settings, double tolerance)
-    : gap_(gap), v_(direction), settings_(settings), tolerance_(tolerance), portal_(direction, gap.rounding()) {}
+EntrySearch::EntrySearch(GapFunction& gap, const Vector3& direction, const Settings& settings)
+    : gap_(gap), v_(direction), settings_(settings), rule_(gap, settings), portal_(direction, gap.rounding()) {}
 
 EntrySearch::Result EntrySearch::run(const Vector3& first_normal, double limit) {
   Vector3 normal = first_normal;
@@ -107,8 +107,8 @@ EntrySearch::Result EntrySearch::run(const Vector3& first_normal, double limit) 
       is_deep_ = step.is_deep;
     }
     if (has_settled(step)) return found(Status::Converged);
-    if (gap_.evaluations() >= settings_.max_evaluations) return found(Status::EvaluationLimit);
-    if (!choose(step, normal)) return found(boundary_error() <= tolerance_ ? Status::Converged : Status::Stalled);
+    if (!rule_.may_evaluate()) return found(Status::EvaluationLimit);
+    if (!choose(step, normal)) return found(rule_.allows(boundary_error()) ? Status::Converged : Status::Stalled);
   }
 }
 
@@ -187,7 +187,7 @@ EntrySearch::Step EntrySearch::paraboloid_step() const {
   step.is_usable = all_finite(step.normal) && step.normal.lpNorm<Eigen::Infinity>() < kLongestStep * along;
   if (from_beside || !step.is_usable) return step;
   const Vector3 change = step.normal / along - jet.n;
-  step.is_deep = gap_.has_hessian() && b * b - a * c > kSureDepth * tolerance_ * a;
+  step.is_deep = gap_.has_hessian() && b * b - a * c > kSureDepth * rule_.tolerance() * a;
   step.length = change.norm();
   step.gain = std::max({0.5 * y.dot(u), d.dot(change), 0.0});
   return step;
@@ -220,8 +220,8 @@ double EntrySearch::boundary_error() const {
 // The point may be good long before the normal is. The boundary point and the normal belong together, so one of them is enough: the
 // point on a sharp edge, the normal on a flat face.
 bool EntrySearch::has_settled(const Step& step) {
-  if (boundary_error() > tolerance_ || (!is_deep_ && !portal_.is_pierced())) return false;
-  const bool is_normal_good = distance_at(best_).norm() <= tolerance_ || step.length <= settings_.tolerance;
+  if (!rule_.allows(boundary_error()) || (!is_deep_ && !portal_.is_pierced())) return false;
+  const bool is_normal_good = rule_.allows(distance_at(best_).norm()) || step.length <= settings_.tolerance;
   const bool is_exhausted = was_tried_ && (!portal_.is_pierced() || idle_steps_ >= kMaxIdleSteps);
   return is_normal_good || is_exhausted || ++polishing_steps_ > kMaxPolishingSteps;
 }
@@ -292,7 +292,7 @@ EntrySearch::Result EntrySearch::found(Status status) const {
   // The portal is in the body, and the body lies behind every plane beside the line. If such a plane is this near, the line grazes
   // the body at the portal.
   const double grazing_error = -nearest_ + gap_.rounding();
-  if (error > tolerance_ && portal_.is_pierced() && grazing_error <= tolerance_) {
+  if (!rule_.allows(error) && portal_.is_pierced() && rule_.allows(grazing_error)) {
     return {Kind::Found, Status::Converged, portal_.upper_bound(), grazing_error, length, nearest_normal_};
   }
   if (has_best_) {

@@ -6,6 +6,7 @@
 
 #include "proximity/bounds/cutting_planes.hpp"
 #include "proximity/local/bfgs_hessian.hpp"
+#include "proximity/stopping_rule.hpp"
 #include "proximity/tangent_plane.hpp"
 #include "raycast/portal.hpp"
 #include "supernormal/proximity/gap_function.hpp"
@@ -44,8 +45,8 @@ class EntrySearch {
     Vector3 normal = Vector3::UnitX();  ///< unit, outward
   };
 
-  /// Keeps references to its arguments. `tolerance` in m.
-  EntrySearch(GapFunction& gap, const Vector3& direction, const Settings& settings, double tolerance);
+  /// Keeps references to its arguments.
+  EntrySearch(GapFunction& gap, const Vector3& direction, const Settings& settings);
 
   Result run(const Vector3& first_normal, double limit);
 
@@ -81,7 +82,7 @@ class EntrySearch {
   GapFunction& gap_;
   const Vector3 v_;
   const Settings& settings_;
-  const double tolerance_;  // m
+  const StoppingRule rule_;
   Portal portal_;
   BfgsHessian secant_;
   std::array<Vector3, CuttingPlanes::kCapacity> points_;  // m; c - r of the last evaluations

@@ -330,7 +330,7 @@ TEST_CASE("the place of a contact takes no evaluation where bodies are round") {
         GapFunction gap(*one, {}, *other, pair.pose);
         GapJet jet;
         gap.evaluate(out.normal, Order::Hessian, jet);
-        contact_point(gap, jet, 1e-9 * gap.length_unit(), 1000);
+        contact_point(gap, jet, StoppingRule(gap, 1e-9 * gap.length_unit(), 1000));
         CHECK(gap.evaluations() == 1);
       }
     }

@@ -33,8 +33,8 @@ TEST_CASE("the contact does not depend on the order of the bodies") {
     gap.evaluate(n, Order::Hessian, jet);
     swapped.evaluate(-(pair.pose2.rotation.transpose() * n), Order::Hessian, swapped_jet);
     const double tolerance = 1e-9 * pair.unit;
-    const Vector3 contact = contact_point(gap, jet, tolerance, 1000);
-    const Vector3 seen_from_body2 = contact_point(swapped, swapped_jet, tolerance, 1000);
+    const Vector3 contact = contact_point(gap, jet, StoppingRule(gap, tolerance, 1000));
+    const Vector3 seen_from_body2 = contact_point(swapped, swapped_jet, StoppingRule(swapped, tolerance, 1000));
     const Vector3 from_body2 = pair.pose2.position + pair.pose2.rotation * seen_from_body2;
     // A boundary point of a flat face is known to no digit, but lies on the face: it has little weight.
     const double difference = (contact - from_body2).norm();
@@ -67,7 +67,7 @@ TEST_CASE("the contact lies halfway beside the edge of a nearly polyhedral body,
     GapFunction gap(body, Pose{}, box, pose);
     GapJet jet;
     gap.evaluate(n, Order::Hessian, jet);
-    const double above_middle = n.dot(contact_point(gap, jet, 1e-9, 1000) - jet.jet1.r) - 0.5 * n.dot(jet.d);
+    const double above_middle = n.dot(contact_point(gap, jet, StoppingRule(gap, 1e-9, 1000)) - jet.jet1.r) - 0.5 * n.dot(jet.d);
     if (!(std::abs(above_middle) <= 1e-15)) FAIL_CHECK("n ", n.transpose(), " height ", above_middle);
   }
 }

@@ -46,37 +46,37 @@ class NormalLine {
 
 /// The answer after convergence. The search needs no derivatives, but the contact point does. So this makes one more evaluation, if
 /// there are derivatives and the limit allows it.
-Proximity converged_answer(GapFunction& gap, const Settings& settings, GapJet& jet, double error) {
-  const bool knows_contact = !gap.has_hessian() || gap.evaluations() < settings.max_evaluations;
+Proximity converged_answer(GapFunction& gap, const StoppingRule& rule, GapJet& jet, double error) {
+  const bool knows_contact = !gap.has_hessian() || rule.may_evaluate();
   if (knows_contact && gap.has_hessian()) gap.evaluate(jet.n, Order::Hessian, jet);
-  Proximity out = answer(gap, settings, jet, error, Status::Converged);
-  if (knows_contact) place_contact(gap, settings, jet, out);
+  Proximity out = answer(gap, rule, jet, error, Status::Converged);
+  if (knows_contact) place_contact(gap, rule, jet, out);
   return out;
 }
 
 }  // namespace
 
 Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Vector3& start) {
-  const double tolerance = absolute_tolerance(gap, settings);
+  const StoppingRule rule(gap, settings);
   GapJet jet;
   NormalLine line1, line2;
   Vector3 n = start;
   double previous_gain = 0;
   while (true) {
     gap.evaluate(n, Order::Point, jet);
-    if (settings.stop_when_apart && jet.s > 0) return answer(gap, settings, jet, 0, Status::Apart);
+    if (rule.is_apart(jet)) return answer(gap, rule, jet, 0, Status::Apart);
 
     const Vector3 centre1 = line1.centre_of_curvature(jet.jet1.r, n, jet.jet1.h);
     const Vector3 centre2 = line2.centre_of_curvature(jet.jet1.r + jet.d, -n, jet.jet2.h);
     const Vector3 next = (centre2 - centre1).normalized();
-    if (!all_finite(next) || next == Vector3::Zero()) return answer(gap, settings, jet, 0, Status::Diverged);
+    if (!all_finite(next) || next == Vector3::Zero()) return answer(gap, rule, jet, 0, Status::Diverged);
 
     // Slope times step bounds the gain of this step. The following steps shrink by the contraction.
     const double gain = std::abs(jet.d.dot(next - n * next.dot(n)));
     const double contraction = previous_gain > 0 ? std::min(gain / previous_gain, kSlowestContraction) : kSlowestContraction;
     const double error = kGainSafety * gain / (1 - contraction);
-    if (error <= tolerance) return converged_answer(gap, settings, jet, error);
-    if (gap.evaluations() >= settings.max_evaluations) return answer(gap, settings, jet, error, Status::EvaluationLimit);
+    if (rule.allows(error)) return converged_answer(gap, rule, jet, error);
+    if (!rule.may_evaluate()) return answer(gap, rule, jet, error, Status::EvaluationLimit);
     previous_gain = gain;
     n = next;
   }

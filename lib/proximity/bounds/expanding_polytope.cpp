@@ -21,14 +21,12 @@ const Vector3 kBeside(7, 11, 9);
 }  // namespace
 
 // A shape may be a callback that makes queries of its own. Such a query finds the storage taken and uses another.
-ExpandingPolytope::ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings,
-                                     double tolerance)
+ExpandingPolytope::ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const StoppingRule& rule)
     : gap_(gap),
       cuts_(cuts),
       ascent_(ascent),
-      settings_(settings),
+      rule_(rule),
       rho_(gap.rolling_radius()),
-      tolerance_(tolerance),
       polytope_(std::exchange(kept_polytope(), InnerPolytope())) {}
 
 ExpandingPolytope::~ExpandingPolytope() { kept_polytope() = std::move(polytope_); }
@@ -111,7 +109,7 @@ Vector3 ExpandingPolytope::evaluate(const Vector3& normal) {
 }
 
 void ExpandingPolytope::climb_if_higher() {
-  if (jet_.s > best_.s + limits_.cutoff && gap_.evaluations() < limits_.max_evaluations) {
+  if (jet_.s > best_.s + limits_.cutoff && rule_.with_at_most(limits_.max_evaluations).may_evaluate()) {
     climb_from(jet_.n);
   } else {
     keep_top({jet_.n, jet_.s});
@@ -135,11 +133,10 @@ void ExpandingPolytope::keep_top(const LocalCandidate& top) {
 void ExpandingPolytope::climb_from_tops() {
   if (limits_.near == 0) return;
   // Point-symmetric bodies have s(-n) = s(n) - 2 n.c. If they are nearly concentric, they may separate on either side.
-  const auto may_climb = [&] { return gap_.evaluations() < settings_.max_evaluations; };
-  if (may_climb() && std::abs(2 * best_.n.dot(gap_.offset())) < limits_.near) climb_from(-best_.n);
+  if (rule_.may_evaluate() && std::abs(2 * best_.n.dot(gap_.offset())) < limits_.near) climb_from(-best_.n);
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
-  for (auto top = tops_.begin(); top != end && may_climb(); ++top) {
+  for (auto top = tops_.begin(); top != end && rule_.may_evaluate(); ++top) {
     if (top->s > best_.s - limits_.near && top->n.dot(best_.n) < kTuning.same_hill_cosine) climb_from(top->n);
   }
 }

@@ -17,8 +17,8 @@ namespace supernormal {
 /// function s + rho and the boundary points d + rho n, and the hull fits it more tightly.
 class ExpandingPolytope {
  public:
-  /// Keeps references. `ascent` climbs from higher normals. `cuts` contains the points known so far. `tolerance` in m.
-  ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings, double tolerance);
+  /// Keeps references. `ascent` climbs from higher normals. `cuts` contains the points known so far.
+  ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const StoppingRule& rule);
   ~ExpandingPolytope();
   ExpandingPolytope(const ExpandingPolytope&) = delete;
   ExpandingPolytope& operator=(const ExpandingPolytope&) = delete;
@@ -52,18 +52,20 @@ class ExpandingPolytope {
   void climb_from(const Vector3& normal);
   void keep_top(const LocalCandidate& top);
   void climb_from_tops();
-  bool may_continue() const { return status_ != Status::InvalidInput && gap_.evaluations() < limits_.max_evaluations; }
+  bool may_continue() const {
+    return status_ != Status::InvalidInput && rule_.with_at_most(limits_.max_evaluations).may_evaluate();
+  }
   /// Whether the bodies without their balls are apart. A climb has then found the only maximum.
   bool is_apart() const { return best_.s + rho_ > 0; }
-  double width() const { return std::max(-limits_.relative_width * best_.s, tolerance_); }
+  double width() const { return std::max(-limits_.relative_width * best_.s, rule_.tolerance()); }
 
   GapFunction& gap_;
   CuttingPlanes& cuts_;
   Ascent& ascent_;
-  const Settings& settings_;
-  const double rho_, tolerance_;  // m
-  InnerPolytope polytope_;        // of the points d + rho n
-  bool is_enclosed_ = false;      // whether it contains the origin; until then it still has the points of an earlier query
+  const StoppingRule& rule_;
+  const double rho_;          // m
+  InnerPolytope polytope_;    // of the points d + rho n
+  bool is_enclosed_ = false;  // whether it contains the origin; until then it still has the points of an earlier query
   SearchLimits limits_{};
   double excess_ = 0;                          // m
   std::array<LocalCandidate, kMaxTops> tops_;  // the highest normals from which there was no climb

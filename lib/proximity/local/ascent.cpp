@@ -16,11 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance, double unsearched_depth)
+Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule, double unsearched_depth)
     : gap_(gap),
       cuts_(cuts),
-      settings_(settings),
-      tolerance_(tolerance),
+      rule_(rule),
       unsearched_depth_(unsearched_depth),
       rolling_radius_(gap.rolling_radius()),
       has_kinks_(gap.shape2().has_kinks()),
@@ -53,10 +52,10 @@ Status Ascent::continue_climb(double cutoff) {
   Status status = Status::Converged;
   while (true) {
     if (!current().is_finite()) return Status::InvalidInput;
-    if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
+    if (rule_.is_apart(current())) return Status::Apart;
     // If one bound proves the result, no model is needed. With colliders of known vertices this is nearly every warm query.
     error_ = optimality_gap_bound(current(), rolling_radius_);
-    if (error_ <= tolerance_ && !is_from_bounds_) return Status::Converged;
+    if (rule_.allows(error_) && !is_from_bounds_) return Status::Converged;
     const Step step = choose_step();
     if (is_finished(cutoff, status)) {
       if (has_kinks_ && is_from_bounds_) move_to_exact_normal();
@@ -81,18 +80,17 @@ Status Ascent::continue_climb(double cutoff) {
 // vertices. The model's step goes to the exact normal. There any point between the vertices is a boundary point.
 void Ascent::move_to_exact_normal() {
   const Step step = model_.propose(current(), active_[now_], bfgs_, kTuning.longest_step);
-  if (model_.leaves_face() || gap_.evaluations() >= settings_.max_evaluations) return;
+  if (model_.leaves_face() || !rule_.may_evaluate()) return;
   evaluate(step.normal.normalized(), 1 - now_);
   // If a bound has proved the present normal, it must prove the other one, too.
-  const bool is_as_good = error_ <= tolerance_ || optimality_gap_bound(trial(), rolling_radius_) <= tolerance_;
+  const bool is_as_good = rule_.allows(error_) || rule_.allows(optimality_gap_bound(trial(), rolling_radius_));
   if (is_as_good && trial().s >= current().s - gap_.rounding()) now_ = 1 - now_;
 }
 
 bool Ascent::is_finished(double cutoff, Status& status) const {
-  const bool is_proved = optimality_gap_bound(current(), rolling_radius_) <= tolerance_;
-  if (error_ <= tolerance_ || is_proved) {
+  if (rule_.allows(error_) || rule_.allows(optimality_gap_bound(current(), rolling_radius_))) {
     status = Status::Converged;
-  } else if (gap_.evaluations() >= settings_.max_evaluations) {
+  } else if (!rule_.may_evaluate()) {
     status = Status::EvaluationLimit;
   } else if (is_stuck_ || current().s + error_ < cutoff) {
     status = Status::Stalled;
@@ -105,7 +103,7 @@ bool Ascent::is_finished(double cutoff, Status& status) const {
 Step Ascent::choose_step() {
   Step step = model_.propose(current(), active_[now_], bfgs_, radius_);
   const double estimate = model_.leaves_face() ? std::numeric_limits<double>::infinity() : step.remaining_gain;
-  const bool is_done = estimate <= tolerance_;
+  const bool is_done = rule_.allows(estimate);
   const bool must_replace = model_.leaves_face() || is_model_short_ || radius_ < kNoRadius || is_ruled_out(step);
   is_from_hull_ = false;
   if (is_concave()) {
@@ -115,8 +113,8 @@ Step Ascent::choose_step() {
   }
   error_ = estimate;
   if (!is_done && must_replace) take_top_of_cuts(step);
-  is_stuck_ = error_ > tolerance_ && radius_ < kNoRadius;
-  if ((error_ <= tolerance_ || is_stuck_) && !is_overlap_proved_) {
+  is_stuck_ = !rule_.allows(error_) && radius_ < kNoRadius;
+  if ((rule_.allows(error_) || is_stuck_) && !is_overlap_proved_) {
     is_overlap_proved_ = -current().s <= unsearched_depth_ && have_common_point();
     if (!is_overlap_proved_) ask_hull(false, step);
   }

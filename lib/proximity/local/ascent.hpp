@@ -9,6 +9,7 @@
 #include "proximity/local/bfgs_hessian.hpp"
 #include "proximity/local/model_step.hpp"
 #include "proximity/local/vertex_cache.hpp"
+#include "proximity/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -35,7 +36,7 @@ class Ascent {
   /// Keeps references. Uses cuts of earlier ascents of the same pair, and adds new ones. `tolerance` in m. For an overlap of at
   /// most `unsearched_depth` (m), a point of both bodies may serve as proof of the overlap. For a deeper overlap the search for
   /// other maxima needs the hull.
-  Ascent(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance, double unsearched_depth);
+  Ascent(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule, double unsearched_depth);
 
   /// Climbs from the unit normal `start` and returns how the climb ended. The result is in best() and error(). Gives up, as
   /// Stalled, if the climb cannot get higher than `cutoff` (m).
@@ -66,7 +67,7 @@ class Ascent {
   bool is_finished(double cutoff, Status& status) const;
 
   /// Whether s + rho is concave on the relevant cone of normals, touching included.
-  bool is_concave() const { return height() >= -0.5 * tolerance_; }
+  bool is_concave() const { return height() >= -0.5 * rule_.tolerance(); }
   /// m; s + rho
   double height() const { return current().s + rolling_radius_; }
 
@@ -85,8 +86,7 @@ class Ascent {
 
   GapFunction& gap_;
   CuttingPlanes& cuts_;
-  const Settings& settings_;
-  const double tolerance_;         // m
+  const StoppingRule& rule_;
   const double unsearched_depth_;  // m
   const double rolling_radius_;    // m; rho, of the Minkowski difference
   const bool has_kinks_;

@@ -19,11 +19,10 @@ constexpr double kGrazing = 1e-6;
 
 }  // namespace
 
-CertifiedNewton::CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance)
+CertifiedNewton::CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule)
     : gap_(gap),
       cuts_(cuts),
-      settings_(settings),
-      tolerance_(tolerance),
+      rule_(rule),
       rolling_radius_(gap.rolling_radius()),
       has_flat_faces_(gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces()) {}
 
@@ -32,7 +31,7 @@ CertifiedNewton::End CertifiedNewton::run(const Vector3& start, WantedMaximum wa
   best_ = 1 - best_;
   if (!is_finite || (wanted == WantedMaximum::Tracked && !is_provable())) return End::Open;
   while (true) {
-    if (settings_.stop_when_apart && best().s > 0) return End::Apart;
+    if (rule_.is_apart(best())) return End::Apart;
     if (is_proved()) return End::Proved;
     Vector3 step;
     if (propose(step) && climb(step)) continue;
@@ -42,7 +41,7 @@ CertifiedNewton::End CertifiedNewton::run(const Vector3& start, WantedMaximum wa
 
 bool CertifiedNewton::is_proved() {
   error_ = optimality_gap_bound(best(), rolling_radius_);
-  return is_provable() && error_ <= tolerance_;
+  return is_provable() && rule_.allows(error_);
 }
 
 bool CertifiedNewton::evaluate(const Vector3& n) {
@@ -59,7 +58,7 @@ bool CertifiedNewton::propose(Vector3& step) const {
   step = hessian.solve(jet.d - jet.s * jet.n);
   if (has_flat_faces_ && !parametrizations_agree(step) && !through_boundary_points(hessian, H2, step)) return false;
   // Deeper than the ball nothing can be proved. If the step gains nothing either, other methods take over.
-  if (!is_provable() && !(jet.d.dot(step) > tolerance_)) return false;
+  if (!is_provable() && !(jet.d.dot(step) > rule_.tolerance())) return false;
   const double squared = step.squaredNorm();
   if (squared > kTuning.longest_step * kTuning.longest_step) step *= kTuning.longest_step / std::sqrt(squared);
   return true;
@@ -100,8 +99,8 @@ bool CertifiedNewton::through_boundary_points(const RegularHessian& hessian, con
 }
 
 bool CertifiedNewton::climb(Vector3 step) {
-  const int most = std::min(settings_.max_evaluations, kTuning.newton_evaluations);
-  while (gap_.evaluations() < most) {
+  const StoppingRule rule = rule_.with_at_most(kTuning.newton_evaluations);
+  while (rule.may_evaluate()) {
     if (!evaluate((best().n + step).normalized())) return false;
     if (next().s > best().s) {
       best_ = 1 - best_;
@@ -121,18 +120,18 @@ bool CertifiedNewton::prove_by_tilts() {
   if (!is_provable()) return false;
   const Vector3 n = best().n;
   const double height = best().s + rolling_radius_;
-  const int most = std::min(settings_.max_evaluations, gap_.evaluations() + kMostTilts);
+  const StoppingRule rule = rule_.with_at_most(gap_.evaluations() + kMostTilts);
   double growth = 1;
   while (true) {
     const MinimumNormPoint nearest = minimum_norm_point(cuts_.points());
     error_ = std::max(nearest.norm - height, 0.0);
-    if (error_ <= tolerance_) return true;
-    if (gap_.evaluations() >= most) return false;
+    if (rule.allows(error_)) return true;
+    if (!rule.may_evaluate()) return false;
     const Vector3 beside = nearest.point - nearest.point.dot(n) * n;
     const double distance = beside.norm();
     if (!(distance > 0)) return false;
-    const double least_tilt = tolerance_ / std::max(distance, gap_.length_unit());
-    const double tilt = std::min(growth * least_tilt, tolerance_ / distance);
+    const double least_tilt = rule.tolerance() / std::max(distance, gap_.length_unit());
+    const double tilt = std::min(growth * least_tilt, rule.tolerance() / distance);
     if (!evaluate((n + tilt / distance * beside).normalized())) return false;
     beside_[beside_count_++] = {next().n, next().jet1.r, next().d};
     // If the body is round in this direction, the point has only moved a part of the distance. With a larger tilt it is as far on

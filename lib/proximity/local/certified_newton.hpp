@@ -9,6 +9,7 @@
 #include "proximity/contact_point.hpp"
 #include "proximity/local/regular_hessian.hpp"
 #include "proximity/solvers.hpp"
+#include "proximity/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -34,8 +35,8 @@ class CertifiedNewton {
   /// Whether the method applies to this pair: both shapes have Hessians, and body 2 has no nonsmooth points.
   static bool is_for(const GapFunction& gap) { return gap.has_hessian() && !gap.shape2().has_kinks(); }
 
-  /// Keeps references. Adds the d of every evaluation to `cuts`. `tolerance` in m.
-  CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const Settings& settings, double tolerance);
+  /// Keeps references. Adds the d of every evaluation to `cuts`.
+  CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule);
 
   enum class End {
     Proved,  ///< best() is the maximum, to the tolerance
@@ -75,8 +76,7 @@ class CertifiedNewton {
 
   GapFunction& gap_;
   CuttingPlanes& cuts_;
-  const Settings& settings_;
-  const double tolerance_;       // m
+  const StoppingRule& rule_;
   const double rolling_radius_;  // m; of the Minkowski difference
   const bool has_flat_faces_;
   std::array<GapJet, 2> jets_;  // the best and the next, which change places

@@ -82,14 +82,14 @@ bool MeetingPoint::climb(GapJet& jet) {
 
 // A climb that gains less than the tolerance is for the witness points only. It is discarded if it does not bring them together,
 // because near the normal of a curved face the vertices are only some of its points.
-bool MeetingPoint::settle(double tolerance, int max_evaluations, GapJet& jet) {
+bool MeetingPoint::settle(const StoppingRule& rule, GapJet& jet) {
   const double rounding = kSameHeight * gap_.rounding();
   move_witnesses(rounding, jet);
   GapJet higher = jet;
-  while (distance_across(higher) > tolerance && gap_.evaluations() < max_evaluations && climb(higher)) {
+  while (!rule.allows(distance_across(higher)) && rule.may_evaluate() && climb(higher)) {
     move_witnesses(rounding, higher);
   }
-  if (higher.s - jet.s <= tolerance && distance_across(higher) >= distance_across(jet)) return false;
+  if (rule.allows(higher.s - jet.s) && distance_across(higher) >= distance_across(jet)) return false;
   jet = higher;
   return true;
 }

@@ -1,6 +1,7 @@
 // The contact of two bodies that both have faces or straight edges.
 #pragma once
 
+#include "proximity/stopping_rule.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {
@@ -22,9 +23,9 @@ class MeetingPoint {
   explicit MeetingPoint(GapFunction& gap) : gap_(gap) {}
 
   /// Moves the witness points of `jet`, which are any points of the faces or edges with its normal, to where these meet. Also moves
-  /// the normal while the points are more than `tolerance` (m) apart across it, in at most `max_evaluations` evaluations since
-  /// `gap` was made. Witness points stay in their tangent planes. Returns whether the normal has moved.
-  bool settle(double tolerance, int max_evaluations, GapJet& jet);
+  /// the normal while the points are more than the tolerance apart across it, as long as `rule` allows evaluations. Witness points
+  /// stay in their tangent planes. Returns whether the normal has moved.
+  bool settle(const StoppingRule& rule, GapJet& jet);
 
   /// m; how much higher than `jet` the maximum of the pieces near its normal is.
   double remaining_gain(const GapJet& jet) const;
