@@ -1,9 +1,9 @@
 /// @namespace supernormal
-/// Supernormal's core: bodies known by their normals, and the questions that one can ask about them. It needs Eigen and no ODE, and
-/// is a library of its own (supernormal::core, supernormal-core.pc, libsupernormal-core).
+/// Supernormal's core: bodies given by their normals, and queries of them. It needs Eigen, but not ODE. It is a library of its own
+/// (supernormal::core, supernormal-core.pc, libsupernormal-core).
 ///
 ///     bodies       Ellipsoid, Superellipsoid, Superovoid; Sphere, Box, Capsule, Cylinder, Polytope; Rounded, MinkowskiSum,
-///                  LinearImage; a program's own by deriving from Shape, or as a CallbackShape
+///                  LinearImage; your own as a class derived from Shape, or as a CallbackShape
 ///     two bodies   find_proximity(): signed distance, common normal, witness points, contact point; certify_depth proves the
 ///                  depth. A Sphere of radius 0 is a point, a Polytope of three points a triangle
 ///     others       find_plane_proximity(), find_ray_hit(), find_ray_proximity(), MeshContacts, find_nearest_triangle()
@@ -14,18 +14,18 @@
 ///                  find_manifold_of_gaps(), find_plane_manifold_of_gaps(), nearness(), reach_towards()
 ///     one body     find_bounding_box(), Shape::mass_properties(), Shape::point(), find_curvature(), projected_area(), tessellate()
 ///
-/// Units and frames: lengths in m, or in any other unit that is used throughout; x_world = rotation x_body + position; normals are
-/// unit vectors and point from body 1 to body 2; a gap is positive apart, negative when the bodies overlap.
+/// Units and frames: lengths are in m, or in any other unit that is used throughout. x_world = rotation x_body + position. Normals
+/// are unit vectors and point from body 1 to body 2. A gap is positive if the bodies are apart, and negative if they overlap.
 ///
-/// Errors: a constructor refuses bad parameters by std::invalid_argument, which names the parameter, its value and the valid range;
-/// nothing is clamped. A query throws on settings out of range only. What it found of its own accord is in Proximity::status:
-/// numbers that are not finite, a limit reached.
+/// Errors: a constructor refuses bad parameters with std::invalid_argument, whose text contains the parameter, its value and the
+/// valid range. Nothing is clamped. A query only throws if settings are out of range. It reports all other problems, such as
+/// numbers that are not finite or a limit reached, in Proximity::status.
 ///
-/// Threads and memory: shapes and functions have no state, so that any number of threads may use them at once. Queries allocate
-/// nothing, but for the scratch memory that a thread keeps for deep overlaps and that grows with the first of them; MeshContacts
-/// and MeshContactsAhead own theirs.
+/// Threads and memory: shapes and functions have no state, so any number of threads may use them at once. Queries allocate nothing,
+/// except scratch memory that each thread keeps for deep overlaps and that grows with the first of them. MeshContacts and
+/// MeshContactsAhead own theirs.
 ///
-/// Warm start: find_proximity() takes the normal of an earlier pose, in body 1's frame: keep pose1.rotation.transpose() * normal.
+/// Warm start: find_proximity() takes the normal of an earlier pose, in body 1's frame. Keep pose1.rotation.transpose() * normal.
 #pragma once
 
 #include "supernormal/contact/body_box.hpp"

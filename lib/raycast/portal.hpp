@@ -11,18 +11,17 @@
 namespace supernormal {
 
 /// Up to three boundary points of a body, projected along a line with direction v. There are two states. Either the points surround
-/// the line, which then passes through the body for certain. Or they leave a sector of directions free in which the line may pass
-/// beside the body.
+/// the line, which then passes through the body for certain. Or they leave a sector of directions free, in which it may pass beside
+/// the body.
 ///
-/// When they surround the line, their triangle lies in the body. So the line enters the body no later than it meets the triangle,
-/// which gives an upper bound. The portal is from Snethen, "Xenocollide", Game Programming Gems 7, 2008; the bounds are from
-/// cutting-plane methods.
+/// When they surround the line, their triangle lies in the body. So its intersection with the line is an upper bound on the entry.
+/// The portal is from Snethen, "Xenocollide", Game Programming Gems 7, 2008; the bounds are from cutting-plane methods.
 class Portal {
  public:
   /// `direction` v has unit length; `rounding` (m) is the rounding error of the points.
   Portal(const Vector3& direction, double rounding);
 
-  /// Adds a boundary point r as `d` = c - r, where c is the point of the line nearest to the body's origin. Keeps the points that
+  /// Adds a boundary point r as `d` = c - r. Here c is the point of the line nearest to the body's origin. Keeps the points that
   /// give the best bounds. Returns whether r is one of them.
   bool add(const Vector3& d);
 
@@ -40,7 +39,7 @@ class Portal {
 
   // The following functions need at least one point. They are valid until the points surround the line.
 
-  /// Whether the plane with the normal w, perpendicular to v, may separate the body from the line.
+  /// Whether the plane with the normal w may separate the body from the line. w is perpendicular to v.
   bool may_separate(const Vector3& w) const;
 
   /// The middle of the sector of separating directions, and the normal of the projected edge that faces the line. Not of unit

@@ -23,7 +23,7 @@ void check(const Vector3& direction, double length, const Settings& settings) {
   if (all_finite(direction)) require_in("length of the ray's direction", direction.norm(), 1 - 1e-6, 1 + 1e-6);
 }
 
-/// A ray in the body's frame: its origin is foot + start v. The foot is the point of the line nearest to the body's origin, so a
+/// A ray in the body's frame: its origin is foot + start v. The foot is the point of the line nearest to the body's origin. So a
 /// ray from far away loses no digits near the body.
 struct LocalRay {
   Vector3 v, foot;
@@ -137,9 +137,8 @@ RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin,
   return out;
 }
 
-// The ray may be cut to a segment that fits in double precision, for two reasons. A point of the ray beyond twice `farthest` is
-// farther from the body than the ray's origin. And the body clears the ray sideways with a shorter translation than past such an
-// end.
+// The ray may be cut to a segment that fits in double precision. A point of the ray beyond twice `farthest` is farther from the
+// body than the ray's origin. And the body clears the ray sideways before it clears such an end.
 Proximity find_ray_proximity(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction, double length,
                              const Settings& settings) {
   check(direction, length, settings);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A normal within this cosine of perpendicular to the line counts as perpendicular. The boundary point there is within the square
-// of this, times a radius of curvature, of the silhouette.
+// A normal within this cosine of perpendicular to the line counts as perpendicular. Its boundary point is on the silhouette, to the
+// square of this times a radius of curvature.
 constexpr double kGrazing = 1e-9;
 
 // A longer step (tangent of the angle) is due to rounding.
@@ -21,39 +21,37 @@ constexpr double kLongestStep = 1e4;
 // A step of the paraboloid should reduce the remaining error by this factor.
 constexpr double kGoodContraction = 0.5;
 
-// The remaining error is summed as a geometric series with the contraction of the last two steps. The contraction is assumed to be
-// no slower than this.
+// The remaining error is summed as a geometric series. Its contraction is measured from the last two steps, and at least this.
 constexpr double kSlowestContraction = 0.95;
 constexpr double kGainSafety = 3;
 
 // rad; a longer step may reach a different curvature, so its contraction is not used.
 constexpr double kAsymptoticStep = 1e-3;
 
-// Beside the body, this many steps of the paraboloid in a row may fail to halve the sector.
+// Beside the body: the number of steps of the paraboloid in a row that may fail to halve the sector.
 constexpr int kMaxSlowSteps = 2;
 
-// When the point is good, this many steps at most improve the normal. On a flat face the point may be as good as rounding allows
-// while the slopes still differ.
+// Once the point is good, the normal gets at most this many more steps. On a flat face rounding may limit the point first.
 constexpr int kMaxPolishingSteps = 32;
 
-// The search ends after so many steps that change nothing. It also ends after so many steps that give neither a better plane nor a
-// smaller distance from the plane to the portal, by this factor.
+// The search ends after kMaxIdleSteps that change nothing. It also ends after kMaxFruitlessSteps without progress: a better plane,
+// or a distance from the plane to the portal that is smaller by kProgress.
 constexpr int kMaxIdleSteps = 60;
 constexpr int kMaxFruitlessSteps = 150;
 constexpr double kProgress = 0.99;
 
-// The hull of the stored points is searched for a normal within this tangent of the angle from the best normal.
+// Tangent of an angle: the stored points propose a normal within this of the best normal.
 constexpr double kLargestTilt = 100;
 
 // m; a smaller radius of curvature is an edge or a vertex, to rounding. There is no paraboloid there, and a division would
 // overflow.
 constexpr double kSharpestRadius = 1e-100;
 
-// The rounding error of the portal's height above the best plane, in units of GapFunction::rounding(). One unit comes from the
-// plane, and a little more than one from the points of a steep portal.
+// The rounding error of the portal's height above the best plane, in units of GapFunction::rounding(). The plane adds one unit. The
+// points of a steep portal add a little more than one.
 constexpr double kPortalRounding = 3;
 
-// The line certainly enters a paraboloid that it cuts by this many tolerances, whatever the remaining error.
+// In tolerances: the line certainly enters a paraboloid that it cuts by this depth.
 constexpr double kSureDepth = 100;
 
 bool is_curved(const Symmetric2& A) {
@@ -61,7 +59,7 @@ bool is_curved(const Symmetric2& A) {
   return size > kSharpestRadius && A.xx * (A.yy / size) - A.xy * (A.xy / size) > kSharpestRadius;
 }
 
-// Whether products of such numbers with lengths, and of four such numbers, stay in range.
+// Whether products with lengths, and products of four such numbers, stay in range.
 bool is_in_range(const Vector2& u) { return std::abs(u.x()) < 1e60 && std::abs(u.y()) < 1e60; }
 
 /// The smaller root of a t^2 + 2 b t + c with a >= 0. Without a root it is the minimum. It is infinite if there is neither, for a
@@ -137,7 +135,7 @@ void EntrySearch::evaluate(const Vector3& normal) {
   fruitless_steps_ = is_best || is_lower ? 0 : fruitless_steps_ + 1;
 }
 
-// Near the maximum t is constant to rounding, while the boundary point still approaches the line.
+// Near the maximum t is constant to rounding. The boundary point still approaches the line.
 bool EntrySearch::is_better(const Sample& sample) const {
   const double level = gap_.rounding() / -sample.slope;
   if (!(sample.t <= best_.t + level)) return true;  // also when `t` is NaN
@@ -201,7 +199,7 @@ bool EntrySearch::add_point(const Vector3& d) {
 // The vector from the boundary point to the point where its tangent plane meets the line.
 Vector3 EntrySearch::distance_at(const Sample& sample) const { return sample.jet.d + sample.t * v_; }
 
-// The model's estimate of the remaining error, from the expected gain and its ratio to the gain expected one step before.
+// The model's estimate of the remaining error. It uses the expected gain and its ratio to the previous one.
 double EntrySearch::expected_error(const Step& step) const {
   if (!gap_.has_hessian() || !std::isfinite(step.gain)) return kInfinity;
   const bool has_history = std::isfinite(promised_gain_) && promised_gain_ > 0 && step.length < kAsymptoticStep;
@@ -217,8 +215,7 @@ double EntrySearch::boundary_error() const {
 
 // A good point does not end the search by itself: the line may miss the body although a point of the line is within the tolerance.
 //
-// The point may be good long before the normal is. The boundary point and the normal belong together, so one of them is enough: the
-// point on a sharp edge, the normal on a flat face.
+// The point may be good long before the normal is. One of them is enough: the point on a sharp edge, the normal on a flat face.
 bool EntrySearch::has_settled(const Step& step) {
   if (!rule_.allows(boundary_error()) || (!is_deep_ && !portal_.is_pierced())) return false;
   const bool is_normal_good = rule_.allows(distance_at(best_).norm()) || step.length <= settings_.tolerance;
@@ -269,8 +266,8 @@ bool EntrySearch::choose_by_portal(Vector3& normal) {
   return is_usable;
 }
 
-// The stored points and their hull lie in the body. The chosen normal is the direction in which the hull is farthest from the best
-// point on the line. The portal may not find it if the line passes through one of the portal's edges.
+// The stored points and their hull lie in the body. The chosen normal is the direction in which the hull is farthest from best_. If
+// the line passes through an edge of the portal, the portal may not find it.
 bool EntrySearch::choose_by_points(Vector3& normal) {
   CuttingPlanes cuts;
   for (int k = 0; k < std::min(point_count_, CuttingPlanes::kCapacity); ++k) {

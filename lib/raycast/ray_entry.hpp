@@ -14,20 +14,20 @@
 
 namespace supernormal {
 
-/// The unit normal of the ellipsoid with these half-extents at the entry of the line c + t v. If the line misses the ellipsoid, it
-/// is the normal of a plane between both, perpendicular to v.
+/// The unit normal at which the line c + t v enters the ellipsoid with these half-extents. If the line misses the ellipsoid, a
+/// plane with this normal separates them.
 Vector3 first_entry_normal(const Vector3& half_extents, const Vector3& c, const Vector3& v);
 
 /// Finds the entry of the line c + t v, with c = gap.offset(). Body 1 of the gap function is the body, body 2 is a point.
 ///
 /// A supporting plane with a normal n against v (n.v < 0) meets the line at t(n) = (n.c - h(n)) / -n.v. The body lies behind all
 /// these planes, so the line enters at the largest t(n). With n = w - v, w perpendicular to v, t(w) = (w - v).c - h(w - v) is
-/// concave. So it has one maximum. If the line misses the body, it has none, and there is a w with w.c > h(w). Each step takes one
-/// of two normals:
+/// concave. So it has one maximum. If the line misses the body, it has none; then w.c > h(w) for some w. Each step takes one of two
+/// normals:
 ///   1. The normal at which the line meets the osculating paraboloid of the best sample. Near the maximum this is the Newton
 ///      step of t(n). It does not slow down where the line only grazes the body.
-///   2. The normal of the portal, or a direction that may separate body and line while a hit is not yet certain. This is the
-///      step if the last step of the paraboloid gained too little, or if the portal excludes its normal.
+///   2. The normal of the portal, or a direction that may separate body and line while a hit is not yet certain. It
+///      is taken if the last paraboloid gained too little, or if the portal excludes its normal.
 class EntrySearch {
  public:
   enum class Kind {

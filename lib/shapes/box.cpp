@@ -19,10 +19,10 @@ void Box::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H.setZero();
 }
 
-void Box::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/, ActiveVertices& corners) const {
+void Box::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/, ActiveVertices& vertices) const {
   for (const double x : {-half_lengths_.x(), half_lengths_.x()}) {
     for (const double y : {-half_lengths_.y(), half_lengths_.y()}) {
-      for (const double z : {-half_lengths_.z(), half_lengths_.z()}) corners.add(Vector3(x, y, z));
+      for (const double z : {-half_lengths_.z(), half_lengths_.z()}) vertices.add(Vector3(x, y, z));
     }
   }
 }

@@ -22,10 +22,10 @@ void Capsule::evaluate(const Vector3& n, Order order, Jet& jet) const {
 }
 
 // The sphere's boundary point, radius n, is the same for both ends.
-void Capsule::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& corners) const {
+void Capsule::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& vertices) const {
   const Vector3 end(0, 0, half_length_);
-  corners.add(radius_ * n - end);
-  corners.add(radius_ * n + end);
+  vertices.add(radius_ * n - end);
+  vertices.add(radius_ * n + end);
 }
 
 bool Capsule::surely_contains(const Vector3& point) const {

@@ -35,7 +35,7 @@ void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H = across < kCap ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
 }
 
-void Cylinder::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
+void Cylinder::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const {
   const Vector3 end(0, 0, half_length_);
   const double across = std::hypot(n.x(), n.y());
   if (across < kCap) {
@@ -47,11 +47,11 @@ void Cylinder::add_active_vertices(const Vector3& n, const Vector3& toward, Acti
     const Vector3 middle = -0.5 * rim;
     const Vector3 aside = 0.5 * std::numbers::sqrt3 * Vector3(-rim.y(), rim.x(), 0);
     for (const Vector3& point : {rim, Vector3(middle + aside), Vector3(middle - aside)})
-      corners.add(point + (n.z() < 0 ? -end : end));
+      vertices.add(point + (n.z() < 0 ? -end : end));
   } else {
     const Vector3 rim = Vector3(n.x(), n.y(), 0) * (radius_ / across);
-    corners.add(rim - end);
-    corners.add(rim + end);
+    vertices.add(rim - end);
+    vertices.add(rim + end);
   }
 }
 

@@ -52,11 +52,11 @@ Vector3 LinearImage::advance_normal(const Vector3& n, const Jet& jet, const Vect
   return inverse_.transpose() * shape_->advance_normal(covector / length, original, matrix_.transpose() * dn / length);
 }
 
-void LinearImage::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
+void LinearImage::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const {
   ActiveVertices originals;
   shape_->add_active_vertices((matrix_.transpose() * n).normalized(), inverse_ * toward, originals);
-  for (int k = 0; k < originals.size(); ++k) corners.add(matrix_ * originals[k]);
-  if (originals.is_partial()) corners.set_partial();
+  for (int k = 0; k < originals.size(); ++k) vertices.add(matrix_ * originals[k]);
+  if (originals.is_partial()) vertices.set_partial();
 }
 
 bool LinearImage::crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const {

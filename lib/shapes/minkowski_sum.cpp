@@ -9,7 +9,7 @@ namespace supernormal {
 namespace {
 
 /// Adds the sums of the shapes' active vertices: the eight highest along n, highest first.
-void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const ActiveVertices& second, ActiveVertices& corners) {
+void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const ActiveVertices& second, ActiveVertices& vertices) {
   struct Pair {
     double height;
     Vector3 point;
@@ -25,7 +25,7 @@ void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const Acti
   const auto end = pairs.begin() + count;
   const auto kept = std::min<std::ptrdiff_t>(end - pairs.begin(), ActiveVertices::kCapacity);
   std::partial_sort(pairs.begin(), pairs.begin() + kept, end, [](const Pair& a, const Pair& b) { return a.height > b.height; });
-  for (auto pair = pairs.begin(); pair != pairs.begin() + kept; ++pair) corners.add(pair->point);
+  for (auto pair = pairs.begin(); pair != pairs.begin() + kept; ++pair) vertices.add(pair->point);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vec
 
 // A shape without nonsmooth points contributes its boundary point. A partial list counts as complete: a partial list must hold the
 // same points for every normal, and the sums need not be the same.
-void MinkowskiSum::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
+void MinkowskiSum::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const {
   std::array<ActiveVertices, 2> parts;
   const std::array<const Shape*, 2> shapes = {first_.get(), second_.get()};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -72,7 +72,7 @@ void MinkowskiSum::add_active_vertices(const Vector3& n, const Vector3& toward, 
       parts[i].add(shapes[i]->point(n));
     }
   }
-  add_highest_pairs(n, parts[0], parts[1], corners);
+  add_highest_pairs(n, parts[0], parts[1], vertices);
 }
 
 bool MinkowskiSum::crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const {

@@ -37,7 +37,7 @@ void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {
 }
 
 // The highest vertices along n come first, because they are the first to become boundary points.
-void Polytope::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& corners) const {
+void Polytope::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& vertices) const {
   struct Height {
     double height;
     const Vector3* point;
@@ -52,8 +52,8 @@ void Polytope::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, 
     for (; place > 0 && highest[place - 1].height < height; --place) highest[place] = highest[place - 1];
     highest[place] = {height, &point};
   }
-  for (std::size_t k = 0; k < count; ++k) corners.add(*highest[k].point);
-  if (points_.size() > count) corners.set_partial();
+  for (std::size_t k = 0; k < count; ++k) vertices.add(*highest[k].point);
+  if (points_.size() > count) vertices.set_partial();
 }
 
 // The radius of curvature is 0 at vertices and edges.

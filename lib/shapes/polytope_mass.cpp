@@ -84,7 +84,7 @@ MassProperties Polytope::mass_properties() const {
     const Vector3 sum = t[0] + t[1] + t[2];
     volume += v;
     first += v / 4 * sum;
-    for (const Vector3& corner : t) second += v / 20 * corner * corner.transpose();
+    for (const Vector3& vertex : t) second += v / 20 * vertex * vertex.transpose();
     second += v / 20 * sum * sum.transpose();
   }
   if (!(volume > 0)) return {};

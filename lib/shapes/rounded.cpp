@@ -34,10 +34,10 @@ Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3&
 
 // The sphere's boundary point, radius n, is the same for all active vertices, as in a Capsule. It moves with the normal. So a
 // partial list counts as complete here, because a partial list must hold the same points for every normal.
-void Rounded::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
+void Rounded::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const {
   ActiveVertices of_core;
   core_->add_active_vertices(n, toward - radius_ * n, of_core);
-  for (int k = 0; k < of_core.size(); ++k) corners.add(of_core[k] + radius_ * n);
+  for (int k = 0; k < of_core.size(); ++k) vertices.add(of_core[k] + radius_ * n);
 }
 
 bool Rounded::crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const {

@@ -7,7 +7,7 @@ namespace supernormal {
 
 Vector3 Shape::advance_normal(const Vector3& n, const Jet& /*jet*/, const Vector3& dn) const { return n + dn; }
 
-void Shape::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/, ActiveVertices& /*corners*/) const {}
+void Shape::add_active_vertices(const Vector3& /*n*/, const Vector3& /*toward*/, ActiveVertices& /*vertices*/) const {}
 
 bool Shape::crosses_curved_face(const Vector3& /*from*/, const Vector3& /*to*/, Vector3& /*face*/) const { return false; }
 

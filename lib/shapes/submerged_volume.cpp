@@ -50,12 +50,12 @@ struct Tetrahedra {
 };
 
 /// Adds the part of a triangle with up.x <= 0, a polygon of up to four vertices.
-void add_part_below(const std::array<Vector3, 3>& corners, const Vector3& up, Tetrahedra& sum) {
+void add_part_below(const std::array<Vector3, 3>& triangle, const Vector3& up, Tetrahedra& sum) {
   std::array<Vector3, 4> part;
   std::size_t count = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3& a = corners[k];
-    const Vector3& b = corners[(k + 1) % 3];
+    const Vector3& a = triangle[k];
+    const Vector3& b = triangle[(k + 1) % 3];
     const double height_a = up.dot(a);
     const double height_b = up.dot(b);
     if (height_a <= 0) part[count++] = a;
@@ -78,7 +78,7 @@ SubmergedVolume::SubmergedVolume(const Shape& shape) {
   for (const Vector3& m : mesh.points) points_.push_back(shape.point(m.cwiseQuotient(extents).normalized()));
   triangles_ = std::move(mesh.triangles);
   Tetrahedra meshed;
-  for (const auto& [a, b, c] : triangles_) meshed.add(corner(a), corner(b), corner(c));
+  for (const auto& [a, b, c] : triangles_) meshed.add(vertex(a), vertex(b), vertex(c));
   if (meshed.six_volumes > 0) enlargement_ = 6 * whole_.volume / meshed.six_volumes;
 }
 
@@ -89,7 +89,7 @@ Submerged SubmergedVolume::below(const Vector3& up, double level) const {
   // With the origin in the waterplane, the waterplane itself adds nothing to the integrals.
   const Vector3 origin = level * up;
   Tetrahedra sum;
-  for (const auto& [a, b, c] : triangles_) add_part_below({corner(a) - origin, corner(b) - origin, corner(c) - origin}, up, sum);
+  for (const auto& [a, b, c] : triangles_) add_part_below({vertex(a) - origin, vertex(b) - origin, vertex(c) - origin}, up, sum);
   if (sum.six_volumes <= 0) return {};
   return {enlargement_ * sum.six_volumes / 6, origin + sum.moment / sum.six_volumes};
 }

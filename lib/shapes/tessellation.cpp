@@ -88,22 +88,22 @@ class Tessellator {
     return is_changed;
   }
 
-  void split(const Triangle& corner, const Triangle& middle, int halved) {
+  void split(const Triangle& vertex, const Triangle& middle, int halved) {
     if (halved == 3) {
-      const auto& [a, b, c] = corner;
+      const auto& [a, b, c] = vertex;
       const auto& [ab, bc, ca] = middle;
       for (const Triangle& part : {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
         mesh_.triangles.push_back(part);
       return;
     }
     if (halved == 0) {
-      mesh_.triangles.push_back(corner);
+      mesh_.triangles.push_back(vertex);
       return;
     }
     // Rotate the vertices so that the first edge is halved and, if two are, the second too.
     std::size_t first = 0;
     while (middle[first] == kWhole || (halved == 2 && middle[(first + 1) % 3] == kWhole)) ++first;
-    const Index a = corner[first], b = corner[(first + 1) % 3], c = corner[(first + 2) % 3], ab = middle[first];
+    const Index a = vertex[first], b = vertex[(first + 1) % 3], c = vertex[(first + 2) % 3], ab = middle[first];
     if (halved == 1) {
       mesh_.triangles.push_back({a, ab, c});
       mesh_.triangles.push_back({ab, b, c});

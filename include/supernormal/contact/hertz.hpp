@@ -1,17 +1,18 @@
-// Hertz's contact of two elastic bodies, in formulas without units.
+// Hertz's contact of two elastic bodies, in dimensionless formulas.
 #pragma once
 
 #include "supernormal/export.h"
 
 namespace supernormal {
 
-/// F2 of Johnson, Contact Mechanics, section 4.2(c): the ratio by which the depth of an elliptic contact is smaller than that of
-/// a round one with the radius sqrt(R' R''); `ratio` = R'/R'' >= 1 is that of the principal relative radii, the larger value of
-/// ContactCurvature over the smaller. The result is in (0, 1].
+/// F2 of Johnson, Contact Mechanics, section 4.2(c): the depth of an elliptic contact over the depth of a round contact with the
+/// radius sqrt(R' R''). `ratio` = R'/R'' >= 1 is the ratio of the principal relative radii, ContactCurvature::larger over
+/// ContactCurvature::smaller. The result is in (0, 1].
 SUPERNORMAL_API double hertz_correction(double ratio);
 
-/// The b of a damper 2 b sqrt(5/6 m dF/ddepth) for which an impact of the mass m ends with `restitution` (in [0.05, 1]) of its
-/// velocity, if the contact ends as soon as it would have to pull. The same at every velocity. It integrates impacts: 1 ms.
+/// The b of a damper 2 b sqrt(5/6 m dF/ddepth), with which an impact of the mass m at any velocity returns the fraction
+/// `restitution`, in [0.05, 1], of the velocity. The contact ends when its force would become a pull. The function integrates
+/// impacts, which takes 1 ms.
 SUPERNORMAL_API double hertz_damping_ratio(double restitution);
 
 }  // namespace supernormal

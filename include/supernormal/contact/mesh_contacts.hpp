@@ -1,4 +1,4 @@
-// A body against the triangles of a surface: a mesh or a heightfield.
+// Contacts of a body with the triangles of a surface: a mesh or a heightfield.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace supernormal {
 
-/// A triangle of a surface, as the caller has it.
+/// A triangle of a surface.
 struct MeshTriangle {
-  std::array<Vector3, 3> vertices;  ///< m, world frame; counter-clockwise seen from outside
-  int index = 0;                    ///< the caller's name for the triangle
+  std::array<Vector3, 3> vertices;  ///< m; world frame; counter-clockwise seen from outside
+  int index = 0;                    ///< the caller's index of the triangle
 };
 
 /// A contact of a body with a surface.
@@ -26,13 +26,13 @@ struct MeshContact {
 
 class MeshContactSearch;
 
-/// Finds contacts. It owns the scratch memory: keep one per thread, and after the first queries nothing is allocated any more.
-/// Nothing else is carried over from one query to the next.
+/// Finds contacts of a body with triangles. It owns scratch memory: use one object per thread. After the first queries nothing is
+/// allocated. No other state is kept between queries.
 ///
-/// The surface is single-sided: behind a triangle is solid. The triangles have to be all those that touch the body's box
-/// (body_box.hpp); others do not count, and the order does not matter. Neighbours are recognised by the vertices that they share,
-/// which are the same up to 1e-6 of the smaller triangle's longest side. Triangles without area, repeated ones and those with a
-/// coordinate that is not finite or beyond 1e30 are skipped.
+/// The surface is single-sided: the space behind a triangle is solid. The triangles must include all that touch the body's box
+/// (body_box.hpp). Other triangles have no effect, and the order does not matter. Triangles are neighbours if they share vertices,
+/// which are equal if they are closer than 1e-6 of the smaller triangle's longest side. Some triangles are skipped: those without
+/// area, repeated ones, and triangles with a coordinate that is not finite or beyond 1e30.
 class SUPERNORMAL_API MeshContacts {
  public:
   MeshContacts();
@@ -40,45 +40,48 @@ class SUPERNORMAL_API MeshContacts {
   MeshContacts(MeshContacts&&) noexcept;             ///< takes over the scratch memory
   MeshContacts& operator=(MeshContacts&&) noexcept;  ///< takes over the scratch memory
 
-  /// The distinct contacts of the body with the surface, deepest first, in the world frame. A contact is a local maximum of the
-  /// gap function over the normals of one feature of the surface (lib/proximity/README.md), with a gap that is not positive:
+  /// The distinct contacts of the body with the surface, deepest first, in the world frame. A contact is a local maximum of the gap
+  /// function over the normals of one feature of the surface (lib/proximity/README.md), with a gap of at most 0. The features are:
   ///
-  ///  * a face, when the body's deepest point lies under it, or under the wall that the face runs into: explicit, with the digits
-  ///    of find_plane_proximity();
-  ///  * a convex edge, over the arc between the normals of its two faces;
-  ///  * the open border of a sheet, with the face's normal where the body stands on the sheet: its deepest point is below the
-  ///    face's plane by up to a tenth of the body's extent along the normal. The depth is that of the body over the border. From a
-  ///    fifth on the normal is that of the arc, up to 90 degrees from the face's; in between it turns from one to the other;
-  ///  * a vertex, over the normals with whose tangent plane no triangle there violates the normal cone;
-  ///  * a face that the body crosses, if there is nothing else: from there the way up.
+  ///   - A face, if the body's deepest point is under it, or under the wall that the face meets. This contact is explicit, and as
+  ///   exact as
+  ///     find_plane_proximity().
+  ///   - A convex edge, over the arc between the normals of its two faces.
+  ///   - The open border of a sheet. If the body stands on the sheet, the contact has the face's normal and the body's depth over
+  ///   the
+  ///     border. The body stands on the sheet if its deepest point is at most a tenth of the body's extent along the normal below
+  ///     the face's plane. From a fifth on, the normal is the best one of the arc, up to 90 degrees from the face's. In between it
+  ///     is interpolated.
+  ///   - A vertex, over its normal cone: no triangle at the vertex is beyond the tangent plane.
+  ///   - A face that crosses the body, if there is no other contact. The contact leads out of it.
   ///
-  /// Over one edge, at one vertex and for one convex part of the solid there is one contact: the one with the minimum translation
-  /// distance (MTD).
+  /// One edge, one vertex or one convex part of the solid gives one contact: the one with the minimum translation distance (MTD).
   ///
   /// Inner edges of flat and concave parts have no such normals, so there are no ghost contacts. Proximity::contact is the body's
-  /// point, as with a plane, and of a flat side that point of it that is over the feature. Of the settings only the tolerance and
-  /// the limit of evaluations are used: the hybrid solves the vertices. The result is valid until the next query; empty when the
-  /// pose is not finite, or its rotation none (Pose).
+  /// point, as with a plane. For a flat side of the body it is the side's point over the feature. Of the settings only the
+  /// tolerance and the limit of evaluations are used, because the hybrid solves the vertices. The result is valid until the next
+  /// query. It is empty if the pose is not finite, or its matrix is not a rotation (Pose).
   std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                     const Settings& settings = {});
 
-  /// Evaluations of the support function and the gap function in the last query.
+  /// Number of evaluations of the support function and the gap function in the last query.
   int evaluations() const;
 
  private:
   std::unique_ptr<MeshContactSearch> search_;
 };
 
-/// Draws the corners of a manifold with a plane (find_plane_contact_manifold() of a contact of MeshContacts) in, towards the
-/// deepest point, to where there are triangles in that plane, without a hole on the way: a brick that hangs over the border of a
-/// table is supported as far as the table goes. Leaves no corners where the contact is not on a face. `triangles` are at least
-/// those within manifold.margin of the body; their order does not matter.
+/// Moves the manifold points of a contact with a plane to where the surface supports them. `manifold` comes from
+/// find_plane_contact_manifold() for a contact of MeshContacts. Each point moves towards the deepest point until there are
+/// triangles in this plane, without a hole in between. So a brick that hangs over the border of a table is supported as far as the
+/// table extends. The manifold points are removed if the contact is not on a face. `triangles` must include all within
+/// manifold.margin of the body; their order does not matter.
 SUPERNORMAL_API void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles);
 
-/// The proximity, in the world frame, of the body and the triangle with the smallest gap, all taken as two-sided. Degenerate
-/// triangles count as the segment or point that they are; those with a coordinate that is not finite or beyond 1e30 are skipped.
-/// Status::InvalidInput when none is left. Proximity::evaluations counts those of all triangles that were tried: most are ruled
-/// out by the supporting planes of the body at the nearest one found so far.
+/// The nearest triangle of the surface and its proximity with the body, in the world frame. All triangles count as two-sided. A
+/// degenerate triangle counts as a segment or point. A triangle with a coordinate that is not finite or beyond 1e30 is skipped;
+/// Status::InvalidInput if none is left. Proximity::evaluations is the sum over all examined triangles: supporting planes of the
+/// body at the nearest one so far exclude most triangles.
 SUPERNORMAL_API MeshContact find_nearest_triangle(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
                                                   const Settings& settings = {});
 

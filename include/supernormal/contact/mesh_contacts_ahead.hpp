@@ -1,4 +1,4 @@
-// A body and the triangles of a surface that it is about to meet.
+// Contacts ahead of a body with the triangles of a surface.
 #pragma once
 
 #include <memory>
@@ -10,37 +10,37 @@
 
 namespace supernormal {
 
-/// One contact of a body with a surface, with its corners.
+/// One contact of a body with a surface, with its manifold points.
 struct MeshManifold {
   ContactManifold manifold;  ///< body 1 is the body, body 2 the surface
   int triangle = 0;          ///< MeshTriangle::index
 };
 
-/// Finds the contacts of a body with a surface that it may meet, as find_contacts_ahead() does for two bodies. It owns the scratch
-/// memory: keep one per thread.
+/// Finds the contacts of a body with a surface that it may meet, like find_contacts_ahead() for two bodies. It owns scratch memory:
+/// use one object per thread.
 ///
-/// The body is moved along its velocity to where it first hits a face from outside, and from there on along what it hit, as far as
-/// the time goes. At each of these places, and at the end, the contacts of MeshContacts are found for the body swept by a ball,
-/// whose radius is how near is near: this sweep leaves the normals as they are and takes the radius off the gaps.
+/// The body is moved along its velocity to the first face that it hits from outside, and from there along the faces that it hits,
+/// until `time` is over. MeshContacts finds the contacts at each of these places and at the end, for the body swept by a ball. The
+/// ball's radius is the distance within which a triangle counts as near. Sweeping does not change the normals, and reduces the gaps
+/// by the radius.
 class SUPERNORMAL_API MeshContactsAhead {
  public:
-  /// The middle of all the places of the body, relative to its origin, and how much farther than its box they and what is near
-  /// reach.
+  /// The region that the body and everything near it cover on the way, relative to the body's box.
   struct Reach {
-    Vector3 middle;  ///< m
-    double margin;   ///< m
+    Vector3 middle;  ///< m; the middle of all places of the body, relative to its origin
+    double margin;   ///< m; how much farther than the box the region extends
   };
 
-  /// The triangles that find() has to get are those that touch the body's box (body_box.hpp), moved by `middle` and widened by
-  /// `margin`. `surface` is the motion of the surface, whose velocity is that at the body.
+  /// The region of triangles that find() needs: all triangles that touch the body's box (body_box.hpp), moved by `middle` and
+  /// widened by `margin`. `surface` is the motion of the surface, with the velocity at the body. `time` in s.
   static Reach reach_of(const BodyAhead& body, const MotionAhead& surface, double time);
 
-  /// The distinct contacts, the smallest gap first. Those with a gap above ContactManifold::reach are none. Valid until the next
-  /// query; empty when the pose is not finite, or its rotation none (Pose).
+  /// The distinct contacts, the smallest gap first. A gap above ContactManifold::reach is no contact. `time` in s. The result is
+  /// valid until the next query. It is empty if the pose is not finite, or its matrix is not a rotation (Pose).
   std::span<const MeshManifold> find(const BodyAhead& body, const MotionAhead& surface, double time,
                                      std::span<const MeshTriangle> triangles, const Settings& settings = {});
 
-  /// Evaluations of the support function and the gap function in the last query.
+  /// Number of evaluations of the support function and the gap function in the last query.
   int evaluations() const { return evaluations_; }
 
  private:

@@ -1,4 +1,4 @@
-// When a body that moves will meet a surface of triangles.
+// When a moving body will meet a surface of triangles.
 #pragma once
 
 #include <span>
@@ -14,10 +14,10 @@ struct MeshImpact {
   int triangle = -1;  ///< MeshTriangle::index; -1 without an impact
 };
 
-/// Finds the first time in [0, horizon] at which a body meets one of the triangles: that of find_time_of_impact() for the first of
-/// them. Every triangle counts, from both sides, and nothing behind it: name those that are near the body's way. Their vertices are
-/// in the frame of `mesh_motion`, that of its pose. Without any triangle the bodies are apart, and Impact::proximity holds no
-/// answer. Errors are those of find_time_of_impact().
+/// Finds the first time in [0, horizon] (s) at which a body meets one of the triangles: the first impact that find_time_of_impact()
+/// finds with any of them. Every triangle counts, from both sides, and nothing is solid behind it. Pass the triangles near the
+/// body's path. Their vertices are in the frame of `mesh_motion`, the moving surface. Without triangles the bodies are apart, and
+/// Impact::proximity holds no answer. The errors are the errors of find_time_of_impact().
 SUPERNORMAL_API MeshImpact find_mesh_time_of_impact(const Shape& shape, const Motion& motion,
                                                     std::span<const MeshTriangle> triangles, const Motion& mesh_motion,
                                                     double horizon, const Settings& settings = {});

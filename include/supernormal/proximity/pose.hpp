@@ -1,14 +1,13 @@
-// The position and attitude of a body.
+// The position and orientation of a body.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace supernormal {
 
-/// x_world = rotation x_body + position. Queries refuse a matrix that is no rotation, as Status::InvalidInput or with an empty
-/// result: it must be orthonormal and right-handed to 1e-5, the sum of the errors of the equations that make it so. They take it as
-/// it is, so that their answers are as exact as it is; what a product of many rotations gathers is to be taken off from time to
-/// time.
+/// x_world = rotation x_body + position. Queries refuse a matrix that is not a rotation, with Status::InvalidInput or an empty
+/// result. It must be orthonormal and right-handed to 1e-5: the sum of the errors of the defining equations. Queries use the matrix
+/// unchanged, so their answers are only as exact as it is. Orthonormalise a product of many rotations from time to time.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthonormal, right-handed

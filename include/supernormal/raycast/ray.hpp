@@ -7,10 +7,10 @@
 
 namespace supernormal {
 
-/// The point where a ray meets the boundary of a body. Point and normal are in the frame that the query was asked in.
+/// The point where a ray meets the boundary of a body. Point and normal are in the frame of the query.
 struct RayHit {
   bool hit = false;                      ///< whether the ray meets the boundary within its length
-  bool from_inside = false;              ///< the origin is inside the body, and the hit is where the ray leaves it
+  bool from_inside = false;              ///< the origin is inside the body, and the ray leaves it at the hit
   double distance = 0;                   ///< m; from the origin to the hit, along the ray
   double distance_error = 0;             ///< m; estimate of the error of `distance`
   double boundary_error = 0;             ///< m; bound on the distance of `point` from the boundary, to rounding
@@ -20,26 +20,26 @@ struct RayHit {
   Status status = Status::InvalidInput;  ///< how the query ended
 };
 
-/// Finds the first point of the boundary on the ray from `origin` along `direction`: where the ray enters the body or, when the
-/// origin is inside, where it leaves it. A ray that begins or ends on the boundary meets it; one that lies wholly inside does
-/// not. The body may be any shape, with or without a Hessian, faces and edges.
+/// Finds the first point of the boundary on the ray from `origin` along `direction`: where the ray enters the body or, if the
+/// origin is inside, where it leaves. A ray that begins or ends on the boundary meets it. A ray that is wholly inside does not. The
+/// body may be any shape, with or without a Hessian, faces and edges.
 ///
-/// `origin` in m; `direction` of unit length (to 1e-6; it is normalised); `length` in m, in [0, inf]. Of the settings,
+/// `origin` is in m. `direction` has unit length, to 1e-6, and is normalised. `length` is in m, in [0, inf]. Of the settings,
 /// `tolerance` (of boundary_error, relative to the body's smallest half-extent) and `max_evaluations` are used. Throws
-/// std::invalid_argument when one of these is out of range; returns Status::InvalidInput when the pose, the ray or what the shape
-/// delivers is not finite, or the body is more than 1e150 m away. With any status other than Converged, `hit` is what is known so
+/// std::invalid_argument if one of these is out of range. Returns Status::InvalidInput if the pose, the ray or a value from the
+/// shape is not finite, or if the body is more than 1e150 m away. With any status other than Converged, `hit` is what is known so
 /// far.
 ///
-/// The hit is well conditioned as a point of the boundary at any angle. As a distance along the ray it is not where the ray
-/// grazes the body: moving the ray sideways by x changes the distance by x / |normal.direction|, and by about sqrt(2 R x) where
-/// the ray is tangent, R being the radius of curvature; distance_error allows for that. Hit or miss is decided to rounding,
-/// whatever the tolerance: about 1e-14 of the body's size and of its distance from the line. On a flat face of a body without a
-/// Hessian the normal is good to about the square root of the tolerance.
+/// As a point of the boundary the hit is well conditioned at any angle. As a distance along the ray it is not where the ray grazes
+/// the body. Moving the ray sideways by x changes the distance by x / |normal.direction|, and by about sqrt(2 R x) where the ray is
+/// tangent, with R the radius of curvature. distance_error allows for this. Hit or miss is decided to rounding, whatever the
+/// tolerance: to about 1e-14 of the body's size and of its distance from the line. On a flat face of a body without a Hessian the
+/// normal is accurate to about the square root of the tolerance.
 SUPERNORMAL_API RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction,
                                     double length, const Settings& settings = {});
 
-/// The proximity of a body (body 1) and the segment that the ray covers (body 2): their distance when they are apart, and when
-/// the ray passes through the body, the depth by which one must be moved to clear the other. Arguments are those of
+/// The proximity of a body (body 1) and the segment that the ray covers (body 2). If they are apart, it is their distance. If the
+/// ray passes through the body, it is the depth by which one must be moved to clear the other. The arguments are the arguments of
 /// find_ray_hit().
 SUPERNORMAL_API Proximity find_ray_proximity(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction,
                                              double length, const Settings& settings = {});

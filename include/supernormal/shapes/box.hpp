@@ -5,16 +5,16 @@
 
 namespace supernormal {
 
-/// x| <= a, |y| <= b, |z| <= c: h(n) = a|nx| + b|ny| + c|nz|. For the normal of a face or an edge, r(n) is one of its corners.
+/// |x| <= a, |y| <= b, |z| <= c: h(n) = a|nx| + b|ny| + c|nz|. For the normal of a face or an edge, r(n) is one of its vertices.
 class SUPERNORMAL_API Box final : public Shape {
  public:
-  /// Half-lengths in m, in [0, 1e30]; std::invalid_argument otherwise.
+  /// `half_lengths` in m, each in [0, 1e30]; std::invalid_argument otherwise.
   explicit Box(const Vector3& half_lengths);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_hessian() const override { return true; }
   bool has_kinks() const override { return true; }
-  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool is_symmetric() const override { return true; }
   bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return half_lengths_; }

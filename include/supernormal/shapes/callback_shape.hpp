@@ -7,19 +7,23 @@
 
 namespace supernormal {
 
-/// A convex body given by its support function and boundary point, and its Hessian if the program has it. (In C++ deriving from
-/// Shape does the same; this is for functions that come from elsewhere, such as the C interface.)
+/// A convex body given by its support function and boundary point, and its Hessian if the program has it. In C++ a class derived
+/// from Shape does the same. This class is for functions from elsewhere, such as the C interface.
 class SUPERNORMAL_API CallbackShape final : public Shape {
  public:
   using Support = std::function<double(const Vector3& n)>;   ///< h(n), m
   using Point = std::function<Vector3(const Vector3& n)>;    ///< r(n), m
   using Hessian = std::function<Matrix3(const Vector3& n)>;  ///< H(n), m
 
-  /// `hessian` may be empty. The functions are tried in 26 directions (to the faces, edges and corners of a cube): finite
-  /// results, a size in [1e-30, 1e30] m, |n.r - h| <= 1e-6 of the size, h(n) + h(-n) >= 2e-30 m, no point farther than 1e-6 of
-  /// the size outside a supporting plane, a symmetric Hessian with H n = 0 and no negative radius, to 1e-6 of its largest entry.
-  /// std::invalid_argument otherwise, with the direction, the value and what was expected. Some 650 directions more look for the
-  /// body's sharpest edges.
+  /// `hessian` may be empty. The functions are tested in 26 directions, to the faces, edges and vertices of a cube. The conditions
+  /// are:
+  ///   - the results are finite, and the size is in [1e-30, 1e30] m;
+  ///   - |n.r - h| <= 1e-6 of the size, and h(n) + h(-n) >= 2e-30 m;
+  ///   - no point is farther than 1e-6 of the size outside a supporting plane;
+  ///   - the Hessian is symmetric, H n = 0, and no radius is negative, all to 1e-6 of its largest entry.
+  ///
+  /// Throws std::invalid_argument otherwise, with the direction, the value and the condition. About 650 more directions estimate
+  /// the body's sharpest edges.
   CallbackShape(Support support, Point point, Hessian hessian = {});
 
   /// Without a Hessian, Order::Hessian delivers h and r and leaves H unchanged.
@@ -28,8 +32,8 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
   Vector3 half_extents() const override { return half_extents_; }
   double bounding_radius() const override { return bounding_radius_; }
 
-  /// An estimate from boundary points. Solvers need it to know how sharp the body is; an edge away from the nine great circles
-  /// that are sampled, and shorter than the distance between two of them, may be missed.
+  /// An estimate from boundary points. Solvers need it as a measure of the body's sharpness. It may miss an edge that is off the
+  /// nine sampled great circles and shorter than the distance between two of them.
   double min_curvature_radius_estimate() const override { return min_curvature_radius_; }
 
  private:

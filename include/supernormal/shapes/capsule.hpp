@@ -9,13 +9,13 @@ namespace supernormal {
 /// For a normal of the side, r(n) is at one of the two ends.
 class SUPERNORMAL_API Capsule final : public Shape {
  public:
-  /// Both in m, in [0, 1e30]; std::invalid_argument otherwise. A radius of 0 makes it a segment.
+  /// Both in m, in [0, 1e30]; std::invalid_argument otherwise. With a radius of 0 it is a segment.
   Capsule(double radius, double half_length);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_hessian() const override { return true; }
   bool has_kinks() const override { return half_length_ > 0; }
-  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool is_symmetric() const override { return true; }
   bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }

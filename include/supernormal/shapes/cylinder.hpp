@@ -5,8 +5,8 @@
 
 namespace supernormal {
 
-/// x^2 + y^2 <= radius^2, |z| <= half_length: h(n) = radius sqrt(nx^2 + ny^2) + half_length |nz|. For a normal of the side, r(n)
-/// is at one of the two ends; for that of a cap, it is the centre.
+/// x^2 + y^2 <= radius^2, |z| <= half_length: h(n) = radius sqrt(nx^2 + ny^2) + half_length |nz|. For a normal of the side, r(n) is
+/// at one of the two ends. For the normal of a cap, r(n) is the cap's centre.
 class SUPERNORMAL_API Cylinder final : public Shape {
  public:
   /// Both in m, in [0, 1e30]; std::invalid_argument otherwise.
@@ -15,7 +15,7 @@ class SUPERNORMAL_API Cylinder final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
   bool has_hessian() const override { return true; }
   bool has_kinks() const override { return true; }
-  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_symmetric() const override { return true; }
   bool surely_contains(const Vector3& point) const override;

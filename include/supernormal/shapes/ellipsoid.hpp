@@ -19,7 +19,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
   Vector3 half_extents() const override { return half_axes_; }
   double bounding_radius() const override { return half_extents().maxCoeff(); }
 
-  /// The smallest radius of curvature: c^2/a with c the smallest half-axis and a the largest.
+  /// The smallest radius of curvature: c^2/a with the smallest half-axis c and the largest a.
   double rolling_radius() const override;
   MassProperties mass_properties() const override;
 
@@ -27,7 +27,7 @@ class SUPERNORMAL_API Ellipsoid final : public Shape {
 
  private:
   Vector3 half_axes_;
-  Vector3 squares_;  // half_axes_ squared, m^2
+  Vector3 squares_;  // m^2; half_axes_ squared
 };
 
 }  // namespace supernormal

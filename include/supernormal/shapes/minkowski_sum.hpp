@@ -7,13 +7,13 @@
 
 namespace supernormal {
 
-/// All points p + q with p in one shape and q in the other. h, r and H are the sums of those of the two. (With a sphere the sum
-/// is Rounded; with a point, such as a Polytope of one point, the shape is moved there.) Its mass comes from
-/// Shape::mass_properties(): to 1e-10 when both are smooth, and without the volume behind flat faces, which relative_error
-/// accounts for. Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 1.7.
+/// All points p + q with p in one shape and q in the other. h, r and H are the sums of the two shapes' values. With a sphere the
+/// sum is Rounded. With a point, such as a Polytope of one point, the sum is the translated shape. Its mass properties come from
+/// Shape::mass_properties(): to 1e-10 if both shapes are smooth, and without the volume behind flat faces, which relative_error
+/// includes. (Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 1.7.)
 class SUPERNORMAL_API MinkowskiSum final : public Shape {
  public:
-  /// Neither may be null; std::invalid_argument otherwise.
+  /// Neither shape may be null; std::invalid_argument otherwise.
   MinkowskiSum(std::shared_ptr<const Shape> first, std::shared_ptr<const Shape> second);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
@@ -21,7 +21,7 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return first_->has_flat_faces() || second_->has_flat_faces(); }
   bool has_kinks() const override { return first_->has_kinks() || second_->has_kinks(); }
-  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_symmetric() const override { return first_->is_symmetric() && second_->is_symmetric(); }
   Vector3 half_extents() const override { return first_->half_extents() + second_->half_extents(); }

@@ -1,4 +1,4 @@
-// The norm (x^p + y^p)^(1/p) of two numbers that are not negative: the building block of superellipsoids.
+// The norm (x^p + y^p)^(1/p) of two nonnegative numbers: the building block of superellipsoids.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@ namespace supernormal {
 
 enum class Order;
 
-/// Value and derivatives of a PowerNorm at (x, y). The second derivatives and dx_over_x carry the factor `value`, which keeps them
+/// Value and derivatives of a PowerNorm at (x, y). The second derivatives and dx_over_x are multiplied by `value`, which keeps them
 /// finite at the origin: d2/dx2 = xx / value and so on.
 struct PowerNormJet {
   double value = 0;      ///< the norm
@@ -16,13 +16,13 @@ struct PowerNormJet {
   double dy = 0;         ///< (y/value)^(p-1)
   double dx_over_x = 0;  ///< value * dx / x, large but finite where p < 2 and x vanishes
   double xx = 0;         ///< value times the second derivative with respect to x
-  double xy = 0;         ///< value times the mixed one
-  double yy = 0;         ///< value times that with respect to y
+  double xy = 0;         ///< value times the mixed second derivative
+  double yy = 0;         ///< value times the second derivative with respect to y
 };
 
 class PowerNorm;
 
-/// A request: a norm, the point at which it is evaluated, and the result.
+/// A request: a norm, the point of the evaluation, and the result.
 struct PowerNormRequest {
   const PowerNorm* norm;  ///< the norm
   double x;               ///< not negative
@@ -36,11 +36,12 @@ struct PowerNorm3Request {
   std::array<double, 3> x;        ///< not negative
   double value = 0;               ///< the norm of x
   std::array<double, 3> slope{};  ///< first derivatives
-  std::array<double, 3> bend{};   ///< value times the second derivatives; the mixed ones are -(p - 1) slope[i] slope[j] / value
+  /// value times the second derivatives. The mixed ones are -(p - 1) slope[i] slope[j] / value.
+  std::array<double, 3> bend{};
 };
 
-/// The norm (x^p + y^p)^(1/p) from two powers, or from a square root for p = 2. The larger number is factored out, so that
-/// nothing overflows for any p.
+/// The norm (x^p + y^p)^(1/p) from two powers, or from a square root for p = 2. The larger number is factored out, so nothing
+/// overflows for any p.
 class PowerNorm {
  public:
   /// The norm with p = exponent.
@@ -52,25 +53,25 @@ class PowerNorm {
   /// The norm of x and y, which are not negative.
   double value(double x, double y) const;
 
-  /// Value and first derivatives. At the origin, where the direction is undefined, they are those for x = y.
+  /// Value and first derivatives. At the origin, where the direction is undefined, they are the values for x = y.
   void gradient(double x, double y, PowerNormJet& jet) const;
 
-  /// k^(p-1): the ratio of the derivative with respect to one number to that with respect to another that is 1/k times as large.
+  /// k^(p-1): the ratio of the derivatives with respect to two numbers whose ratio is k.
   double slope(double k) const;
 
-  /// Value, first and second derivatives: all of PowerNormJet.
+  /// Value, first and second derivatives: all members of PowerNormJet.
   void curvature(double x, double y, PowerNormJet& jet) const;
 
-  /// Answers one, two or four requests up to `order`. Two side by side take two thirds of the time of two in sequence: a power, a
-  /// logarithm and an exponential wait for one another, but not for those of the other norm.
+  /// Answers one, two or four requests up to `order`. Two requests together take two thirds of the time of two in sequence: the
+  /// power, logarithm and exponential of one norm wait for each other, but not for the other norm.
   template <std::size_t kCount>
   static void evaluate_requests(std::array<PowerNormRequest, kCount>& requests, Order order);
 
-  /// The same for three numbers, which must be plain: this takes one root less than two nested norms.
+  /// The same for three numbers, which must be plain. This takes one root less than two nested norms.
   template <std::size_t kCount>
   static void evaluate_requests(std::array<PowerNorm3Request, kCount>& requests, Order order);
 
-  /// Whether none of three numbers vanishes beside the others, so that no derivative has to be kept finite.
+  /// Whether none of three numbers vanishes beside the others. Then every derivative is finite without special care.
   static bool is_plain(double x, double y, double z);
 
   double p_minus_1() const { return p_minus_1_; }  ///< p - 1, without cancellation

@@ -7,10 +7,10 @@
 
 namespace supernormal {
 
-/// The Minkowski sum of a shape and a sphere: h + radius, r + radius n; every radius of curvature grows by `radius`.
+/// The Minkowski sum of a shape and a sphere: h + radius, r + radius n. Every radius of curvature increases by `radius`.
 class SUPERNORMAL_API Rounded final : public Shape {
  public:
-  /// `core` must not be null; radius in m, in [0, 1e30]; std::invalid_argument otherwise.
+  /// `core` must not be null; `radius` in m, in [0, 1e30]; std::invalid_argument otherwise.
   Rounded(std::shared_ptr<const Shape> core, double radius);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
@@ -18,7 +18,7 @@ class SUPERNORMAL_API Rounded final : public Shape {
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return core_->has_flat_faces(); }
   bool has_kinks() const override { return core_->has_kinks(); }
-  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const override;
+  void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
   bool is_round() const override { return core_->is_round(); }
   bool is_symmetric() const override { return core_->is_symmetric(); }

@@ -5,10 +5,10 @@
 
 namespace supernormal {
 
-/// h(n) = radius. A sphere of radius 0 is a point, so that the distance of a point from a body is a query of two bodies.
+/// h(n) = radius. A sphere of radius 0 is a point. So the distance of a point from a body is a query of two bodies.
 class SUPERNORMAL_API Sphere final : public Shape {
  public:
-  /// Radius in m, in [0, 1e30]; std::invalid_argument otherwise.
+  /// `radius` in m, in [0, 1e30]; std::invalid_argument otherwise.
   explicit Sphere(double radius);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;

@@ -12,14 +12,14 @@ namespace supernormal {
 
 /// (|x/a|^delta + |y/b|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 in the body's frame.
 ///
-/// With the dual exponents p = delta/(delta-1) and q = epsilon/(epsilon-1) the support function is two nested norms,
-///     t = (|a nx|^p + |b ny|^p)^(1/p),   h = (t^q + |c nz|^q)^(1/q),
-/// evaluated with the larger term factored out, so that nothing over- or underflows (lib/shapes/README.md). The printed function
-/// of Roemer's paper has a misprinted exponent; this one satisfies the implicit equation.
+/// With the dual exponents p = delta/(delta-1) and q = epsilon/(epsilon-1) the support function is two nested norms:
+///     t = (|a nx|^p + |b ny|^p)^(1/p),   h = (t^q + |c nz|^q)^(1/q).
+/// The larger term is factored out, so nothing over- or underflows (lib/shapes/README.md). The function printed in Roemer's paper
+/// has a misprinted exponent. This one satisfies the implicit equation.
 class SUPERNORMAL_API Superellipsoid final : public Shape {
  public:
   static constexpr double kMinExponent = 1.01;  ///< the smallest exponent
-  static constexpr double kMaxExponent = 1000;  ///< the largest
+  static constexpr double kMaxExponent = 1000;  ///< the largest exponent
 
   /// Half-axes in m, finite and in [1e-30, 1e30]; exponents in [kMinExponent, kMaxExponent]; std::invalid_argument otherwise.
   Superellipsoid(const Vector3& half_axes, double delta, double epsilon);
@@ -34,15 +34,15 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
     Jet* jet;                    ///< the result
   };
 
-  /// Evaluates two bodies in two thirds of the time that two calls of evaluate() take, with the same digits.
+  /// Evaluates two bodies in two thirds of the time of two calls of evaluate(), with the same digits.
   static void evaluate_both(const EvalRequest& request1, const EvalRequest& request2, Order order);
 
   /// Evaluates four normals in half of the time, with the same digits.
   static void evaluate_four(const std::array<EvalRequest, 4>& requests, Order order);
   const Superellipsoid* as_superellipsoid() const override { return this; }
 
-  /// Moves the boundary point and takes the normal there (the gradient of the implicit function): on a flat face, r is a steep
-  /// power of n but n is a gentle power of r.
+  /// Moves the boundary point and takes the normal there, the gradient of the implicit function. On a flat face r is a high power
+  /// of n, so r changes steeply with n; n changes slowly with r.
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
   bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
   bool has_axis_aligned_faces() const override { return true; }
@@ -61,7 +61,7 @@ class SUPERNORMAL_API Superellipsoid final : public Shape {
   double epsilon() const { return epsilon_; }              ///< exponent of the meridian
 
  private:
-  // The caps of a superellipsoid with exponents up to this are wider than an ellipsoid's by at most 0.21 of the body's width.
+  // With exponents up to this, the caps of a superellipsoid are wider than an ellipsoid's by at most 0.21 of the body's width.
   static constexpr double kMostRound = 3;
 
   template <std::size_t kCount>

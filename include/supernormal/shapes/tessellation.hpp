@@ -1,4 +1,4 @@
-// A closed mesh of a smooth convex body, through its normals.
+// A closed mesh of a convex body, from its normals.
 #pragma once
 
 #include <array>
@@ -10,24 +10,23 @@
 
 namespace supernormal {
 
-/// Triangles whose corners are boundary points of a body, anticlockwise as seen from outside.
+/// Triangles between boundary points of a body, counter-clockwise seen from outside.
 struct Tessellation {
   std::vector<Vector3> points;                          ///< m, in the body's frame
   std::vector<Vector3> normals;                         ///< unit, outward; of the points
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners of each, numbers of points
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< the vertices of each, as indices into points
 };
 
-/// A mesh of `shape` whose edges are no farther than `chord_error` (m) from the boundary; its corners are on the boundary, and it
-/// is closed.
+/// A closed mesh of `shape`. Its vertices are on the boundary, and its edges are at most `chord_error` (m) away from it.
 ///
-/// The corners are r(n) for normals n that start as those of an octahedron. An edge is halved, at the normal between those of its
-/// ends, as long as the boundary between them may be farther away than allowed: it lies below the tangent planes of both ends, so
-/// that with the angles a1 and a2 of these to an edge of length l the distance is at most l / (cot a1 + cot a2). An edge decides by
-/// itself, so that the triangles on both sides agree and the mesh stays closed. A flat face, whose normals hardly differ, is
-/// spanned by few triangles, and a sharp edge, which holds most normals, is followed as it bends.
+/// The vertices are r(n). The normals n start with the vertices of an octahedron. An edge is halved, at the normal between the
+/// normals of its ends, as long as the boundary between them may be farther away than allowed. The boundary is below the tangent
+/// planes of both ends. So with the angles a1 and a2 between these planes and an edge of length l, the distance is at most l / (cot
+/// a1 + cot a2). Each edge decides by itself, so the triangles on both sides agree and the mesh stays closed. A flat face has
+/// nearly one normal, and few triangles. A sharp edge has most normals, and the mesh follows it as it bends.
 ///
-/// Throws std::invalid_argument when chord_error is not in [kLeastChordError times the body's largest half-extent, inf): a sphere
-/// then has four million triangles.
+/// Throws std::invalid_argument if chord_error is not in [kLeastChordError times the body's largest half-extent, inf). At the lower
+/// end a sphere has four million triangles.
 SUPERNORMAL_API Tessellation tessellate(const Shape& shape, double chord_error);
 
 /// The smallest chord error, in units of the largest half-extent.

@@ -57,7 +57,7 @@ LocalModel ModelStep::local_model(const GapJet& jet, const BfgsHessian& bfgs) co
 Step ModelStep::propose(const GapJet& jet, const ActiveVertices& active, const BfgsHessian& bfgs, double radius) {
   leaves_face_ = false;
   const LocalModel local = local_model(jet, bfgs);
-  return gap_.shape2().has_kinks() ? kinked_step(jet, local, active, radius) : smooth_step(jet, local, radius);
+  return gap_.shape2().has_kinks() ? nonsmooth_step(jet, local, active, radius) : smooth_step(jet, local, radius);
 }
 
 Step ModelStep::smooth_step(const GapJet& jet, const LocalModel& local, double radius) {
@@ -70,7 +70,7 @@ Step ModelStep::smooth_step(const GapJet& jet, const LocalModel& local, double r
   return step;
 }
 
-Step ModelStep::kinked_step(const GapJet& jet, const LocalModel& local, const ActiveVertices& active, double radius) {
+Step ModelStep::nonsmooth_step(const GapJet& jet, const LocalModel& local, const ActiveVertices& active, double radius) {
   const std::span<const Piece> pieces = vertices_.pieces(jet, active, local.plane1);
   const StrictComplementarity complementarity(gap_.rounding(), gap_.length_unit());
   PiecewiseModel model{pieces, complementarity.reduced_hessian(local.model.A, pieces)};

@@ -50,7 +50,7 @@ class ModelStep {
   };
 
   Step smooth_step(const GapJet& jet, const LocalModel& local, double radius);
-  Step kinked_step(const GapJet& jet, const LocalModel& local, const ActiveVertices& active, double radius);
+  Step nonsmooth_step(const GapJet& jet, const LocalModel& local, const ActiveVertices& active, double radius);
   Target target_of(const GapJet& jet, const LocalModel& local, const PiecewiseModel::Peak& peak, std::span<const Piece> pieces);
   enum class FlatStep {
     Taken,
