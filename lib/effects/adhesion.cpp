@@ -7,10 +7,10 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr double kLayer = 1e-4;  // depth at which rigid contacts stick, relative to the mean half-extent
+constexpr double kLayer = 1e-4;  // the depth at which rigid contacts stick, relative to the mean half-extent
 
-// ODE pushes overlaps out to nothing, and rounding would then part the bodies. So each rigid contact that sticks is pushed only to
-// a layer of this depth, and may sink into it.
+// ODE pushes rigid contacts apart to depth 0, where rounding would separate the bodies. So each rigid contact that sticks is only
+// pushed to a layer of this depth. It may sink deeper into the layer.
 void keep_in_touch(Patch& patch) {
   const double layer = kLayer * std::min(mean_half_extent(patch.geom1()), mean_half_extent(patch.geom2()));
   const dBodyID body = patch.body1 != nullptr ? patch.body1 : patch.body2;
@@ -20,12 +20,12 @@ void keep_in_touch(Patch& patch) {
 
 }  // namespace
 
-// A contact joint cannot pull, so the attraction is an external force that the joint has to hold.
+// A contact joint cannot pull. So the attraction is an external force, and the joint carries the reaction.
 void add_adhesion(const PairMaterial& pair, Patch& patch) {
   const dBodyID body1 = patch.body1;
   const dBodyID body2 = patch.body2;
   const auto is_awake = [](dBodyID body) { return body != nullptr && dBodyIsEnabled(body) != 0; };
-  // ODE keeps the forces on a sleeping body until it wakes.
+  // ODE would keep the forces on a sleeping body until it wakes.
   if (!is_awake(body1) && !is_awake(body2)) return;
   if ((pair.surface.mode & dContactSoftCFM) == 0) keep_in_touch(patch);
   const Vector3 pull = -pair.pull_off * patch.normal();

@@ -12,8 +12,8 @@
 namespace supernormal::effects {
 namespace {
 
-/// Applies a drag of `coefficient` (N s/m) against the velocity that the step would end with, so that it brings the body to rest
-/// at most.
+/// Applies a drag of `coefficient` (N s/m) against the velocity at the end of the step. So the drag brings the body to rest at
+/// most.
 void add_drag(dBodyID body, double coefficient, double step) {
   dMass mass;
   dBodyGetMass(body, &mass);
@@ -22,7 +22,7 @@ void add_drag(dBodyID body, double coefficient, double step) {
   dBodyAddForce(body, ode::to_real(force.x()), ode::to_real(force.y()), ode::to_real(force.z()));
 }
 
-/// The direction of motion in the frame of a geom; the x-axis if the body does not move.
+/// The unit direction of motion in the geom's frame; the x-axis for a body at rest.
 Vector3 heading(dBodyID body, dGeomID geom) {
   const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(body));
   const double speed = velocity.norm();
@@ -44,7 +44,7 @@ BodyForces::BodyForces(const std::vector<Effect>& list, double step) : step_(ste
       passes_.push_back({effect.index(), &BodyForces::apply_buoyancy});
     }
   }
-  // Drag passes come after buoyancy, because drag acts on the velocity that the other forces lead to.
+  // Drag passes come after buoyancy, because drag acts on the velocity that results from the other forces.
   if (quadratic_drag_) passes_.push_back({drag, &BodyForces::apply_quadratic_drag});
   if (stokes_drag_) passes_.push_back({stokes, &BodyForces::apply_stokes_drag});
 }
@@ -72,7 +72,7 @@ template <typename Force>
 unsigned long long BodyForces::visit(const Force& force) {
   unsigned long long visited = 0;
   for (const Entry& entry : bodies_) {
-    // ODE keeps the forces on a sleeping body until it wakes.
+    // ODE would keep the forces on a sleeping body until it wakes.
     if (dBodyIsEnabled(entry.body) == 0) continue;
     ++visited;
     force(entry);

@@ -1,4 +1,4 @@
-// Forces on bodies; each listed effect makes one pass over them.
+// Forces on bodies: each listed effect makes one pass over the added bodies.
 #pragma once
 
 #include <ode/ode.h>
@@ -22,7 +22,7 @@ class BodyForces {
   void add(dBodyID body);
   void remove(dBodyID body);
 
-  /// A pass, which returns the number of bodies that it visited, those that are awake.
+  /// A pass of one effect over the awake bodies; `run` returns the number of bodies that it visited.
   struct Listed {
     EffectIndex effect;
     unsigned long long (BodyForces::*run)();
@@ -30,11 +30,11 @@ class BodyForces {
   const std::vector<Listed>& passes() const { return passes_; }
 
  private:
-  /// A geom of ours on a body; a body may have several.
+  /// One of our geoms on a body; a body may have several.
   struct Part {
     dGeomID geom;
     const Shape* shape;
-    double surface = 0;                               // m^2, for Stokes drag
+    double surface = 0;                               // m^2; for Stokes drag
     std::optional<SubmergedVolume> submerged_volume;  // for buoyancy
   };
   struct Entry {

@@ -1,12 +1,15 @@
 // Springs and dampers as rows of ODE's solver.
 //
-// A row with softness cfm and target velocity u holds v + cfm f = u for the velocity v after the step: a force f = A - B v with B
-// = 1 / cfm and A = B u. ODE's soft ERP and CFM make this the implicit Euler method. Here A is the force at the start of the step
-// and B only the new half of the damper. Since ODE moves positions with the new velocity, this is the leapfrog, which adds no
-// damping. It is stable for s = h^2 k / m < 4, with m the mass of the contact, and a contact takes pi / sqrt(s) steps. With A -
-// theta h k v, theta from 0 (leapfrog) to 1 (implicit Euler), it is stable for s (1 - 2 theta) < 4 and damped by 1 / (1 + theta
-// s) a step. theta = (s - limit) / (s + 1) begins where a contact takes ten steps, is stable for any s, also where a body has ten
-// such contacts at once, and lets no impact gain more than 0.5 %, wherever in a step it begins.
+// A row with softness cfm and target velocity u enforces v + cfm f = u, where v is the velocity after the step. So its force is
+// f = A - B v with B = 1 / cfm and A = B u. ODE's soft ERP and CFM make this the implicit Euler method. Here A is the force at the
+// start of the step, and B is only the implicit half of the damper. ODE moves positions with the new velocity. So this is the
+// leapfrog method, which adds no damping. Let m be the mass of the contact and s = h^2 k / m. Leapfrog is stable for s < 4, and a
+// contact lasts pi / sqrt(s) steps.
+//
+// With A - theta h k v the method goes from leapfrog (theta = 0) to implicit Euler (theta = 1). It is stable for
+// s (1 - 2 theta) < 4, and damps by 1 / (1 + theta s) a step. theta = (s - limit) / (s + 1) becomes positive where a contact lasts
+// ten steps. It is stable for any s, also for a body with ten such contacts at once. No impact gains more than 0.5 %, wherever in a
+// step it begins.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,17 +23,18 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr double kLeastSteps = 10;  // number of steps that a contact, half a period, should last
+constexpr double kLeastSteps = 10;  // steps; a contact, half a period of the spring, should last this long
 constexpr double kStiffest = (std::numbers::pi / kLeastSteps) * (std::numbers::pi / kLeastSteps);
-constexpr double kLeastShare = 1e-6;  // smallest B, in mass / step: it stands for 0, a rigid row, and ODE's solver can divide by it
+// Least B, in mass / step. The row is then as good as rigid, and ODE's solver can still divide by B.
+constexpr double kLeastDamper = 1e-6;
 
 struct Spring {
-  double force;    ///< N, at the greatest depth
+  double force;    ///< N, at the largest depth
   double tangent;  ///< N/m
   double damping;  ///< N s/m
 };
 
-/// kg; the mass that the spring moves, whose force acts where the depths have their centre.
+/// kg; the effective mass of the contact at the point where the spring's force acts, the depth-weighted mean of the contacts.
 double effective_mass(const Patch& patch) {
   const Vector3 point = patch.centre_of_depth();
   const Vector3 n = patch.normal();
@@ -38,7 +42,7 @@ double effective_mass(const Patch& patch) {
   return mobilities > 0 ? 1 / mobilities : 0;
 }
 
-/// Puts contacts that carry no force behind the others.
+/// Moves contacts that carry no force behind the others.
 void leave_out_idle(double damping, Patch& patch) {
   if (damping > 0) return;
   const auto carries = [](const dContact& contact) { return contact.geom.depth > 0; };
@@ -53,7 +57,7 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
   const double stiffness = mass > 0 ? h * h * spring.tangent / mass : 0;
   const double implicit = std::max(0.0, (stiffness - kStiffest) / (stiffness + 1));
   if (implicit > 0) patch.coarse = patch.kept;
-  // A damper so strong that it would reverse the velocity within the step is made fully implicit.
+  // A stronger damper would reverse the velocity within the step. It is made fully implicit.
   const double new_half = spring.damping * h > 2 * mass ? 1 - mass / (spring.damping * h) : 0.5;
   const Vector3 n = patch.normal();
   for (std::size_t k = 0; k < patch.contacts.size(); ++k) {
@@ -63,7 +67,7 @@ void set_rows(const Spring& spring, double mass, Patch& patch) {
     const double share = depths > 0 ? contact.geom.depth / depths : 0;
     const double damper = spring.damping > 0 ? patch.fraction_at(k) * spring.damping : 0;
     const double A = share * spring.force - (1 - new_half) * damper * velocity;
-    const double B = std::max(share * implicit * h * spring.tangent + new_half * damper, kLeastShare * mass / h);
+    const double B = std::max(share * implicit * h * spring.tangent + new_half * damper, kLeastDamper * mass / h);
     contact.surface.soft_cfm = ode::to_real(B > 0 ? 1 / B : 0);
     contact.surface.motionN = ode::to_real(B > 0 ? A / B : 0);
   }
@@ -84,8 +88,8 @@ void set_hertz(const PairMaterial& pair, Patch& patch) {
   const ContactCurvature curvature = find_contact_curvature(curvature_of(geom1, -n) + curvature_of(geom2, n), n);
   const double depth = patch.greatest_depth();
   const double width = std::min(mean_half_extent(geom1), mean_half_extent(geom2));
-  Spring spring{2 * pair.elastic_modulus * width * depth, 2 * pair.elastic_modulus * width, 0};  // force of the flat punch
-  // Hertz's ellipses that are longer than a thousand times their width count as straight lines.
+  Spring spring{2 * pair.elastic_modulus * width * depth, 2 * pair.elastic_modulus * width, 0};  // the force of the flat punch
+  // Beyond an aspect ratio of a thousand, Hertz's ellipse counts as a line contact.
   const double smaller = std::max(curvature.smaller, 1e-6 * curvature.larger);
   if (smaller > 0 && depth > 0) {
     const double radius = 1 / std::sqrt(smaller * curvature.larger);

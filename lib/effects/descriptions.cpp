@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kNoPass = "none; ODE does it";
 
-/// An effect without a specialization does not compile.
+/// An effect without a specialization must not compile.
 template <typename E>
 constexpr Description kDescription = E::has_no_description();
 
@@ -68,11 +68,11 @@ constexpr auto all(std::index_sequence<Indices...> /*indices*/) {
 
 constexpr auto kDescriptions = all(std::make_index_sequence<std::variant_size_v<Effect>>());
 
-constexpr bool is_told(const char* text) { return text != nullptr && !std::string_view(text).empty(); }
+constexpr bool has_text(const char* text) { return text != nullptr && !std::string_view(text).empty(); }
 
 constexpr bool are_complete() {
   for (const Description& each : kDescriptions) {
-    if (!is_told(each.name) || !is_told(each.parameters) || !is_told(each.passes) || !is_told(each.source)) return false;
+    if (!has_text(each.name) || !has_text(each.parameters) || !has_text(each.passes) || !has_text(each.source)) return false;
   }
   return true;
 }

@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Sets one parameter of the world for each effect of the world.
+/// Sets the world's parameters for the effects that ODE itself applies.
 class WorldWriter {
  public:
   WorldWriter(dWorldID world, double step) : world_(world), step_(step) {}
@@ -30,7 +30,7 @@ class WorldWriter {
     dWorldSetGravity(world_, ode::to_real(e.acceleration.x()), ode::to_real(e.acceleration.y()), ode::to_real(e.acceleration.z()));
   }
   void operator()(const Damping& e) const {
-    // ODE multiplies by 1 - scale in every step in which a velocity is above the threshold.
+    // In every step ODE multiplies a velocity above the threshold by 1 - scale.
     dWorldSetLinearDampingThreshold(world_, 0);
     dWorldSetAngularDampingThreshold(world_, 0);
     dWorldSetLinearDamping(world_, ode::to_real(-std::expm1(-e.linear * step_)));
@@ -59,8 +59,8 @@ std::vector<Effect> validated(const std::vector<Effect>& list) {
   return list;
 }
 
-/// Moves all contacts of the region of the first one to the front, in their order, and returns how many they are. Colliders list a
-/// region's contacts one after the other as a rule, but those of a mesh need not.
+/// Moves all contacts of the first contact's region to the front, in their order, and returns their number. Colliders usually list
+/// the contacts of a region one after the other, but the contacts of a mesh may be interleaved.
 std::size_t gather_region(std::span<dContact> contacts) {
   const dContact& first = contacts.front();
   const auto end = std::ranges::find_if_not(contacts, [&](const dContact& contact) { return is_same_region(first, contact); });
@@ -69,14 +69,14 @@ std::size_t gather_region(std::span<dContact> contacts) {
   return static_cast<std::size_t>(rest - contacts.begin());
 }
 
-/// Moves the contacts that are ahead of touch behind the others, and returns how many the others are.
+/// Moves the contacts ahead of touch behind the others, and returns the number of the others.
 std::size_t put_ahead_last(std::span<dContact> contacts) {
   const auto touches = [](const dContact& contact) { return !(contact.geom.depth < 0); };
   if (std::ranges::all_of(contacts, touches)) return contacts.size();
   return static_cast<std::size_t>(std::stable_partition(contacts.begin(), contacts.end(), touches) - contacts.begin());
 }
 
-/// Lets all geoms of ours on a body look ahead.
+/// Makes all our geoms on a body look ahead by `time` (s).
 void look_ahead(dBodyID body, double time) {
   bool has_ours = false;
   for (dGeomID geom = dBodyGetFirstGeom(body); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
@@ -103,7 +103,7 @@ struct Effects::State {
         is_speculative(has<SpeculativeContacts>(list)),
         speculative(step) {}
 
-  /// Does a piece of work and adds its time to that of an effect, if times are measured.
+  /// Runs `work` and, if times are measured, adds its time to the effect's total.
   template <typename Work>
   void timed(EffectIndex effect, const Work& work) {
     if (!is_measuring) return work();
@@ -126,7 +126,7 @@ struct Effects::State {
   std::array<unsigned long long, std::variant_size_v<Effect>> visits{};
 };
 
-// Runs the passes on each region of contact; contacts to be attached move to the front.
+// Runs the passes on each region of contact, and moves the contacts to attach to the front.
 int Effects::State::run_passes(PairMaterial& pair, std::span<dContact> contacts, dBodyID body1, dBodyID body2) {
   std::size_t kept = 0;
   for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
@@ -174,7 +174,8 @@ int Effects::set_up_contacts(std::span<dContact> contacts, const Side& side1, co
   int kept = pair.passes.empty() ? static_cast<int>(touching.size()) : state_->run_passes(pair, touching, side1.body, side2.body);
   if (pair.is_speculative && !ahead.empty()) {
     state_->set_up_ahead(pair, ahead, touching.empty(), side1.body, side2.body);
-    kept += static_cast<int>(ahead.size());  // no pass but that of a spring leaves out what touches
+    // No pass has left out a touching contact: only the pass of a spring does, and contacts with a spring are not speculative.
+    kept += static_cast<int>(ahead.size());
   }
   pair.contacts += static_cast<unsigned long long>(kept);
   return kept;

@@ -12,7 +12,7 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr double kWall = 1e-3;  // sine of the largest angle between the normal of a wall and the cross-section
+constexpr double kWall = 1e-3;  // sine of the largest angle between the wall's normal and the cross-section
 
 Matrix3 curvature_of_wall(double radius, const Vector3& axis, const Vector3& n) {
   const Vector3 around = axis.cross(n).normalized();

@@ -1,4 +1,4 @@
-// Curvature and size of a geom, as Hertz's contact needs them.
+// Curvature and size of a geom, for Hertz's contact.
 #pragma once
 
 #include <ode/ode.h>
@@ -7,11 +7,12 @@
 
 namespace supernormal::effects {
 
-/// The curvature of the geom's boundary at the point with outward normal n (world frame), 1/m. Among ODE's own geoms dSphere,
-/// dCapsule and dCylinder are curved; all others count as flat, and so do their edges, for which Hertz's theory has no answer.
+/// The curvature tensor of the geom's boundary at the point with outward unit normal n (world frame), 1/m. Among ODE's own geoms
+/// dSphere, dCapsule and dCylinder are curved. All others count as flat. Their edges do too, because Hertz's theory does not cover
+/// edges.
 Matrix3 curvature_of(dGeomID geom, const Vector3& n);
 
-/// m; the mean of the half-extents of a body that fits into a box, infinite for others.
+/// m; the mean half-extent of a geom; infinite for an unbounded one.
 double mean_half_extent(dGeomID geom);
 
 }  // namespace supernormal::effects

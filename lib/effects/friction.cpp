@@ -1,4 +1,5 @@
-// Coulomb friction within ODE's contact joint, whose two friction forces have separate limits: a rectangle in the tangent plane.
+// Coulomb friction within ODE's contact joint, which limits the two friction forces separately, to a rectangle in the tangent
+// plane.
 #include <cmath>
 
 #include "effects/slip.hpp"
@@ -6,21 +7,21 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr double kNoSlip = 1e-150;  // m/s; below, there is no direction
+constexpr double kNoSlip = 1e-150;  // m/s; a slower slip has no direction
 
-// Turns the first direction 45 degrees from the slip, so that the corner of ODE's square of forces lies against it.
+// Rotates fdir1 by 45 degrees from the slip. Then the vertex of ODE's square of forces opposes the slip.
 void align_corner(const Slip& slip, dContact& contact) {
   const Vector3 n = ode::to_vector(contact.geom.normal);
   const Vector3 u = slip.at(contact);
   const double speed = u.norm();
   const Vector3 along = speed > kNoSlip ? Vector3(u / speed) : n.unitOrthogonal();
-  // Rounding has left a component along n, which ODE would take for a slanting direction.
+  // Rounding leaves a component along n, and ODE would take fdir1 for oblique.
   Vector3 first = along + n.cross(along);
   first -= n.dot(first) * n;
   ode::from_vector(first.normalized(), contact.fdir1);
 }
 
-/// The direction in the world frame; it is fixed to the body or, without one, to the geom.
+/// The direction in the world frame. It is fixed to the body or, without a body, to the geom.
 Vector3 world_direction(const FrictionAxes& axes, const Patch& patch) {
   const Vector3& d = axes.direction;
   dVector3 world;
@@ -37,15 +38,15 @@ void set_ellipse(const FrictionAxes& axes, const Vector3& direction, const Slip&
   const Vector3 n = ode::to_vector(contact.geom.normal);
   Vector3 first = direction;
   first -= n.dot(first) * n;
-  // Seen along its own axis, the direction has no projection onto the surface, and any tangent will do.
+  // If the direction is along the normal, it has no projection onto the surface, and any tangent will do.
   if (first.norm() < 1e-6 * axes.direction.norm()) first = n.unitOrthogonal();
   first.normalize();
   const Vector3 u = slip.at(contact);
-  Shares shares = Shares::towards(axes.along * first.dot(u), axes.across * n.cross(first).dot(u));
-  if (axes.along == 0 || axes.across == 0) shares = {1, 1};  // a line in place of the ellipse
+  InscribedRectangle half_sides = InscribedRectangle::towards(axes.along * first.dot(u), axes.across * n.cross(first).dot(u));
+  if (axes.along == 0 || axes.across == 0) half_sides = {1, 1};  // the ellipse degenerates to a line
   ode::from_vector(first, contact.fdir1);
-  contact.surface.mu = ode::to_real(axes.along * shares.first);
-  contact.surface.mu2 = ode::to_real(axes.across * shares.second);
+  contact.surface.mu = ode::to_real(axes.along * half_sides.first);
+  contact.surface.mu2 = ode::to_real(axes.across * half_sides.second);
 }
 
 }  // namespace
@@ -61,8 +62,8 @@ void align_anisotropic_friction(const PairMaterial& pair, Patch& patch) {
   for (dContact& contact : patch.contacts) set_ellipse(pair.axes, direction, slip, contact);
 }
 
-// The axes are those of friction (fdir1), and torques have separate limits too. At rest, the bodies would be set rolling by the
-// torque of the force that pulls them along, about the axis n x slip.
+// The axes are the axes of friction (fdir1, fdir2), and ODE limits the two torques separately too. At rest, the force that pulls
+// the bodies along also sets them rolling, about the axis n x slip. `onset` is the angular velocity of this rolling.
 void align_rolling(const PairMaterial& pair, Patch& patch) {
   const Slip slip(patch);
   const Vector3 spin = spin_of(patch.body1) - spin_of(patch.body2);
@@ -76,14 +77,15 @@ void align_rolling(const PairMaterial& pair, Patch& patch) {
     const Vector3 first = ode::to_vector(contact.fdir1);
     double radius = INFINITY;
     for (const dBodyID body : {patch.body1, patch.body2}) {
-      if (body == nullptr || dBodyIsKinematic(body) != 0) continue;  // what is driven does not begin to roll
+      if (body == nullptr || dBodyIsKinematic(body) != 0) continue;  // a kinematic body does not begin to roll
       radius = std::min(radius, (ode::to_vector(contact.geom.pos) - ode::to_vector(dBodyGetPosition(body))).norm());
     }
     const Vector3 onset = radius > 0 && std::isfinite(radius) ? Vector3(n.cross(slip.at(contact)) / radius) : Vector3::Zero();
-    const Vector3 turn = spin + onset;
-    const Shares shares = Shares::towards(turn.dot(first), turn.dot(n.cross(first)));
-    contact.surface.rho = ode::to_real(pair.rolling * shares.first);
-    contact.surface.rho2 = ode::to_real(pair.rolling * shares.second);
+    const Vector3 angular_velocity = spin + onset;
+    const InscribedRectangle half_sides =
+        InscribedRectangle::towards(angular_velocity.dot(first), angular_velocity.dot(n.cross(first)));
+    contact.surface.rho = ode::to_real(pair.rolling * half_sides.first);
+    contact.surface.rho2 = ode::to_real(pair.rolling * half_sides.second);
   }
 }
 

@@ -1,4 +1,4 @@
-// Motion of bodies as the passes need it, and forces on them.
+// Motion of bodies, and forces on them, for the passes.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,7 +10,7 @@
 
 namespace supernormal::effects {
 
-/// m/s^2; the acceleration that is known before the step: by the forces so far and gravity. `body` may be 0, a wall.
+/// m/s^2; the acceleration known before the step, from gravity and the forces so far. 0 for `body` = 0, a wall.
 inline Vector3 acceleration_of(dBodyID body) {
   if (body == nullptr || dBodyIsKinematic(body) != 0) return Vector3::Zero();
   dMass mass;
@@ -28,7 +28,7 @@ inline Vector3 spin_of(dBodyID body) {
   return body == nullptr ? Vector3(Vector3::Zero()) : ode::to_vector(dBodyGetAngularVel(body));
 }
 
-/// 1/kg; by how much a unit impulse along n at `point` changes the velocity of the point along n.
+/// 1/kg; the change of velocity along n at `point` by a unit impulse along n there.
 inline double mobility(dBodyID body, const Vector3& point, const Vector3& n) {
   if (body == nullptr || dBodyIsKinematic(body) != 0) return 0;
   dMass mass;
@@ -39,7 +39,7 @@ inline double mobility(dBodyID body, const Vector3& point, const Vector3& n) {
   return 1 / double{mass.mass} + arm.dot(inertia.inverse() * arm);
 }
 
-/// Adds a force (N) at a point of the body; `body` may be 0, a wall.
+/// Adds a force (N) at `point`, in the world frame. Does nothing for `body` = 0, a wall.
 inline void add_force(dBodyID body, const Vector3& force, const Vector3& point) {
   if (body == nullptr) return;
   using ode::to_real;

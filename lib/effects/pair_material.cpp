@@ -14,7 +14,7 @@
 namespace supernormal::effects {
 namespace {
 
-constexpr Material kOther = -2;  // stands for all materials that are not listed
+constexpr Material kOther = -2;  // stands for every material that is not listed
 
 /// The entries of one effect in the list.
 template <typename E>
@@ -22,13 +22,13 @@ class Entries {
  public:
   explicit Entries(const std::vector<Effect>& list) : list_(list) {}
 
-  /// The entry that is listed for the pair itself.
+  /// The entry that is listed for the pair itself, or null.
   const E* between(Material a, Material b) const {
     return find([&](const MaterialSelector& on) {
       return on.is_pair() && ((on.first() == a && on.second() == b) || (on.first() == b && on.second() == a));
     });
   }
-  /// The entry that is listed for the material, or else for all.
+  /// The entry that is listed for the material, or else for all materials, or null.
   const E* of(Material m) const {
     const E* const own = own_of(m);
     return own != nullptr ? own : find([](const MaterialSelector& on) { return on.is_all(); });
@@ -61,7 +61,7 @@ Restitution combined(const Restitution& a, const Restitution& b) {
 }
 Adhesion combined(const Adhesion& a, const Adhesion& b) { return {geometric(a.pull_off, b.pull_off), {}}; }
 
-/// The entries that apply to the two materials of a pair; null where there is none. An entry for the pair applies to both.
+/// The entries that apply to the two materials of a pair, or null. An entry for the pair applies to both.
 template <typename E>
 struct Sides {
   const E* first;
@@ -75,7 +75,7 @@ Sides<E> find_sides(const std::vector<Effect>& list, Material a, Material b) {
   return {entries.of(a), entries.of(b)};
 }
 
-/// The combined values of an effect that both materials of a pair must have.
+/// The combined values of an effect. Empty if one of the two materials has no entry.
 template <typename E>
 std::optional<E> find_common(const std::vector<Effect>& list, Material a, Material b) {
   const auto [first, second] = find_sides<E>(list, a, b);
@@ -83,13 +83,13 @@ std::optional<E> find_common(const std::vector<Effect>& list, Material a, Materi
   return first->on.is_pair() ? *first : combined(*first, *second);
 }
 
-/// Writes the parameters of one ordered pair.
+/// Writes the parameters of one ordered pair of materials.
 class PairMaterialWriter {
  public:
   PairMaterialWriter(const std::vector<Effect>& list, Material a, Material b, PairMaterial& pair)
       : list_(list), a_(a), b_(b), pair_(pair) {}
 
-  // Adhesion comes first, because it adds to the forces that friction anticipates; springs come last, because they reorder the
+  // Adhesion comes first, because it adds to the forces that friction anticipates. Springs come last, because they reorder the
   // contacts.
   void write() {
     write_adhesion();
@@ -123,7 +123,8 @@ class PairMaterialWriter {
   void write_friction() {
     const auto found = find_common<Friction>(list_, a_, b_);
     if (!found) return;
-    // Approx1 makes mu a coefficient; without it ODE takes mu for a force in newtons. The square of forces fits into the circle.
+    // With Approx1 mu is a coefficient; without it ODE takes mu for a force in newtons. sqrt(0.5) makes the square of forces
+    // inscribed in the circle.
     pair_.surface.mode |= dContactApprox1 | dContactFDir1;
     pair_.surface.mu = pair_.surface.mu2 = ode::to_real(found->coefficient * std::sqrt(0.5));
     add<Friction>(2, align_friction, Acts::AlsoAhead);
@@ -146,7 +147,7 @@ class PairMaterialWriter {
     if (!found || (found->rolling == 0 && found->spinning == 0)) return;
     pair_.rolling = found->rolling;
     pair_.spinning = found->spinning;
-    // ODE makes a row without effect for a coefficient of 0, and none for a negative one.
+    // ODE makes a row without effect for a coefficient of 0, and no row for a negative coefficient.
     pair_.surface.mode |= dContactApprox1 | dContactRolling | dContactMu2;
     pair_.surface.rho = pair_.surface.rho2 = ode::to_real(found->rolling > 0 ? found->rolling : -1);
     pair_.surface.rhoN = ode::to_real(found->spinning > 0 ? found->spinning : -1);
@@ -194,13 +195,13 @@ class PairMaterialWriter {
     add<Hertz>(0, set_hertz);
   }
 
-  // A spring is not felt before touch.
+  // A spring exerts no force before touch, so its contacts are not speculative.
   void write_speculative_contacts() {
     const auto [first, second] = find_sides<SpeculativeContacts>(list_, a_, b_);
     pair_.is_speculative = first != nullptr && second != nullptr && pair_.spring == std::variant_npos;
   }
 
-  // The target velocity is given as it is (motionN); with a soft ERP of 0 ODE adds nothing for the depth.
+  // motionN is the target velocity itself: with a soft ERP of 0, ODE adds nothing for the depth.
   void make_soft(EffectIndex spring) {
     pair_.spring = spring;
     pair_.surface.mode |= dContactSoftERP | dContactSoftCFM | dContactMotionN;

@@ -15,7 +15,7 @@
 
 namespace supernormal::effects {
 
-/// The place of an effect in Effect, which is also its place in descriptions().
+/// The index of an effect in Effect and in descriptions().
 using EffectIndex = std::size_t;
 
 template <typename E>
@@ -33,42 +33,42 @@ struct PairMaterial;
 struct Pass {
   EffectIndex effect;
   void (*run)(const PairMaterial& pair, Patch& patch);
-  bool acts_ahead = false;  ///< whether contacts ahead of touch need it too; it then looks at each contact by itself
+  bool acts_ahead = false;  ///< whether contacts ahead of touch need the pass too; it must then treat each contact by itself
 };
 
-/// Coefficients of friction that depend on the direction of slip on one of the bodies.
+/// Coefficients of friction along and across a direction that is fixed to one of the bodies.
 struct FrictionAxes {
   double along = 0;
   double across = 0;
   Vector3 direction = Vector3::UnitX();
-  bool is_on_second = false;  ///< whether the direction is fixed to the body of geom.g2
+  bool is_on_second = false;  ///< whether the direction is fixed to the body of geom.g2, not geom.g1
 };
 
 struct PairMaterial {
-  dSurfaceParameters surface{};  ///< parameters that all contacts start from
+  dSurfaceParameters surface{};  ///< the parameters that all contacts start from
   FrictionAxes axes;
   double rolling = 0;                      ///< m
   double spinning = 0;                     ///< m
-  EffectIndex spring = std::variant_npos;  ///< the effect that makes the contact soft, if any
+  EffectIndex spring = std::variant_npos;  ///< the effect that makes the contact soft, or none
   double stiffness = 0;                    ///< N/m
   double damping = 0;                      ///< N s/m
   double elastic_modulus = 0;              ///< E*, Pa
   double damping_ratio = 0;                ///< b of Hertz's damper
   double pull_off = 0;                     ///< N
   double restitution = 0;
-  double threshold = 0;         ///< m/s; approach velocity above which there is restitution
-  bool is_speculative = false;  ///< whether contacts ahead of touch count
+  double threshold = 0;         ///< m/s; there is restitution above this approach velocity
+  bool is_speculative = false;  ///< whether contacts ahead of touch are attached
 
-  std::vector<Pass> passes;                             ///< passes that contacts need besides
-  std::vector<EffectIndex> listed;                      ///< effects that take part in these contacts
-  std::array<int, std::variant_size_v<Effect>> rows{};  ///< rows that each effect adds to a contact
+  std::vector<Pass> passes;                             ///< the passes that contacts also need
+  std::vector<EffectIndex> listed;                      ///< the effects that apply to these contacts
+  std::array<int, std::variant_size_v<Effect>> rows{};  ///< the rows that each effect adds to a contact
   unsigned long long contacts = 0;                      ///< contacts set up so far
-  unsigned long long ahead = 0;                         ///< those among them that were ahead of touch
+  unsigned long long ahead = 0;                         ///< how many of them were ahead of touch
   unsigned long long coarse = 0;
 };
 
-/// The parameters of all ordered pairs of materials: one row and one column for each material up to the largest that is listed,
-/// and one more for all others.
+/// The parameters of all ordered pairs of materials. There is one row and one column for each material up to the largest that is
+/// listed, and one more for all other materials.
 class PairMaterials {
  public:
   /// Throws std::invalid_argument when two effects of a pair exclude each other.
@@ -79,7 +79,7 @@ class PairMaterials {
 
  private:
   std::size_t slot(Material material) const {
-    const auto number = static_cast<std::size_t>(material);  // a negative one is a large number
+    const auto number = static_cast<std::size_t>(material);  // a negative number becomes a large one
     return number < size_ ? number : size_ - 1;
   }
   std::size_t size_ = 1;

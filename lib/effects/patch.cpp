@@ -10,8 +10,8 @@
 namespace supernormal::effects {
 namespace {
 
-// rad; ODE keeps the vertices of meshes in single precision, with errors of 6e-8 of their coordinates. These may be a thousand
-// times as large as a triangle.
+// rad; ODE keeps the vertices of meshes in single precision, with errors of 6e-8 of their coordinates. The coordinates may be a
+// thousand times as large as a triangle.
 constexpr double kSameNormal = 1e-4;
 
 }  // namespace
@@ -29,25 +29,26 @@ double Patch::greatest_depth() const {
   return depth;
 }
 
-// A vertex of a polygon is the outermost point in the directions of its normal cone: pi less the angle between its two sides.
+// A vertex of a polygon is the outermost point for the directions of its normal cone. The angle of the cone is pi less the interior
+// angle at the vertex.
 double Patch::fraction_at(std::size_t k) const {
   if (contacts.size() == 1) return 1;
   const TangentPlane plane = TangentPlane::at(normal());
   const Vector3 origin = ode::to_vector(contacts.front().geom.pos);
   const auto place = [&](const dContact& contact) { return plane.project(ode::to_vector(contact.geom.pos) - origin); };
   const Vector2 here = place(contacts[k]);
-  Vector2 first = Vector2::Zero();  // the direction to another contact, from which the angles to the others are measured
+  Vector2 first = Vector2::Zero();  // the direction to another contact, from which the other angles are measured
   double least = 0;
   double greatest = 0;
   int at_this_place = 0;
   for (const dContact& contact : contacts) {
-    const Vector2 way = place(contact) - here;
-    if (way.isZero(0)) {
+    const Vector2 to_other = place(contact) - here;
+    if (to_other.isZero(0)) {
       ++at_this_place;
     } else if (first.isZero(0)) {
-      first = way;
+      first = to_other;
     } else {
-      const double angle = std::atan2(first.x() * way.y() - first.y() * way.x(), first.dot(way));
+      const double angle = std::atan2(first.x() * to_other.y() - first.y() * to_other.x(), first.dot(to_other));
       least = std::min(least, angle);
       greatest = std::max(greatest, angle);
     }

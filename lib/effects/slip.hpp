@@ -1,4 +1,4 @@
-// The slip that a step would bring to a contact without friction, which friction opposes.
+// The slip of a contact that a step without friction would bring. Friction opposes it.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class Slip {
   explicit Slip(const Patch& patch)
       : body1_(patch.body1), body2_(patch.body2), gain_(patch.step * (acceleration_of(body1_) - acceleration_of(body2_))) {}
 
-  /// m/s; the tangential velocity of body 1 relative to body 2.
+  /// m/s; the tangential velocity of body 1 relative to body 2, world frame.
   Vector3 at(const dContact& contact) const {
     const Vector3 point = ode::to_vector(contact.geom.pos);
     const Vector3 n = ode::to_vector(contact.geom.normal);
@@ -28,12 +28,12 @@ class Slip {
   Vector3 gain_;
 };
 
-/// Shares of a limit for two perpendicular directions, whose squares sum to one: a rectangle in the unit circle whose corner is
-/// as near to (x, y) as possible while neither side is shorter than a tenth.
-struct Shares {
+/// The half-sides of a rectangle that is inscribed in the unit circle. Its vertex is as near as possible to the direction (x, y),
+/// but no half-side is shorter than 0.1. So no direction is left without friction.
+struct InscribedRectangle {
   double first, second;
 
-  static Shares towards(double x, double y) {
+  static InscribedRectangle towards(double x, double y) {
     constexpr double kLeast = 0.1;
     const double length = std::hypot(x, y);
     if (!(length > 1e-150)) return {std::sqrt(0.5), std::sqrt(0.5)};

@@ -1,12 +1,12 @@
 // Contacts ahead of touch as rows of ODE's solver.
 //
-// A row asks for a separating velocity of at least u after the step. With u = -gap / step the gap may close in the step, and no
-// more (Anitescu and Potra 1997). ODE's own restitution would add that target to e times the approach, and throw a body back by a
-// mixture of both. So a pair that will bounce within the step is brought to touch before it, and the row asks for the velocity with
-// which the bodies leave.
+// A row demands a separating velocity of at least u after the step. With u = -gap / step the gap may close in the step, and no more
+// (Anitescu and Potra 1997). ODE's own restitution would add u to e times the approach velocity, and throw the body back by a
+// mixture of both. So a pair that will bounce within the step is moved until it touches, before the step. The row then demands the
+// velocity with which the bodies leave.
 //
-// ODE adds forces to velocities and then moves with the new ones. So its steps lie on the parabola that has the velocity v + a h /
-// 2 where ODE has v. With the velocities of the parabola a ball on a plane keeps to e^2 times its height at any step.
+// ODE adds forces to velocities and then moves bodies with the new velocities. So its steps lie on a parabola with the velocity
+// v + a h / 2 where ODE has v. With the velocities of the parabola, a ball on a plane bounces to e^2 times its height at any step.
 #include "effects/speculative_contacts.hpp"
 
 #include <algorithm>
@@ -20,28 +20,30 @@
 namespace supernormal::effects {
 namespace {
 
-// Of the smallest half-extent: how deep a body may come in that bounces elsewhere in the same step. Its middle stays outside.
+// Relative to the smallest half-extent: the depth that a body may reach that bounces elsewhere in the same step. Its middle stays
+// outside.
 constexpr double kShallow = 0.5;
 
-/// How two points move relative to one another along the normal of a contact.
+/// The relative motion of two points along the normal of a contact.
 struct Separation {
   double gap;           // m
   double velocity;      // m/s, as ODE has it
   double acceleration;  // m/s^2
 
-  /// With both bodies where they are before their ways.
-  static Separation at(const dContact& contact, const Patch& patch, const Vector3& way1, const Vector3& way2) {
+  /// The contact is placed after the displacements (m); the bodies themselves have not moved yet.
+  static Separation at(const dContact& contact, const Patch& patch, const Vector3& displacement1, const Vector3& displacement2) {
     const Vector3 n = ode::to_vector(contact.geom.normal);
     const Vector3 point = ode::to_vector(contact.geom.pos);
-    return {-double{contact.geom.depth}, n.dot(velocity_at(patch.body1, point - way1) - velocity_at(patch.body2, point - way2)),
+    return {-double{contact.geom.depth},
+            n.dot(velocity_at(patch.body1, point - displacement1) - velocity_at(patch.body2, point - displacement2)),
             n.dot(acceleration_of(patch.body1) - acceleration_of(patch.body2))};
   }
 };
 
-/// The motion of a step until touch.
+/// The first touch within a step.
 struct Touch {
-  double time;   // s
-  double speed;  // m/s, of the approach
+  double time;   // s, from the start of the step
+  double speed;  // m/s; approach velocity at touch
 };
 
 std::optional<Touch> find_touch(const Separation& separation, double step) {
@@ -54,14 +56,14 @@ std::optional<Touch> find_touch(const Separation& separation, double step) {
   return Touch{2 * separation.gap / closing, speed};
 }
 
-/// How points leave that touch within the step.
+/// A bounce within the step.
 struct Bounce {
   double time;      // s, until touch
-  double approach;  // m/s, as ODE has it at the start of the step
-  double velocity;  // m/s, for ODE, with which they leave if they touch at the start of the step
+  double approach;  // m/s; ODE's approach velocity at the start of the step
+  double velocity;  // m/s; ODE's separating velocity, if the points touch at the start of the step
 };
 
-/// None for points that do not touch within the step, not fast enough, or would again.
+/// Empty if the points do not touch within the step, approach below the threshold, or would touch again.
 std::optional<Bounce> find_bounce(const PairMaterial& pair, const Separation& separation, double step) {
   const std::optional<Touch> touch = find_touch(separation, step);
   if (!touch || !(touch->speed > pair.threshold) || !(separation.velocity < 0)) return std::nullopt;
@@ -70,7 +72,7 @@ std::optional<Bounce> find_bounce(const PairMaterial& pair, const Separation& se
   return Bounce{touch->time, -separation.velocity, velocity};
 }
 
-/// Lets ODE's restitution give the contact its velocity, which a largest correcting velocity does not cut.
+/// Gives the contact its velocity by ODE's restitution, because dWorldSetContactMaxCorrectingVel does not limit restitution.
 void let_leave(dContact& contact, const Bounce& bounce) {
   contact.surface.mode |= dContactBounce;
   contact.surface.bounce = ode::to_real(bounce.velocity / bounce.approach);
@@ -78,7 +80,7 @@ void let_leave(dContact& contact, const Bounce& bounce) {
   contact.geom.depth = 0;
 }
 
-/// m, of the geoms of ours.
+/// m; of our geoms in the pair.
 double least_half_extent(const Patch& patch) {
   double least = std::numeric_limits<double>::infinity();
   for (const dGeomID geom : {patch.geom1(), patch.geom2()}) {
@@ -93,7 +95,7 @@ void let_close(dContact& contact, double gap, double step) {
   contact.geom.depth = 0;
 }
 
-/// 1/kg; 0 for what does not give way.
+/// 1/kg; 0 for a wall or a kinematic body.
 double inverse_mass(dBodyID body) {
   if (body == nullptr || dBodyIsKinematic(body) != 0) return 0;
   dMass mass;
@@ -103,35 +105,36 @@ double inverse_mass(dBodyID body) {
 
 }  // namespace
 
-/// Plans the ways of both bodies until `first` touches, `time` from now, and moves the contacts with them. No ways if one of the
-/// bodies has one already, or none gives way.
-SpeculativeSetup::Ways SpeculativeSetup::bring_to_touch(const dContact& first, double time, Patch& ahead) {
+/// Plans the displacements of both bodies until `first` touches, `time` (s) from now, and moves the contacts with them. Returns
+/// zero displacements if one of the bodies has a planned one, or if neither can move.
+SpeculativeSetup::Displacements SpeculativeSetup::bring_to_touch(const dContact& first, double time, Patch& ahead) {
   const double inverse1 = inverse_mass(ahead.body1);
   const double inverse2 = inverse_mass(ahead.body2);
   if (!is_free(ahead.body1) || !is_free(ahead.body2) || !(inverse1 + inverse2 > 0)) return {};
   const Vector3 n = ode::to_vector(first.geom.normal);
-  Vector3 way = double{first.geom.depth} * n;
+  Vector3 displacement = double{first.geom.depth} * n;
   if (inverse1 > 0 && inverse2 > 0) {
-    // One point of contact is right for the levers of both only where they touch.
+    // The contact has one point for both bodies. Its lever arms are right for both only where the bodies touch.
     const Vector3 velocity = ode::to_vector(dBodyGetLinearVel(ahead.body1)) - ode::to_vector(dBodyGetLinearVel(ahead.body2));
-    way += time * (velocity - n.dot(velocity) * n);
+    displacement += time * (velocity - n.dot(velocity) * n);
   }
-  const Ways ways = {inverse1 / (inverse1 + inverse2) * way, -inverse2 / (inverse1 + inverse2) * way};
-  if (inverse1 > 0) plan(ahead.body1, ways.first);
-  if (inverse2 > 0) plan(ahead.body2, ways.second);
-  // dCollide places a contact between both bodies by the same shares: it is to be where they touch.
+  const Displacements displacements = {inverse1 / (inverse1 + inverse2) * displacement,
+                                       -inverse2 / (inverse1 + inverse2) * displacement};
+  if (inverse1 > 0) plan(ahead.body1, displacements.first);
+  if (inverse2 > 0) plan(ahead.body2, displacements.second);
+  // dCollide divides the gap by the same fractions when it places a contact. So this is the place where the bodies touch.
   for (dContact& contact : ahead.contacts)
-    ode::from_vector(ode::to_vector(contact.geom.pos) + ways.first + ways.second, contact.geom.pos);
-  return ways;
+    ode::from_vector(ode::to_vector(contact.geom.pos) + displacements.first + displacements.second, contact.geom.pos);
+  return displacements;
 }
 
-// A body bounces once a step. What else it would meet is seen in the next step, with the velocity that it then has, and a plastic
-// contact would cost it that. So there it may come in a little.
+// A body bounces at most once a step. Its other contacts are found again in the next step, with its new velocity. A plastic contact
+// would take this velocity away. So the body may overlap a little there.
 void SpeculativeSetup::close_or_bounce(const PairMaterial& pair, Patch& ahead, bool may_approach) {
-  const auto bounce_of = [&](const dContact& contact, const Ways& ways) {
-    return find_bounce(pair, Separation::at(contact, ahead, ways.first, ways.second), step_);
+  const auto bounce_of = [&](const dContact& contact, const Displacements& displacements) {
+    return find_bounce(pair, Separation::at(contact, ahead, displacements.first, displacements.second), step_);
   };
-  Ways ways;
+  Displacements displacements;
   if (may_approach) {
     const dContact* first = nullptr;
     double time = 0;
@@ -139,15 +142,15 @@ void SpeculativeSetup::close_or_bounce(const PairMaterial& pair, Patch& ahead, b
       const std::optional<Bounce> bounce = bounce_of(contact, {});
       if (bounce && (first == nullptr || bounce->time < time)) first = &contact, time = bounce->time;
     }
-    if (first != nullptr) ways = bring_to_touch(*first, time, ahead);
+    if (first != nullptr) displacements = bring_to_touch(*first, time, ahead);
   }
-  const Vector3 way = ways.first - ways.second;
+  const Vector3 displacement = displacements.first - displacements.second;
   for (dContact& contact : ahead.contacts) {
-    const double gap = std::max(0.0, way.dot(ode::to_vector(contact.geom.normal)) - double{contact.geom.depth});
-    const std::optional<Bounce> bounce = bounce_of(contact, ways);
+    const double gap = std::max(0.0, displacement.dot(ode::to_vector(contact.geom.normal)) - double{contact.geom.depth});
+    const std::optional<Bounce> bounce = bounce_of(contact, displacements);
     if (!bounce) {
       let_close(contact, gap, step_);
-    } else if (way.isZero(0)) {
+    } else if (displacement.isZero(0)) {
       let_close(contact, gap + kShallow * least_half_extent(ahead), step_);
     } else {
       let_leave(contact, *bounce);
@@ -162,21 +165,21 @@ void SpeculativeSetup::set_up(const PairMaterial& pair, Patch& ahead, bool may_a
 }
 
 void SpeculativeSetup::approach() {
-  for (const auto& [body, way] : approaches_) {
-    const Vector3 place = ode::to_vector(dBodyGetPosition(body)) + way;
+  for (const auto& [body, displacement] : approaches_) {
+    const Vector3 place = ode::to_vector(dBodyGetPosition(body)) + displacement;
     dBodySetPosition(body, ode::to_real(place.x()), ode::to_real(place.y()), ode::to_real(place.z()));
   }
   approaches_.clear();
-  on_their_way_.clear();
+  displaced_.clear();
 }
 
-void SpeculativeSetup::plan(dBodyID body, const Vector3& way) {
-  approaches_.push_back({body, way});
-  on_their_way_.insert(body);
+void SpeculativeSetup::plan(dBodyID body, const Vector3& displacement) {
+  approaches_.push_back({body, displacement});
+  displaced_.insert(body);
 }
 
 void SpeculativeSetup::remove(dBodyID body) {
-  if (on_their_way_.erase(body) == 0) return;
+  if (displaced_.erase(body) == 0) return;
   std::erase_if(approaches_, [&](const Approach& approach) { return approach.body == body; });
 }
 

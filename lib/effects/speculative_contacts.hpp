@@ -1,4 +1,4 @@
-// Contacts ahead of touch.
+// Speculative contacts: contacts of bodies that do not touch yet.
 #pragma once
 
 #include <ode/ode.h>
@@ -16,36 +16,37 @@ class SpeculativeSetup {
   /// `step`: s.
   explicit SpeculativeSetup(double step) : step_(step) {}
 
-  /// Makes the contacts `ahead` of one pair, of negative depth, constraints on the motion of the step: their gaps may close, or the
-  /// bodies bounce. `may_approach`: whether the pair may be brought to touch first, as one that touches elsewhere may not.
+  /// Turns the contacts `ahead` of one pair, which have negative depths, into constraints on the motion of the step: their gaps may
+  /// close, or the bodies bounce. `may_approach`: whether the pair may be moved to touch first; a pair that touches elsewhere may
+  /// not.
   void set_up(const PairMaterial& pair, Patch& ahead, bool may_approach);
 
-  /// Brings the pairs to touch that will bounce, each body once a step.
+  /// Moves the bodies with a planned displacement to touch, each body once a step.
   void approach();
 
-  /// Forgets a body.
+  /// Drops the body's planned displacement.
   void remove(dBodyID body);
 
  private:
-  /// m, of body 1 and of body 2.
-  struct Ways {
+  /// m; of body 1 and of body 2.
+  struct Displacements {
     Vector3 first = Vector3::Zero();
     Vector3 second = Vector3::Zero();
   };
-  Ways bring_to_touch(const dContact& first, double time, Patch& ahead);
-  void plan(dBodyID body, const Vector3& way);
+  Displacements bring_to_touch(const dContact& first, double time, Patch& ahead);
+  void plan(dBodyID body, const Vector3& displacement);
   void close_or_bounce(const PairMaterial& pair, Patch& ahead, bool may_approach);
-  bool is_free(dBodyID body) const { return !on_their_way_.contains(body); }
+  bool is_free(dBodyID body) const { return !displaced_.contains(body); }
 
   double step_;
-  /// Of a body until it touches.
+  /// The planned displacement of a body until it touches.
   struct Approach {
     dBodyID body;
-    Vector3 way;  // m
+    Vector3 displacement;  // m
   };
-  // Spaces of ODE depend on the order in which their geoms were moved: it must be the same in every run.
+  // ODE's spaces depend on the order in which their geoms were moved. The order must be the same in every run.
   std::vector<Approach> approaches_;
-  std::unordered_set<dBodyID> on_their_way_;  // their bodies
+  std::unordered_set<dBodyID> displaced_;  // the bodies of `approaches_`
 };
 
 }  // namespace supernormal::effects

@@ -97,7 +97,7 @@ class Check {
   const char* name_;
 };
 
-/// The materials that the effect is for; null for effects that are not of contacts.
+/// The materials that the effect applies to; null for an effect that is not about contacts.
 const MaterialSelector* surfaces_of(const Effect& effect) {
   return std::visit(
       [](const auto& e) -> const MaterialSelector* {

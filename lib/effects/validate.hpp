@@ -1,4 +1,4 @@
-// Refusal of effects: the message names the effect, the parameter, its value and the valid range.
+// Refuses effects: the message names the effect, the parameter, its value and the valid range.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,8 @@
 
 namespace supernormal::effects {
 
-/// Throws std::invalid_argument for the first parameter out of its range, or for an effect that is listed twice or lacks another.
+/// Throws BadEffect (a std::invalid_argument) for the first parameter out of its range, for an effect that is listed twice, and for
+/// an effect whose required partner is missing or that excludes another.
 void require_valid(const std::vector<Effect>& list);
 
 }  // namespace supernormal::effects

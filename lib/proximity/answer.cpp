@@ -6,8 +6,8 @@
 namespace supernormal {
 namespace {
 
-// A bound is the length of a vector whose three components have the rounding of s each, less s: it cannot fall below about three of
-// them.
+// A bound is the length of a vector less s, and each of its three components has the rounding error of s. So the bound cannot fall
+// below about three rounding errors.
 constexpr double kFloor = 4;
 
 }  // namespace
@@ -17,7 +17,7 @@ double absolute_tolerance(const GapFunction& gap, const Settings& settings) {
 }
 
 double optimality_gap_bound(const GapJet& jet, double rolling_radius) {
-  // Below 0 by the rounding of d, in which a large body's boundary point is turned.
+  // Rounding of d may make this negative, because a large body's boundary point is rotated.
   return std::max((jet.d + rolling_radius * jet.n).norm() - (jet.s + rolling_radius), 0.0);
 }
 
@@ -32,12 +32,14 @@ Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet&
   out.status = status;
   if (status == Status::Apart || status == Status::Diverged) model_error = std::numeric_limits<double>::infinity();
   const double tolerance = absolute_tolerance(gap, settings);
-  // Without the balls that roll inside them the bodies are apart, and s is concave on the cone of the normals that separate them.
-  // And s = -x at any of its stationary points bounds the gap by x, if the bodies are apart: s extended to all vectors is concave.
+  // s + rho is the gap function of the bodies without the balls that roll inside them. If it is positive, those bodies are apart,
+  // and it is concave on the cone of the separating normals. If touching bodies have a stationary point with s = -x, the largest
+  // gap is at most x, because s extended to all vectors is concave.
   const bool is_concave = jet.s + gap.rolling_radius() > 0;
   const bool is_touching = 2 * jet.s >= -tolerance;
   out.is_global = jet.s > 0 || (status != Status::Diverged && (is_concave || is_touching));
-  // Where s need not be concave the model proves nothing, however little it promises: no more is claimed than was asked for.
+  // Where s need not be concave, the model proves nothing, however small its error. So the answer claims no more than the
+  // tolerance.
   if (!is_concave) model_error = std::max(model_error, tolerance);
   const double excess = optimality_gap_bound(jet, gap.rolling_radius());
   out.error = std::min(model_error, excess) + gap.rounding();

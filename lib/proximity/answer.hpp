@@ -7,22 +7,22 @@
 
 namespace supernormal {
 
-/// The error that a solve may leave, m: Settings::tolerance in the pair's unit of length less what rounding takes of it, and not
-/// less than rounding itself.
+/// m; the error that a solver may leave: Settings::tolerance times GapFunction::length_unit(), less the rounding error, but at
+/// least a few rounding errors.
 double absolute_tolerance(const GapFunction& gap, const Settings& settings);
 
-/// m; no normal is higher than jet.n by more: s(m) <= m.d <= |d|. With a ball of this radius taken out of the difference of the
-/// bodies (GapFunction::rolling_radius) the bound is tighter; of bodies apart, with or without the ball, it vanishes at the
-/// maximum.
+/// m; an upper bound on max s - jet.s, because s(m) <= m.d <= |d|. With the ball of `rolling_radius` (m) taken out of the Minkowski
+/// difference (GapFunction::rolling_radius) the bound is tighter. It vanishes at the maximum if the bodies without the ball are
+/// apart.
 double optimality_gap_bound(const GapJet& jet, double rolling_radius);
 
-/// The answer at jet.n, in body 1's frame. `model_error` (m) bounds what is left to the local maximum in exact arithmetic; the
-/// answer adds rounding and takes optimality_gap_bound() where that is the better bound. It is known to
-/// be global when the bodies, or what is left of them without the balls that roll inside them, are apart or touching.
+/// The answer at jet.n, in body 1's frame. `model_error` (m) bounds what is left to the local maximum in exact arithmetic. The
+/// answer adds rounding, and takes optimality_gap_bound() if that is smaller. The answer is global if the bodies without their
+/// rolling balls are apart, or if the bodies touch.
 Proximity answer(const GapFunction& gap, const Settings& settings, const GapJet& jet, double model_error, Status status);
 
-/// Sets the contact of an answer `out` at `jet`, and its evaluations, of which contact_point() may make some more. A normal that
-/// proves separation and no more, or nothing, has the point between its witness points.
+/// Sets the contact of the answer `out` at `jet`, and its evaluations; contact_point() may add a few. A normal that only proves
+/// separation, or proves nothing, gets the point between its witness points.
 void place_contact(GapFunction& gap, const Settings& settings, const GapJet& jet, Proximity& out,
                    std::span<const WitnessPair> beside = {});
 

@@ -10,8 +10,9 @@
 namespace supernormal {
 namespace {
 
-// Rounding of s in units of the last place of its terms: each support function is good to a few, and their sum adds a few. Body 2
-// is turned with the rounding of the rotation and of the normal, by which its boundary point moves as it is far from its origin.
+// Rounding error of s in units of the last place of its terms. Each support function is accurate to a few units, and the sum adds a
+// few. The rotation and the normal are rounded too, which moves body 2's boundary point in proportion to its distance from the
+// origin.
 constexpr double kRoundingUnits = 8;
 
 double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_extents2) {

@@ -16,19 +16,19 @@ namespace supernormal {
 
 namespace {
 
-// Normals m and n that are nearer than this have the same s to its rounding: |s(m) - s(n)| <= |m - n| L for bodies within L of one
-// another, and GapFunction::rounding() is so many units of L.
+// |s(m) - s(n)| <= |m - n| L for bodies within L of each other, and GapFunction::rounding() is this many units of L. So normals
+// nearer to each other than this have the same s, to rounding.
 constexpr double kSameNormal = 8 * std::numeric_limits<double>::epsilon();
 
-/// How thoroughly other maxima are looked for; not at all where no evaluation is allowed.
-ExpandingPolytope::Goal search_goal(const GapFunction& gap, const Settings& settings, Branch branch, double tolerance,
-                                    double depth) {
+/// The limits of the search for other maxima. No search if max_evaluations is 0.
+ExpandingPolytope::SearchLimits search_limits(const GapFunction& gap, const Settings& settings, WantedMaximum wanted,
+                                              double tolerance, double depth) {
   const int limit = settings.max_evaluations;
   if (settings.certify_depth) return {0, limit, 0.5 * tolerance, 0};
-  const bool follows = branch == Branch::OfStart;
+  const bool follows = wanted == WantedMaximum::Tracked;
   if (follows && depth <= kTuning.followed_depth * gap.length_unit()) return {};
-  // The estimate leaves out vertices where a radius of curvature vanishes at one normal alone. There a smooth partner has a radius
-  // of its own, which a body with faces has not.
+  // The estimate ignores vertices where the radius of curvature vanishes at a single normal. There a smooth partner adds a radius
+  // of its own, but a body with faces does not.
   const double min_radii = gap.shape1().min_curvature_radius_estimate() + gap.shape2().min_curvature_radius_estimate();
   if (!gap.shape2().has_kinks() && !may_have_other_maxima(min_radii, depth)) return {};
   const int most = std::min(limit, gap.evaluations() + kTuning.search_evaluations);
@@ -36,12 +36,12 @@ ExpandingPolytope::Goal search_goal(const GapFunction& gap, const Settings& sett
   return {kTuning.search_width, most, tolerance, kTuning.near_best * depth};
 }
 
-/// The answer after a search for higher maxima than `best`, in which that is put.
+/// The answer after a search for higher maxima than `best`, which it updates.
 Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings,
-                 const ExpandingPolytope::Goal& goal, GapJet& best, Status status) {
+                 const ExpandingPolytope::SearchLimits& limits, GapJet& best, Status status) {
   double error = ascent.error();
   ExpandingPolytope proof(gap, cuts, ascent, settings, absolute_tolerance(gap, settings));
-  const bool is_reached = proof.run(goal, best, error, status);
+  const bool is_reached = proof.run(limits, best, error, status);
   if (!is_reached && gap.evaluations() >= settings.max_evaluations) status = Status::EvaluationLimit;
   const bool is_proved = is_reached && settings.certify_depth;
   if (is_proved) {
@@ -54,18 +54,19 @@ Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Se
   return out;
 }
 
-/// Ends an ascent of two bodies with kinks: `best` is its last normal, `out` its answer. The witness points of `best` are then
-/// those of the contact.
+/// Ends an ascent of two bodies with nonsmooth points. `best` is its last evaluation, `out` its answer. The witness points of
+/// `best` become the contact's.
 void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& out) {
   const double tolerance = absolute_tolerance(gap, settings);
   MeetingPoint meeting(gap);
   if (meeting.settle(tolerance, settings.max_evaluations, best)) {
     const double upper = out.gap + out.global_error;
-    out = answer(gap, settings, best, std::max(out.error - gap.rounding(), 0.0), out.status);  // which adds the rounding
+    // answer() adds the rounding again.
+    out = answer(gap, settings, best, std::max(out.error - gap.rounding(), 0.0), out.status);
     out.global_error = std::min(out.global_error, upper - out.gap);
   }
-  // The ascent has stalled where the cuts of body 1 coincide but for rounding. Its vertices do not. But they tell of what is near
-  // the normal only: where the bounds decide, their error stands.
+  // The ascent has stalled because the cuts of body 1 coincide to rounding. Its vertices do not. But they only describe the
+  // neighbourhood of the normal. So the error stands where bounds have decided.
   if (out.status == Status::Stalled && !out.is_global) {
     const double estimate = kTuning.gain_safety * meeting.remaining_gain(best);
     if (estimate <= tolerance) {
@@ -79,43 +80,43 @@ void meet(GapFunction& gap, const Settings& settings, GapJet& best, Proximity& o
   meeting.move_witnesses(tolerance, best);
 }
 
-/// Climbs from the start, a normal or what was evaluated there; if the bodies overlap so deeply against their sharpest edges that
-/// there may be other maxima, looks for a higher one, but leaves the branch of an earlier pose only when it has stopped being
-/// nearly the best.
+/// Climbs from `start`, a normal or its evaluation. Looks for a higher maximum if the overlap is so deep, relative to the sharpest
+/// edges, that there may be others. A tracked maximum is only left when it is clearly not the highest any more.
 template <typename Start>
-Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPlanes& cuts, const Start& start, Branch branch) {
+Proximity climb_and_search(GapFunction& gap, const Settings& settings, CuttingPlanes& cuts, const Start& start,
+                           WantedMaximum wanted) {
   const double tolerance = absolute_tolerance(gap, settings);
-  const bool follows = branch == Branch::OfStart && !settings.certify_depth;
+  const bool follows = wanted == WantedMaximum::Tracked && !settings.certify_depth;
   Ascent ascent(gap, cuts, settings, tolerance, follows ? kTuning.followed_depth * gap.length_unit() : 0);
   Status status = ascent.climb(start);
   GapJet best = ascent.best();
   Proximity out = answer(gap, settings, best, ascent.error(), status);
   if (!out.is_global && status != Status::InvalidInput) {
-    const ExpandingPolytope::Goal goal = search_goal(gap, settings, branch, tolerance, -best.s);
-    if (goal.max_evaluations > 0) out = search(gap, cuts, ascent, settings, goal, best, status);
+    const ExpandingPolytope::SearchLimits limits = search_limits(gap, settings, wanted, tolerance, -best.s);
+    if (limits.max_evaluations > 0) out = search(gap, cuts, ascent, settings, limits, best, status);
   }
   if (gap.shape1().has_kinks() && gap.shape2().has_kinks() && status != Status::InvalidInput) {
     meet(gap, settings, best, out);
   }
   place_contact(gap, settings, best, out);
   if (gap.shape2().has_kinks() && status != Status::InvalidInput) {
-    const Vector3 held = ascent.best().n == best.n ? ascent.held_normal() : VertexCache(gap).held_normal(best);
-    if ((held - best.n).norm() <= kSameNormal) out.normal = held;
+    const Vector3 exact = ascent.best().n == best.n ? ascent.exact_normal() : VertexCache(gap).exact_normal(best);
+    if ((exact - best.n).norm() <= kSameNormal) out.normal = exact;
   }
   return out;
 }
 
 }  // namespace
 
-Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
+Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
   CuttingPlanes cuts;
-  // The first cut costs no evaluation: a centre of symmetry is at least as far from every tangent plane as the ball inside is
-  // large.
+  // The first cut costs no evaluation: the distance from a centre of symmetry to every tangent plane is at least the radius of the
+  // rolling ball.
   if (gap.shape1().is_symmetric() && gap.shape2().is_symmetric()) cuts.set_centre(gap.offset());
-  if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, cuts, start, branch);
+  if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, cuts, start, wanted);
   CertifiedNewton newton(gap, cuts, settings, absolute_tolerance(gap, settings));
-  const CertifiedNewton::End end = newton.run(start, branch);
-  if (end == CertifiedNewton::End::Open) return climb_and_search(gap, settings, cuts, newton.best(), branch);
+  const CertifiedNewton::End end = newton.run(start, wanted);
+  if (end == CertifiedNewton::End::Open) return climb_and_search(gap, settings, cuts, newton.best(), wanted);
   const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
   Proximity out = answer(gap, settings, newton.best(), newton.error(), status);
   place_contact(gap, settings, newton.best(), out, newton.beside());

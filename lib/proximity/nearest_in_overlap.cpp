@@ -13,25 +13,26 @@
 namespace supernormal {
 namespace {
 
-// Of the determinant of the cosines between two or three tangent planes (of two, it is the sine squared): below, the line or the
-// point where they meet is rounding.
+// The determinant of the cosines between two or three tangent planes; for two it is the squared sine. Below this, their common line
+// or point is only rounding error.
 constexpr double kSameLine = 1e-12;
 
-// A ball that rolls inside a body is the body's thickness from this share of its smallest half-extent on.
+// Relative to the smallest half-extent: from this radius on, a ball that rolls inside a body is as thick as the body.
 constexpr double kBall = 0.99;
 
-constexpr int kMostMoves = 1000;  // of two bodies all of whose corners are known, a move costs no evaluation
+constexpr int kMostMoves = 1000;  // if all vertices of both bodies are known, a move costs no evaluation
 
-// The way to a body is known when a tangent plane has no less than all but this share of it before it: the whole way is made then.
+// Relative to the distance to a body: the distance is known if a tangent plane covers all but this fraction of it. The place then
+// moves the whole distance.
 constexpr double kRough = 0.1;
 
-// A place is behind a plane when no more than this share of the way to the farthest one is left.
+// Relative to the distance to the farthest plane: a place counts as behind a plane if no more than this is left.
 constexpr double kBehind = 0.01;
 
-/// Points of one body, as a place sees them, in body 1's frame.
-class Body {
+/// Known points of one body, in body 1's frame, for queries from a place.
+class SampledBody {
  public:
-  Body(const Shape& shape, const Vector3& position, const Matrix3& rotation)
+  SampledBody(const Shape& shape, const Vector3& position, const Matrix3& rotation)
       : shape_(&shape), position_(position), rotation_(rotation) {}
 
   bool is_full() const { return count_ == kCapacity; }
@@ -41,20 +42,20 @@ class Body {
     return std::find(points_.begin(), end, point) != end;
   }
 
-  /// Adds corners of a body with faces, which take no evaluation; n is the body's normal in its frame.
-  void add_corners(const Vector3& n, const Vector3& place) {
-    ActiveVertices corners;
-    shape_->add_active_vertices(n, in_frame(place), corners);
-    for (int k = 0; k < corners.size(); ++k) add(position_ + rotation_ * corners[k]);
+  /// Adds active vertices of a body with faces, without an evaluation. `n` is the body's unit normal in its frame.
+  void add_vertices(const Vector3& n, const Vector3& place) {
+    ActiveVertices vertices;
+    shape_->add_active_vertices(n, in_frame(place), vertices);
+    for (int k = 0; k < vertices.size(); ++k) add(position_ + rotation_ * vertices[k]);
   }
 
-  /// Whether the points are the whole body: no evaluation tells of more.
+  /// Whether the known points span the whole body, so that no evaluation adds a point.
   bool is_known() const {
     const auto* polytope = dynamic_cast<const Polytope*>(shape_);
     return polytope != nullptr && polytope->points().size() <= ActiveVertices::kCapacity;
   }
 
-  /// From the place to the nearest point of the hull; nothing where the body surely contains the place.
+  /// m; from the place to the nearest point of the hull. Zero if the body surely contains the place.
   const MinimumNormPoint& look_from(const Vector3& place) {
     nearest_ = {Vector3::Zero(), 0, Vector3::Zero()};
     if (shape_->surely_contains(in_frame(place))) return nearest_;
@@ -78,18 +79,18 @@ class Body {
   MinimumNormPoint nearest_{};
 };
 
-/// A tangent plane, as the place sees it.
+/// A tangent plane, relative to the place.
 struct Plane {
-  Vector3 normal;   // towards the body
-  double distance;  // m, along the normal; less than 0 where the place is behind the plane
+  Vector3 normal;   // unit, towards the body
+  double distance;  // m, along the normal; negative if the place is behind the plane
 };
 
-/// The latest tangent planes of one body at the points that were nearest to the place: as many as meet in a vertex.
+/// The latest tangent planes of one body at its points nearest to the place: three, because three meet in a vertex.
 class Planes {
  public:
   void add(const Plane& plane) { planes_[added_++ % planes_.size()] = plane; }
-  void move(const Vector3& way) {
-    for (std::size_t k = 0; k < size(); ++k) planes_[k].distance -= planes_[k].normal.dot(way);
+  void move(const Vector3& displacement) {
+    for (std::size_t k = 0; k < size(); ++k) planes_[k].distance -= planes_[k].normal.dot(displacement);
   }
   std::size_t size() const { return std::min(added_, planes_.size()); }
   const Plane& operator[](std::size_t k) const { return planes_[k]; }
@@ -99,8 +100,8 @@ class Planes {
   std::size_t added_ = 0;
 };
 
-/// The point of up to three planes that is nearest to the place; nothing where it is not the nearest point behind them, too.
-std::optional<Vector3> way_to(std::span<const Plane* const> planes) {
+/// m; from the place to the nearest common point of up to three planes. Empty if that is not also the nearest point behind them.
+std::optional<Vector3> displacement_to(std::span<const Plane* const> planes) {
   Matrix3 cosines = Matrix3::Identity();
   Vector3 distances = Vector3::Zero();
   for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -114,14 +115,14 @@ std::optional<Vector3> way_to(std::span<const Plane* const> planes) {
   if (!(cosines.determinant() > kSameLine)) return std::nullopt;
   const Vector3 pull = cosines.inverse() * distances;
   if (!(pull.minCoeff() >= 0)) return std::nullopt;
-  Vector3 way = Vector3::Zero();
-  for (std::size_t i = 0; i < planes.size(); ++i) way += pull[static_cast<Eigen::Index>(i)] * planes[i]->normal;
-  return way;
+  Vector3 displacement = Vector3::Zero();
+  for (std::size_t i = 0; i < planes.size(); ++i) displacement += pull[static_cast<Eigen::Index>(i)] * planes[i]->normal;
+  return displacement;
 }
 
-/// From a place to the nearest point behind all planes: that of one, two or three of them (there are no more in three dimensions).
-/// Where rounding hides it, behind the farthest.
-Vector3 way_behind(const Planes& planes1, const Planes& planes2) {
+/// m; from the place to the nearest point behind all planes. This point is on one, two or three of them; three dimensions need no
+/// more. If rounding hides it, the displacement leads behind the farthest plane.
+Vector3 displacement_behind(const Planes& planes1, const Planes& planes2) {
   std::array<const Plane*, 6> all{};
   std::size_t count = 0;
   for (const Planes* planes : {&planes1, &planes2}) {
@@ -137,12 +138,12 @@ Vector3 way_behind(const Planes& planes1, const Planes& planes2) {
     for (std::size_t k = 0; k < count; ++k) {
       if ((subset >> k & 1U) != 0) chosen[chosen_count++] = all[k];
     }
-    const std::optional<Vector3> way = way_to({chosen.data(), chosen_count});
-    if (!way || (best && best->squaredNorm() <= way->squaredNorm())) continue;
+    const std::optional<Vector3> displacement = displacement_to({chosen.data(), chosen_count});
+    if (!displacement || (best && best->squaredNorm() <= displacement->squaredNorm())) continue;
     const bool is_behind = std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), [&](const Plane* plane) {
-      return plane->distance - plane->normal.dot(*way) <= kBehind * farthest.distance;
+      return plane->distance - plane->normal.dot(*displacement) <= kBehind * farthest.distance;
     });
-    if (is_behind) best = way;
+    if (is_behind) best = displacement;
   }
   return best.value_or(farthest.distance * farthest.normal);
 }
@@ -175,14 +176,14 @@ bool move_into_ball(const GapFunction& gap, Place& place, double near) {
 }
 
 Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, double near, int max_evaluations) {
-  std::array<Body, 2> bodies = {Body(gap.shape1(), Vector3::Zero(), Matrix3::Identity()),
-                                Body(gap.shape2(), gap.offset(), gap.rotation())};
+  std::array<SampledBody, 2> bodies = {SampledBody(gap.shape1(), Vector3::Zero(), Matrix3::Identity()),
+                                       SampledBody(gap.shape2(), gap.offset(), gap.rotation())};
   bodies[0].add(jet.jet1.r);
   bodies[1].add(jet.jet1.r + jet.d);
-  bodies[0].add_corners(jet.n, place);
-  bodies[1].add_corners(jet.m, place);
-  const MinimumNormPoint &way1 = bodies[0].nearest(), &way2 = bodies[1].nearest();
-  // Whether the nearest point of what is known of the body is that of the body.
+  bodies[0].add_vertices(jet.n, place);
+  bodies[1].add_vertices(jet.m, place);
+  const MinimumNormPoint &nearest1 = bodies[0].nearest(), &nearest2 = bodies[1].nearest();
+  // Whether the nearest known point of the body is, to the tolerance, the nearest point of the body.
   std::array<bool, 2> is_settled{};
   GapJet trial;
   std::array<Planes, 2> planes;
@@ -192,24 +193,25 @@ Vector3 nearest_in_overlap(GapFunction& gap, const GapJet& jet, Vector3 place, d
       if (bodies[k].look_from(place).norm <= near || bodies[k].is_known()) is_settled[k] = true;
     }
     if (is_settled[0] && is_settled[1]) {
-      if (std::max(way1.norm, way2.norm) <= near || ++moves > kMostMoves) return place;
+      if (std::max(nearest1.norm, nearest2.norm) <= near || ++moves > kMostMoves) return place;
       for (std::size_t k = 0; k < 2; ++k) {
-        if (const MinimumNormPoint& way = bodies[k].nearest(); way.norm > 0) planes[k].add({way.normal, way.norm});
+        if (const MinimumNormPoint& nearest = bodies[k].nearest(); nearest.norm > 0) planes[k].add({nearest.normal, nearest.norm});
       }
-      const Vector3 way = way_behind(planes[0], planes[1]);
-      place += way;
-      for (Planes& each : planes) each.move(way);
+      const Vector3 displacement = displacement_behind(planes[0], planes[1]);
+      place += displacement;
+      for (Planes& each : planes) each.move(displacement);
       is_settled = {};
       continue;
     }
     if (gap.evaluations() >= max_evaluations || bodies[0].is_full() || bodies[1].is_full()) return place;
-    const std::size_t open = is_settled[0] || (!is_settled[1] && way2.norm > way1.norm) ? 1 : 0;
-    const MinimumNormPoint way = bodies[open].nearest();
-    gap.evaluate(open == 0 ? Vector3(-way.normal) : way.normal, Order::Point, trial);
+    const std::size_t open = is_settled[0] || (!is_settled[1] && nearest2.norm > nearest1.norm) ? 1 : 0;
+    const MinimumNormPoint nearest = bodies[open].nearest();
+    gap.evaluate(open == 0 ? Vector3(-nearest.normal) : nearest.normal, Order::Point, trial);
     if (!trial.is_finite()) return place;
     const Vector3 point = open == 0 ? trial.jet1.r : Vector3(trial.jet1.r + trial.d);
-    // Seen from near by, the way to an edge of a large body has a direction of few digits: its points come again.
-    is_settled[open] = way.normal.dot(point - place) >= way.norm - std::max(near, kRough * way.norm) || bodies[open].has(point);
+    // From near by, the direction to an edge of a large body has few digits. So its points are returned again.
+    is_settled[open] =
+        nearest.normal.dot(point - place) >= nearest.norm - std::max(near, kRough * nearest.norm) || bodies[open].has(point);
     bodies[0].add(trial.jet1.r);
     bodies[1].add(trial.jet1.r + trial.d);
   }

@@ -19,8 +19,8 @@ void check(const Settings& settings) {
   require_in("max_evaluations", settings.max_evaluations, 1, kMaxEvaluations);
 }
 
-Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch) {
-  if (gap.shape2().has_kinks()) return solve_hybrid(gap, settings, start, branch);
+Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
+  if (gap.shape2().has_kinks()) return solve_hybrid(gap, settings, start, wanted);
   switch (settings.solver) {
     case Solver::Newton:
       if (gap.has_hessian()) return solve_newton(gap, settings, start);
@@ -30,14 +30,14 @@ Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start
     case Solver::Hybrid:
       break;
   }
-  return solve_hybrid(gap, settings, start, branch);
+  return solve_hybrid(gap, settings, start, wanted);
 }
 
-// Asked of the entries first: squares and sums of what is not in range would raise floating-point exceptions.
+// The entries are tested first, because squares and sums of numbers out of range would raise floating-point exceptions.
 bool is_usable(const Vector3& normal) { return all_within(normal, 2) && std::abs(normal.squaredNorm() - 1) < 1e-6; }
 
-// Of two bodies only the second may have faces and edges that the ascent knows of; those of the first it finds by cuts, and where
-// both have some, at its end (MeetingPoint).
+// The ascent only knows the faces and edges of body 2. It finds those on body 1 by cuts and, if both bodies have some, at its end
+// (MeetingPoint). So the body with faces and edges must be body 2.
 Proximity find_with_bodies_swapped(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2,
                                    const Settings& settings, const Vector3* first_normal) {
   const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
@@ -61,8 +61,8 @@ Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& sh
   GapFunction gap(shape1, pose1, shape2, pose2);
   if (!gap.is_finite()) return {};
   const bool is_warm = first_normal != nullptr && is_usable(*first_normal);
-  Proximity out = is_warm ? solve(gap, settings, first_normal->normalized(), Branch::OfStart)
-                          : solve(gap, settings, first_guess(gap), Branch::Highest);
+  Proximity out = is_warm ? solve(gap, settings, first_normal->normalized(), WantedMaximum::Tracked)
+                          : solve(gap, settings, first_guess(gap), WantedMaximum::Highest);
   if (out.status == Status::InvalidInput || !std::isfinite(out.gap) || !all_finite(out.normal) || !out.point1.allFinite() ||
       !out.point2.allFinite())
     return {};

@@ -7,14 +7,14 @@
 namespace supernormal {
 
 /// Which local maximum of the gap function of overlapping bodies is wanted.
-enum class Branch {
-  Highest,  ///< the global one: the minimum translation distance (MTD)
-  OfStart,  ///< the one that the start leads to, unless it is clearly not the highest: a contact does not jump without need
+enum class WantedMaximum {
+  Highest,  ///< the global maximum: the minimum translation distance (MTD)
+  Tracked,  ///< the tracked maximum, to which the start leads; it is only left if it is clearly not the highest
 };
 
-// Each solver starts at the unit normal `start` and answers in body 1's frame.
+// Each solver starts at the unit normal `start`. The answer is in body 1's frame.
 Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3& start);  // both shapes need a Hessian
 Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Vector3& start);
-Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, Branch branch);
+Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted);
 
 }  // namespace supernormal

@@ -13,8 +13,8 @@ namespace supernormal {
 
 using Vector2 = Eigen::Vector2d;
 
-/// An orthonormal basis t1, t2 of the plane perpendicular to a unit normal. A direction near n is given by gnomonic coordinates
-/// u: it is the direction of n + u1 t1 + u2 t2, so that |u| is the tangent of the angle.
+/// An orthonormal basis t1, t2 of the plane perpendicular to a unit normal n. A direction near n has gnomonic coordinates u: it is
+/// the direction of n + u1 t1 + u2 t2. So |u| is the tangent of the angle.
 struct TangentPlane {
   Eigen::Vector3d n, t1, t2;
 
@@ -24,7 +24,7 @@ struct TangentPlane {
     t2 = n.cross(t1);
   }
 
-  /// The plane with t1 along the axis that is nearest to it.
+  /// The plane with t1 along the projection of the coordinate axis that is most nearly perpendicular to the normal.
   static TangentPlane at(const Eigen::Vector3d& normal) {
     int axis = 0;
     normal.cwiseAbs().minCoeff(&axis);
@@ -57,9 +57,9 @@ struct Symmetric2 {
   Symmetric2 operator+(const Symmetric2& o) const { return {xx + o.xx, xy + o.xy, yy + o.yy}; }
   Symmetric2 plus_identity(double shift) const { return {xx + shift, xy, yy + shift}; }
 
-  /// The vector that this matrix maps to b; infinite when the matrix is singular or nearly so: when the vector would be beyond
-  /// kLongest. Eliminates with the largest pivot: radii of curvature go up to 1e120 beside others of 1e-270, whose products would
-  /// underflow.
+  /// The vector that this matrix maps to b. Infinite if the matrix is singular, or so nearly singular that the vector would be
+  /// beyond kLongest. Eliminates with the largest pivot: radii of curvature up to 1e120 occur beside radii of 1e-270, and products
+  /// of these would underflow.
   Vector2 solve(const Vector2& b) const {
     const double x_size = std::abs(xx), y_size = std::abs(yy);
     double x = 0, y = 0;
@@ -88,7 +88,7 @@ struct Symmetric2 {
   }
 };
 
-/// Eigenvalues and vectors of a symmetric 2 x 2 matrix, low <= high.
+/// Eigenvalues and eigenvectors of a symmetric 2 x 2 matrix, low <= high.
 struct Eigen2 {
   double low, high;
   Vector2 low_vector, high_vector;
@@ -96,19 +96,19 @@ struct Eigen2 {
   explicit Eigen2(const Symmetric2& A) {
     const double mean = 0.5 * A.trace();
     const double half_difference = 0.5 * (A.xx - A.yy);
-    // The entries are scaled, so that no square over- or underflows: two vertices leave next to nothing beside the mean.
+    // The entries are scaled so that no square over- or underflows: between two vertices they are tiny.
     const double scale = std::max(std::abs(half_difference), std::abs(A.xy));
     const double cosine = scale > 0 ? half_difference / scale : 0;
     const double sine = scale > 0 ? A.xy / scale : 0;
     const double length = std::sqrt(cosine * cosine + sine * sine);
     const double radius = scale * length;
-    // The eigenvalue of larger size is found from the sum, the other from the determinant, since the difference would cancel: if
-    // one radius of curvature is huge it would leave nothing of the small one.
+    // The eigenvalue of larger magnitude comes from the sum, the other from the determinant. Their difference would cancel: beside
+    // a huge radius of curvature nothing would be left of a small one.
     const double large = mean >= 0 ? mean + radius : mean - radius;
     const double small = large != 0 ? A.xx * (A.yy / large) - A.xy * (A.xy / large) : 0;
     low = mean >= 0 ? small : large;
     high = mean >= 0 ? large : small;
-    // There are two ways to write the eigenvector; this is the one without cancellation.
+    // There are two ways to write the eigenvector. This one has no cancellation.
     const Vector2 v = half_difference >= 0 ? Vector2(length + cosine, sine) : Vector2(sine, length - cosine);
     high_vector = scale > 0 ? Vector2(v.normalized()) : Vector2(1, 0);
     low_vector = Vector2(-high_vector.y(), high_vector.x());

@@ -1,4 +1,4 @@
-// A test for poses that can be computed with.
+// Tests for poses that can be computed with.
 #pragma once
 
 #include <cmath>
@@ -11,10 +11,10 @@ namespace supernormal {
 /// m; the square of a larger distance is not finite.
 inline constexpr double kFarthest = 1e150;
 
-/// The sum of the errors of the equations that make a matrix a rotation: the first two columns are unit vectors at right angles,
-/// and the third is their cross product. NaN if an entry is not a number.
+/// The sum of the errors of the equations that make a matrix a rotation. The first two columns are perpendicular unit vectors, and
+/// the third is their cross product. NaN if an entry is NaN.
 inline double rotation_error(const Eigen::Matrix3d& R) {
-  // The entries are read one by one: they have often just been written one by one, and a load of two of them would wait for the
+  // The entries are read one by one. They have often just been written one by one, and a load of two entries would wait for the
   // stores.
   const double x0 = R(0, 0), x1 = R(1, 0), x2 = R(2, 0);
   const double y0 = R(0, 1), y1 = R(1, 1), y2 = R(2, 1);
@@ -28,12 +28,12 @@ inline double rotation_error(const Eigen::Matrix3d& R) {
   return (x_length + y_length) + (angle + skew0) + (skew1 + skew2);
 }
 
-/// Whether queries take a matrix as a rotation: to 1e-5, which every rotation in single precision is, and no matrix that scales,
-/// shears or reflects by what anybody would notice. The largest entry is asked for first: squares of what is out of range would
-/// raise floating-point exceptions.
+/// Whether queries take a matrix as a rotation, with an error of at most 1e-5. Every rotation in single precision passes. A matrix
+/// that noticeably scales, shears or reflects does not. The largest entry is tested first, because squares out of range would raise
+/// floating-point exceptions.
 inline bool is_rotation(const Eigen::Matrix3d& R) { return all_within(R, 2) && rotation_error(R) <= 1e-5; }
 
-/// Whether a pose can be computed with: its numbers are in range and its rotation is one.
+/// Whether a pose can be computed with: its numbers are in range, and its matrix is a rotation.
 inline bool is_usable(const Pose& pose) { return all_within(pose.position, kFarthest) && is_rotation(pose.rotation); }
 
 }  // namespace supernormal

@@ -5,12 +5,12 @@
 namespace supernormal {
 namespace {
 
-// Relative error of a few products and sums.
+// Relative rounding error of a few products and sums.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-Vector2 turned_left(const Vector2& a) { return {-a.y(), a.x()}; }
+Vector2 rotated_left(const Vector2& a) { return {-a.y(), a.x()}; }
 
 }  // namespace
 
@@ -19,12 +19,12 @@ Portal::Portal(const Vector3& direction, double rounding)
 
 bool Portal::add(const Vector3& d) {
   const Vertex vertex{{e1_.dot(d), e2_.dot(d)}, -v_.dot(d), d};
-  const bool is_news = is_pierced() ? refine(vertex) : narrow(vertex);
+  const bool is_kept = is_pierced() ? refine(vertex) : narrow(vertex);
   bound_ = std::fmin(bound_, simplex_.height + simplex_.error);
-  return is_news;
+  return is_kept;
 }
 
-// The sector from the first point counter-clockwise to the last, less than half a turn, contains all points so far.
+// The sector contains all points so far. It runs counter-clockwise from the first point to the last, over less than pi.
 bool Portal::narrow(const Vertex& vertex) {
   if (vertex.p.norm() <= rounding_) {
     simplex_ = {{vertex, vertex, vertex}, 2, vertex.z, rounding_, 0};
@@ -47,7 +47,7 @@ bool Portal::narrow(const Vertex& vertex) {
   return is_before || is_behind;
 }
 
-// Takes the best of the simplices that the new point makes with the old ones.
+// Takes the best simplex that the new point forms with the old points.
 bool Portal::refine(const Vertex& vertex) {
   Simplex best;
   for (int i = 0; i < simplex_.count; ++i) {
@@ -55,8 +55,8 @@ bool Portal::refine(const Vertex& vertex) {
     consider(one, vertex, best);
     for (int j = i + 1; j < simplex_.count; ++j) consider(one, simplex_.vertices[static_cast<std::size_t>(j)], vertex, best);
   }
-  const bool turns = best.is_as_high(simplex_) && is_in_front(vertex);
-  if (!best.is_better(simplex_) && !turns) return false;
+  const bool rotates = best.is_as_high(simplex_) && is_in_front(vertex);
+  if (!best.is_better(simplex_) && !rotates) return false;
   simplex_ = best;
   return true;
 }
@@ -79,7 +79,8 @@ void Portal::consider(const Vertex& a, const Vertex& b, Simplex& best) const {
 }
 
 void Portal::consider(const Vertex& a, const Vertex& b, const Vertex& c, Simplex& best) const {
-  Vector3 area(cross(b.p, c.p), cross(c.p, a.p), cross(a.p, b.p));  // twice the areas between the line and the edges
+  // Twice the areas of the triangles between the line and the edges.
+  Vector3 area(cross(b.p, c.p), cross(c.p, a.p), cross(a.p, b.p));
   const Vector3 edge((c.p - b.p).norm(), (a.p - c.p).norm(), (b.p - a.p).norm());
   double sum = area.sum();
   if (sum < 0) {
@@ -129,7 +130,7 @@ Vector3 Portal::bisector() const {
 
 Vector3 Portal::edge_normal() const {
   const Vector2 edge = sector_[1].p - sector_[0].p;
-  return edge.squaredNorm() > 0 ? lift(-turned_left(edge)) : bisector();
+  return edge.squaredNorm() > 0 ? lift(-rotated_left(edge)) : bisector();
 }
 
 double Portal::sector() const {

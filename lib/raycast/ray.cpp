@@ -23,11 +23,11 @@ void check(const Vector3& direction, double length, const Settings& settings) {
   if (all_finite(direction)) require_in("length of the ray's direction", direction.norm(), 1 - 1e-6, 1 + 1e-6);
 }
 
-/// A ray in the body's frame, o = foot + start v, with the point of the line nearest to the body's origin as foot, so that a ray
-/// from far away loses no digits near the body.
+/// A ray in the body's frame: its origin is foot + start v. The foot is the point of the line nearest to the body's origin, so a
+/// ray from far away loses no digits near the body.
 struct LocalRay {
   Vector3 v, foot;
-  double start, end;  // m, from the foot
+  double start, end;  // m; from the foot, along v
 
   LocalRay(const Pose& pose, const Vector3& origin, const Vector3& direction, double length)
       : v((pose.rotation.transpose() * direction).normalized()) {
@@ -39,7 +39,7 @@ struct LocalRay {
   }
 };
 
-/// Solves the ray query in two parts: the entry of the line and, for an origin behind that, its exit.
+/// Answers a ray query in two parts: where the line enters the body and, if the origin lies behind the entry, where it leaves.
 class RayQuery {
  public:
   RayQuery(const Shape& shape, const LocalRay& ray, const Settings& settings)
@@ -53,7 +53,7 @@ class RayQuery {
 
   RayHit run() {
     if (ray_.start <= 0) return from_entry();
-    // The body is more likely behind the origin: most such rays are settled by one plane.
+    // The foot lies behind the origin, so the body probably does too. One plane settles most of these rays.
     const EntrySearch::Result exit = search(-ray_.v, -ray_.start);
     if (exit.status == Status::InvalidInput || exit.kind != EntrySearch::Kind::Found) return miss(exit.status);
     const EntrySearch::Result entry = search(ray_.v, ray_.end);
@@ -80,7 +80,7 @@ class RayQuery {
     return entry.kind == EntrySearch::Kind::Found && entry.t <= ray_.end ? hit(entry, entry.t, false) : miss(entry.status);
   }
 
-  /// The exit is the entry of the reversed line. A line that only grazes the body may leave it behind the origin.
+  /// The exit is the entry of the reversed line. For a line that only grazes the body, rounding may put the exit behind the origin.
   RayHit leaving(const EntrySearch::Result& exit) const {
     const double t = -exit.t;
     return ray_.start <= t && t <= ray_.end ? hit(exit, t, true) : miss(exit.status);
@@ -112,8 +112,8 @@ class RayQuery {
   Vector3 half_extents_;
 };
 
-/// The radius of a ball around the origin of the body's frame that holds the body.
-double reach_of(const Shape& shape) {
+/// m; the radius of a ball around the origin of the body's frame that contains the body.
+double bounding_ball_radius(const Shape& shape) {
   Vector3 farthest;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 e = Vector3::Unit(axis);
@@ -137,13 +137,14 @@ RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin,
   return out;
 }
 
-// A point farther from the origin than twice the farthest point of the body is not nearest to it, and the body clears the ray
-// sideways before it clears its end: so a ray of any length may be cut to a segment that fits in double precision.
+// The ray may be cut to a segment that fits in double precision, for two reasons. A point of the ray beyond twice `farthest` is
+// farther from the body than the ray's origin. And the body clears the ray sideways with a shorter translation than past such an
+// end.
 Proximity find_ray_proximity(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction, double length,
                              const Settings& settings) {
   check(direction, length, settings);
   if (!is_usable(pose) || !all_within(origin, kFarthest) || !all_finite(direction)) return {};
-  const double farthest = (origin - pose.position).norm() + reach_of(shape);
+  const double farthest = (origin - pose.position).norm() + bounding_ball_radius(shape);
   if (!std::isfinite(farthest)) return {};
   const Vector3 v = direction.normalized();
   const double half_length = 0.5 * std::min(length, 2 * farthest);

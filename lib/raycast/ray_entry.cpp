@@ -11,49 +11,49 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A plane whose normal is this close to perpendicular to the line is taken to be along it: the body's boundary there is within
-// the square of this, times a radius of curvature, of the silhouette.
+// A normal within this cosine of perpendicular to the line counts as perpendicular. The boundary point there is within the square
+// of this, times a radius of curvature, of the silhouette.
 constexpr double kGrazing = 1e-9;
 
-// A step longer than this (tangent of the angle) is due to rounding.
+// A longer step (tangent of the angle) is due to rounding.
 constexpr double kLongestStep = 1e4;
 
 // A step of the paraboloid should reduce the remaining error by this factor.
 constexpr double kGoodContraction = 0.5;
 
-// The remaining error is summed as a geometric series of the contraction of the last two steps, which is assumed to be no slower
-// than this.
+// The remaining error is summed as a geometric series with the contraction of the last two steps. The contraction is assumed to be
+// no slower than this.
 constexpr double kSlowestContraction = 0.95;
 constexpr double kGainSafety = 3;
 
-// Steps longer than this (radians) reach to where the curvature may differ: their contraction is not believed.
+// rad; a longer step may reach a different curvature, so its contraction is not used.
 constexpr double kAsymptoticStep = 1e-3;
 
-// A direction far from the line is not tried by the paraboloid more often than this without narrowing the sector by half.
+// Beside the body, this many steps of the paraboloid in a row may fail to halve the sector.
 constexpr int kMaxSlowSteps = 2;
 
-// When the point is good, the normal is improved by at most so many steps: the point may be as good as rounding allows while the
-// slopes on a flat face still differ.
+// When the point is good, this many steps at most improve the normal. On a flat face the point may be as good as rounding allows
+// while the slopes still differ.
 constexpr int kMaxPolishingSteps = 32;
 
-// The search ends after so many steps that change nothing, or after so many that bring neither a better plane nor the portal
-// nearer to it, to this share of the distance.
+// The search ends after so many steps that change nothing. It also ends after so many steps that give neither a better plane nor a
+// smaller distance from the plane to the portal, by this factor.
 constexpr int kMaxIdleSteps = 60;
 constexpr int kMaxFruitlessSteps = 150;
 constexpr double kProgress = 0.99;
 
-// The remembered points are searched for a normal within this distance (tangent of the angle).
-constexpr double kReach = 100;
+// The hull of the stored points is searched for a normal within this tangent of the angle from the best normal.
+constexpr double kLargestTilt = 100;
 
-// Radii of curvature below this (m) are those of an edge or a vertex, to rounding: there is no paraboloid, and a division would
-// be out of range.
+// m; a smaller radius of curvature is an edge or a vertex, to rounding. There is no paraboloid there, and a division would
+// overflow.
 constexpr double kSharpestRadius = 1e-100;
 
-// Rounding error of the height of a portal above the best plane, in GapFunction::rounding(): one from the plane, a little more
-// than one from a steep portal, whose points are off by that.
+// The rounding error of the portal's height above the best plane, in units of GapFunction::rounding(). One unit comes from the
+// plane, and a little more than one from the points of a steep portal.
 constexpr double kPortalRounding = 3;
 
-// A paraboloid that the line enters by so many times the tolerance is certainly hit, whatever the remaining error.
+// The line certainly enters a paraboloid that it cuts by this many tolerances, whatever the remaining error.
 constexpr double kSureDepth = 100;
 
 bool is_curved(const Symmetric2& A) {
@@ -61,11 +61,11 @@ bool is_curved(const Symmetric2& A) {
   return size > kSharpestRadius && A.xx * (A.yy / size) - A.xy * (A.xy / size) > kSharpestRadius;
 }
 
-// Whether products of such numbers with lengths, and of four of these, are in range.
+// Whether products of such numbers with lengths, and of four such numbers, stay in range.
 bool is_in_range(const Vector2& u) { return std::abs(u.x()) < 1e60 && std::abs(u.y()) < 1e60; }
 
-/// The smaller root of a t^2 + 2 b t + c, a >= 0; its minimum when there is none. Infinite when it has neither, being straight
-/// and not falling.
+/// The smaller root of a t^2 + 2 b t + c with a >= 0. Without a root it is the minimum. It is infinite if there is neither, for a
+/// straight line that does not fall.
 double first_root(double a, double b, double c) {
   constexpr double kStraight = 1e-150;
   const double discriminant = b * b - a * c;
@@ -77,7 +77,7 @@ double first_root(double a, double b, double c) {
 }  // namespace
 
 Vector3 first_entry_normal(const Vector3& half_extents, const Vector3& c, const Vector3& v) {
-  constexpr double kThinnest = 1e-12;  // a flat body is given this thickness
+  constexpr double kThinnest = 1e-12;  // relative to the largest half-extent; a flat body gets this thickness
   const double largest = half_extents.maxCoeff();
   if (largest == 0) return -v;
   const Vector3 half = half_extents.cwiseMax(kThinnest * largest);
@@ -122,7 +122,7 @@ void EntrySearch::evaluate(const Vector3& normal) {
   sample.slope = slope;
   sample.t = sample.jet.s / -slope;
   const double upper_bound = portal_.upper_bound();
-  const bool is_news = add_point(sample.jet.d);
+  const bool is_kept = add_point(sample.jet.d);
   is_beside_latest_ = false;
   if (!gap_.has_hessian()) has_best_ ? secant_.update(best_.jet, sample.jet) : secant_.restart(sample.jet);
   const bool is_lower = portal_.upper_bound() - best_.t < kProgress * (upper_bound - best_.t);
@@ -133,14 +133,14 @@ void EntrySearch::evaluate(const Vector3& normal) {
   }
   if (is_best || !gap_.has_hessian()) was_tried_ = false;
   has_best_ = true;
-  idle_steps_ = is_best || is_news ? 0 : idle_steps_ + 1;
+  idle_steps_ = is_best || is_kept ? 0 : idle_steps_ + 1;
   fruitless_steps_ = is_best || is_lower ? 0 : fruitless_steps_ + 1;
 }
 
-// Near the maximum t is level to rounding while the boundary point still comes nearer to the line.
+// Near the maximum t is constant to rounding, while the boundary point still approaches the line.
 bool EntrySearch::is_better(const Sample& sample) const {
   const double level = gap_.rounding() / -sample.slope;
-  if (!(sample.t <= best_.t + level)) return true;  // also when `t` is not a number
+  if (!(sample.t <= best_.t + level)) return true;  // also when `t` is NaN
   return sample.t >= best_.t - level && distance_at(sample).squaredNorm() < distance_at(best_).squaredNorm();
 }
 
@@ -159,7 +159,7 @@ void EntrySearch::evaluate_beside(const Vector3& normal) {
   is_beside_latest_ = true;
 }
 
-// The boundary near the point r is { x : n.x - h = -1/2 y A^-1 y }, with y the tangential part of x - r and A the Hessian of h.
+// The boundary near the point r is { x : n.x - h = -1/2 y A^-1 y }, where y is the tangential part of x - r and A the Hessian of h.
 EntrySearch::Step EntrySearch::paraboloid_step() const {
   Step step;
   const bool from_beside = is_beside_latest_ || !has_best_;
@@ -198,10 +198,10 @@ bool EntrySearch::add_point(const Vector3& d) {
   return portal_.add(d);
 }
 
-// The vector from the boundary point to the point where its plane meets the line.
+// The vector from the boundary point to the point where its tangent plane meets the line.
 Vector3 EntrySearch::distance_at(const Sample& sample) const { return sample.jet.d + sample.t * v_; }
 
-// The error that remains by the model, from the promised gain and its ratio to the gain promised one step before.
+// The model's estimate of the remaining error, from the expected gain and its ratio to the gain expected one step before.
 double EntrySearch::expected_error(const Step& step) const {
   if (!gap_.has_hessian() || !std::isfinite(step.gain)) return kInfinity;
   const bool has_history = std::isfinite(promised_gain_) && promised_gain_ > 0 && step.length < kAsymptoticStep;
@@ -215,10 +215,10 @@ double EntrySearch::boundary_error() const {
   return std::max(error, 0.0) + gap_.rounding();
 }
 
-// The line may pass the body although a point of it is within the tolerance, so a good point does not end the search by itself.
+// A good point does not end the search by itself: the line may miss the body although a point of the line is within the tolerance.
 //
-// And the point may be good long before the normal is. Boundary point and normal belong together, so that either is good enough:
-// the first on a sharp edge, the second on a flat face.
+// The point may be good long before the normal is. The boundary point and the normal belong together, so one of them is enough: the
+// point on a sharp edge, the normal on a flat face.
 bool EntrySearch::has_settled(const Step& step) {
   if (boundary_error() > tolerance_ || (!is_deep_ && !portal_.is_pierced())) return false;
   const bool is_normal_good = distance_at(best_).norm() <= tolerance_ || step.length <= settings_.tolerance;
@@ -269,15 +269,15 @@ bool EntrySearch::choose_by_portal(Vector3& normal) {
   return is_usable;
 }
 
-// All remembered points are in the body, and so is their hull: this is the direction in which the hull is farthest from the best
-// point on the line. The portal may miss it when the line passes through one of its edges.
+// The stored points and their hull lie in the body. The chosen normal is the direction in which the hull is farthest from the best
+// point on the line. The portal may not find it if the line passes through one of the portal's edges.
 bool EntrySearch::choose_by_points(Vector3& normal) {
   CuttingPlanes cuts;
   for (int k = 0; k < std::min(point_count_, CuttingPlanes::kCapacity); ++k) {
     cuts.add(points_[static_cast<std::size_t>(k)] + best_.t * v_);
   }
   const TangentPlane plane(best_.jet.n, best_.jet.n.unitOrthogonal());
-  const CuttingPlanes::Maximum top = cuts.maximize(plane, kReach);
+  const CuttingPlanes::Maximum top = cuts.maximize(plane, kLargestTilt);
   if (top.is_interior) point_error_ = std::max(top.value, 0.0) + top.uncertainty;
   normal = best_.jet.n + plane.lift(top.u);
   return top.value > gap_.rounding() && normal.dot(v_) < -kGrazing * normal.norm();
@@ -285,23 +285,24 @@ bool EntrySearch::choose_by_points(Vector3& normal) {
 
 EntrySearch::Result EntrySearch::found(Status status) const {
   const double error = boundary_error();
-  // The line enters between the best plane and the portal. If it only grazes the body, the plane may be behind by rounding.
+  // The line enters the body between the best plane and the portal. If the line only grazes the body, rounding may put the plane
+  // behind the portal.
   const double t = std::fmin(best_.t, portal_.upper_bound());
   const double length = portal_.upper_bound() - t;
-  // The portal is in the body, and no point of the body is beyond a plane beside the line: so near to it, the line grazes the
-  // body at the portal.
+  // The portal is in the body, and the body lies behind every plane beside the line. If such a plane is this near, the line grazes
+  // the body at the portal.
   const double grazing_error = -nearest_ + gap_.rounding();
   if (error > tolerance_ && portal_.is_pierced() && grazing_error <= tolerance_) {
     return {Kind::Found, Status::Converged, portal_.upper_bound(), grazing_error, length, nearest_normal_};
   }
   if (has_best_) {
-    // If the line only grazes the body, it becomes no steeper from the plane on, and the remaining sideways error says little
-    // about t.
+    // If the line only grazes the body, its slope does not grow behind the plane. The remaining sideways error then does not bound
+    // the error of t.
     const double steep_length = is_deep_ ? error / -best_.slope : kInfinity;
     const double t_error = std::fmin(steep_length, length + gap_.rounding() / -best_.slope);
     return {Kind::Found, status, t, error, t_error, best_.jet.n};
   }
-  // The evaluations are exhausted.
+  // The limit of evaluations is reached.
   if (portal_.is_pierced()) return {Kind::Found, status, portal_.upper_bound(), kInfinity, kInfinity, nearest_normal_};
   return {Kind::Miss, status, 0, kInfinity, kInfinity, nearest_normal_};
 }

@@ -13,24 +13,25 @@
 
 namespace supernormal {
 
-/// The normal at which the line c + t v enters the ellipsoid with these half-extents, or, when it misses it, the normal of the
-/// plane between both, perpendicular to v.
+/// The unit normal of the ellipsoid with these half-extents at the entry of the line c + t v. If the line misses the ellipsoid, it
+/// is the normal of a plane between both, perpendicular to v.
 Vector3 first_entry_normal(const Vector3& half_extents, const Vector3& c, const Vector3& v);
 
-/// Finds the entry of the line c + t v, where c = gap.offset(): body 1 of the gap function is the body, body 2 a point.
+/// Finds the entry of the line c + t v, with c = gap.offset(). Body 1 of the gap function is the body, body 2 is a point.
 ///
-/// A plane with normal n against v (n.v < 0) supports the body and meets the line at t(n) = (n.c - h(n)) / -n.v; in front of it
-/// there is no body, so the line enters at the largest t(n). With n = w - v, w perpendicular to v, t(w) = (w - v).c - h(w - v) is
-/// concave: it has one maximum, or, if the line passes the body, none, but a w with w.c > h(w). Each step
-///   1. meets the line with the osculating paraboloid at the best normal so far and goes to the normal there (which is the Newton
-///      step of t(n) near the maximum and does not slow down where the line only grazes the body), unless
-///   2. the last such step did not bring it much nearer, or the Portal rules it out: then to the normal of the portal, or, as long
-///      as it is not known whether the line hits the body, to a direction that may separate them.
+/// A supporting plane with a normal n against v (n.v < 0) meets the line at t(n) = (n.c - h(n)) / -n.v. The body lies behind all
+/// these planes, so the line enters at the largest t(n). With n = w - v, w perpendicular to v, t(w) = (w - v).c - h(w - v) is
+/// concave. So it has one maximum. If the line misses the body, it has none, and there is a w with w.c > h(w). Each step takes one
+/// of two normals:
+///   1. The normal at which the line meets the osculating paraboloid of the best sample. Near the maximum this is the Newton
+///      step of t(n). It does not slow down where the line only grazes the body.
+///   2. The normal of the portal, or a direction that may separate body and line while a hit is not yet certain. This is the
+///      step if the last step of the paraboloid gained too little, or if the portal excludes its normal.
 class EntrySearch {
  public:
   enum class Kind {
-    Miss,    ///< the line passes the body
-    Beyond,  ///< it enters after `limit`, if at all
+    Miss,    ///< the line misses the body
+    Beyond,  ///< the line enters the body after `limit`, or misses it
     Found,
   };
 
@@ -56,10 +57,10 @@ class EntrySearch {
   };
   struct Step {
     Vector3 normal = Vector3::Zero();
-    double length = std::numeric_limits<double>::infinity();  // estimate of the angle, radians
+    double length = std::numeric_limits<double>::infinity();  // rad; estimate of the angle
     double gain = std::numeric_limits<double>::infinity();    // m; estimate of the distance from the plane to the boundary
     bool is_usable = false;
-    bool is_deep = false;  // the line enters the paraboloid by more than an error
+    bool is_deep = false;  // the line enters the paraboloid by more than the error
   };
 
   void evaluate(const Vector3& normal);
@@ -83,7 +84,7 @@ class EntrySearch {
   const double tolerance_;  // m
   Portal portal_;
   BfgsHessian secant_;
-  std::array<Vector3, CuttingPlanes::kCapacity> points_;  // c - r of the last evaluations
+  std::array<Vector3, CuttingPlanes::kCapacity> points_;  // m; c - r of the last evaluations
   int point_count_ = 0;
   Sample best_;                                                // the sample with the largest t
   Sample beside_;                                              // the last plane along the line
@@ -93,11 +94,11 @@ class EntrySearch {
   bool is_beside_latest_ = false;
   bool misses_ = false;
   bool is_finite_ = true;
-  bool is_deep_ = false;                                            // the line enters the paraboloid at best_ by more than an error
-  bool was_tried_ = false;                                          // the step of that paraboloid was taken
-  double model_error_ = std::numeric_limits<double>::infinity();    // m; expected_error() at best_
-  double point_error_ = std::numeric_limits<double>::infinity();    // m; distance of the remembered points' hull from best_
-  double promised_gain_ = std::numeric_limits<double>::infinity();  // m; that of the last step, if it was one of the paraboloid
+  bool is_deep_ = false;                                          // the line enters the paraboloid at best_ by more than the error
+  bool was_tried_ = false;                                        // the step of the paraboloid at best_ was taken
+  double model_error_ = std::numeric_limits<double>::infinity();  // m; expected_error() at best_
+  double point_error_ = std::numeric_limits<double>::infinity();  // m; distance of best_ from the hull of the stored points
+  double promised_gain_ = std::numeric_limits<double>::infinity();  // m; the gain of the last step, if the paraboloid made it
   int slow_steps_ = 0;                                              // steps that did not halve the sector of separating directions
   int idle_steps_ = 0;                                              // steps that changed neither best_ nor the portal
   int fruitless_steps_ = 0;

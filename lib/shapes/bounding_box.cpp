@@ -2,7 +2,7 @@
 
 namespace supernormal {
 
-// Row i of R is axis i in the body's frame.
+// Row i of the rotation is the world axis i in the body's frame.
 BoundingBox find_bounding_box(const Shape& shape, const Pose& pose) {
   BoundingBox box;
   for (int axis = 0; axis < 3; ++axis) {

@@ -17,7 +17,7 @@
 namespace supernormal {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // relative to the size; the precision that a single-precision callback can keep
+constexpr double kTolerance = 1e-6;  // relative to the size; the precision of a single-precision callback
 constexpr int kDirections = 26;
 
 struct Trial {
@@ -26,7 +26,7 @@ struct Trial {
   Vector3 r = Vector3::Zero();
 };
 
-/// The directions to the faces, edges and corners of a cube; number 25 - i is opposite to number i.
+/// The directions to the faces, edges and vertices of a cube. Direction 25 - i is opposite to direction i.
 std::array<Trial, kDirections> trial_directions() {
   std::array<Trial, kDirections> trials;
   std::size_t count = 0;
@@ -48,8 +48,8 @@ std::string vector_text(const Vector3& v) {
   throw std::invalid_argument(what + " in the direction n = " + vector_text(n));
 }
 
-/// Refuses values that are not finite or violate n.r = h; returns the size, the largest distance of a boundary point from the
-/// origin.
+/// Refuses values that are not finite or violate n.r = h. Returns the size (m): the largest |coordinate| of a boundary point or
+/// |h|.
 double check_points(const std::array<Trial, kDirections>& trials) {
   double size = 0;
   for (const Trial& trial : trials) {
@@ -68,7 +68,7 @@ double check_points(const std::array<Trial, kDirections>& trials) {
   return size;
 }
 
-/// Refuses a width outside the lengths of other shapes, and a boundary point in front of a supporting plane.
+/// Refuses a width below 2 kMinLength, and a boundary point outside a supporting plane.
 void check_convex(const std::array<Trial, kDirections>& trials, double size) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const Trial& trial = trials[i];
@@ -100,27 +100,28 @@ void check_hessian(const Matrix3& hessian, const Vector3& n) {
   if (radial > kTolerance) {
     refuse("hessian times n is not zero but " + to_text(radial) + " of the largest entry", n);
   }
-  // With one eigenvalue zero, these are the sum and the product of the two principal radii.
+  // One eigenvalue is zero. So the trace is the sum of the two principal radii, and `product` their product.
   const double product = 0.5 * (H.trace() * H.trace() - H.squaredNorm());
   if (H.trace() < 0 || product < -kTolerance) refuse("hessian has a negative principal radius", n);
 }
 
-/// An arc of the boundary, from the point of one normal to that of another.
+/// An arc of the boundary between the boundary points of two normals.
 struct Bend {
   Vector3 n1, r1, n2, r2;
 
-  /// m; the mean radius of curvature
+  /// m; the mean radius of curvature of the arc
   double radius() const { return (n2 - n1).dot(r2 - r1) / (n2 - n1).squaredNorm(); }
 };
 
 const Bend& sharper(const Bend& one, const Bend& other) { return other.radius() < one.radius() ? other : one; }
 
-/// The least radius of curvature (m) with normals around the axis, at the arcs between samples that are sharpest: 0 if a whole
-/// arc has one point. Such an arc is halved again and again, for at a vertex the radius vanishes like a power of the distance
-/// from its normal.
+/// The least radius of curvature (m) with normals perpendicular to the axis, by sampling; 0 if a whole arc has one boundary point.
+/// The sharpest sampled arc is halved repeatedly, because at a vertex the radius vanishes like a power of the angle from the
+/// vertex' normal.
 double sharpest_bend(const Vector3& axis, const CallbackShape::Point& point) {
   constexpr int kArcs = 72;
-  constexpr int kHalvings = 8;  // down to 3e-4, where the points' rounding error is still a small share of their distance
+  // Down to 3e-4 rad, where the rounding error of the points is still a small fraction of their distance.
+  constexpr int kHalvings = 8;
   const Vector3 across = axis.unitOrthogonal();
   const Vector3 along = axis.cross(across);
   const auto bend_to = [&](const Vector3& n1, const Vector3& r1, int arc) -> Bend {
@@ -142,7 +143,7 @@ double sharpest_bend(const Vector3& axis, const CallbackShape::Point& point) {
   return std::max(sharpest.radius(), 0.0);
 }
 
-/// Searches around the nine axes through faces and edges of a cube.
+/// The least radius of curvature (m) around the nine axes through faces and edges of a cube.
 double estimate_min_curvature_radius(const CallbackShape::Point& point) {
   double radius = std::numeric_limits<double>::infinity();
   const std::array<Trial, kDirections> trials = trial_directions();

@@ -21,7 +21,7 @@ void Capsule::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H = radius_ * (Matrix3::Identity() - n * n.transpose());
 }
 
-// The sphere's share of the boundary point follows the normal and is the same for both ends.
+// The sphere's boundary point, radius n, is the same for both ends.
 void Capsule::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& corners) const {
   const Vector3 end(0, 0, half_length_);
   corners.add(radius_ * n - end);
@@ -40,7 +40,7 @@ MassProperties Capsule::mass_properties() const {
   const double l = half_length_;
   const double wall = 2 * std::numbers::pi * r * r * l;  // volume of the cylindrical part
   const double ends = 4.0 / 3 * std::numbers::pi * r * r * r;
-  // Half a ball has its centroid 3/8 r from its flat side, and half the second moment of the ball about that side.
+  // Half a ball has its centroid 3/8 r from its flat side, and half the second moment of the ball about this side.
   const double across = wall * r * r / 4 + ends * r * r / 5;
   const double along = wall * l * l / 3 + ends * (r * r / 5 + 2 * (3.0 / 8) * r * l + l * l);
   MassProperties mass;

@@ -34,7 +34,7 @@ void ConvexHull::build(std::span<const LatticePoint> points) {
   }
 }
 
-// Builds a tetrahedron of points that are far apart. Returns false when there is none: then faces_ is the hull.
+// Builds a tetrahedron of points that are far apart. Returns false if there is none: then faces_ is already the hull.
 bool ConvexHull::start() {
   const auto farthest = [&](auto&& measure) {
     std::size_t best = 0;
@@ -91,7 +91,8 @@ std::int64_t ConvexHull::height(const Face& face, std::size_t point) const {
   return dot(face.normal, difference(points_[point], points_[face.vertices[0]]));
 }
 
-// Gives the point to the first of the faces from `first_face` on that it is in front of; a point in front of none is inside.
+// Assigns the point to the first face, from `first_face` on, that it is in front of. A point in front of no face is inside the
+// hull.
 void ConvexHull::hand_over(std::size_t point, std::size_t first_face) {
   for (std::size_t k = first_face; k < faces_.size(); ++k) {
     if (height(faces_[k], point) <= 0) continue;
@@ -113,7 +114,7 @@ std::size_t ConvexHull::farthest_outside(const Face& face) const {
   return farthest;
 }
 
-// Collects the faces that are visible from the point, beginning with one of them, and the edges around them.
+// Collects the faces that are visible from the point, starting with `face`, and the edges around them: the horizon.
 void ConvexHull::collect_visible(std::size_t face, std::size_t point) {
   visible_.assign(1, face);
   horizon_.clear();
@@ -135,7 +136,7 @@ void ConvexHull::collect_visible(std::size_t face, std::size_t point) {
   }
 }
 
-// Adds the farthest point in front of a face: new faces from it to the horizon replace those that are visible from it.
+// Adds the farthest point in front of a face. New faces from the point to the horizon replace the visible faces.
 void ConvexHull::grow(std::size_t face) {
   const std::size_t apex = farthest_outside(faces_[face]);
   collect_visible(face, apex);

@@ -1,4 +1,4 @@
-// The faces of the convex hull of some points.
+// The faces of the convex hull of points.
 #pragma once
 
 #include <array>
@@ -11,34 +11,34 @@
 
 namespace supernormal {
 
-/// A point of a lattice. There the side of a plane that a point is on is decided exactly, so that coplanar, collinear and
-/// repeated points are no special cases for the hull.
+/// A point on a lattice. There it is decided exactly on which side of a plane a point lies. So coplanar, collinear and repeated
+/// points are no special cases for the hull.
 using LatticePoint = std::array<std::int64_t, 3>;
 
-/// Coordinates are in [-kLatticeHalfWidth, kLatticeHalfWidth], the largest range for which three differences and a sum of three
-/// products of them stay within 64 bits.
+/// Coordinates are in [-kLatticeHalfWidth, kLatticeHalfWidth]. This is the largest range in which a sum of three products of three
+/// differences stays within 64 bits.
 inline constexpr std::int64_t kLatticeHalfWidth = std::int64_t{1} << 19;
 
 /// Quickhull (Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls", ACM Trans. Math. Softw. 22, 1996) with
-/// exact arithmetic. Keeps its memory from one hull to the next.
+/// exact arithmetic. Reuses its memory from one hull to the next.
 class ConvexHull {
  public:
   struct Face {
     std::array<std::size_t, 3> vertices;    ///< indices into points(), counter-clockwise seen from outside
     std::array<std::size_t, 3> neighbours;  ///< neighbours[k] lies across the edge from vertices[k] to vertices[k + 1]
     LatticePoint normal;                    ///< outward; its length is twice the area
-    std::size_t first_outside;              ///< first of a list of the points in front of the face while the hull grows
+    std::size_t first_outside;              ///< head of the list of points in front of the face, while the hull grows
     bool is_removed;
   };
 
-  /// Builds the hull of other points. Their order makes no difference.
+  /// Builds the hull of `points`. Their order does not matter.
   void build(std::span<const LatticePoint> points);
 
-  /// The points sorted, each once, including those inside the hull.
+  /// The points, sorted, without repetitions, with the points inside the hull.
   std::span<const LatticePoint> points() const { return points_; }
 
-  /// Calls `visit(face)` for every triangle of the surface. Points in a plane give both sides of each triangle, points on a line
-  /// nothing.
+  /// Calls `visit(face)` for every triangle of the surface. For coplanar points these are both sides of each triangle; for
+  /// collinear points there are none.
   template <typename Visit>
   void for_each_face(Visit&& visit) const {
     for (const Face& face : faces_) {
@@ -58,14 +58,14 @@ class ConvexHull {
   void hand_over(std::size_t point, std::size_t first_face);
 
   struct Edge {
-    std::size_t from, to;      // in the direction that the visible face has
-    std::size_t beyond, side;  // the face that stays, and the number of its edge
+    std::size_t from, to;      // the edge, in the direction of the visible face
+    std::size_t beyond, side;  // the face that stays, and the index of the edge in it
   };
 
   std::vector<LatticePoint> points_;
   std::vector<Face> faces_;
-  std::vector<std::size_t> next_outside_;  // the lists of first_outside: one entry for each point
-  std::vector<std::size_t> face_from_;     // for each point: the new face whose edge of the horizon starts there
+  std::vector<std::size_t> next_outside_;  // the lists of first_outside: the next point, for each point
+  std::vector<std::size_t> face_from_;     // for each point: the new face whose horizon edge starts there
   std::vector<std::size_t> visible_;
   std::vector<Edge> horizon_;
 };

@@ -9,10 +9,10 @@
 namespace supernormal {
 namespace {
 
-// Closer to the axis than this, the azimuth of a normal is rounding only.
+// Nearer to the axis than this, the azimuth of a normal is only rounding error.
 constexpr double kPole = 1e-15;
 
-// The normal of a cap may be this far from the axis after a rotation there and back by matrices that are themselves rounded.
+// A cap's normal may deviate from the axis by this much after a rotation there and back by rounded matrices.
 constexpr double kCap = 4e-15;
 
 }  // namespace
@@ -30,7 +30,7 @@ void Cylinder::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.r = radius_ * radial;
   jet.r.z() = std::copysign(half_length_, n.z());
   if (order == Order::Point) return;
-  // The boundary point moves along the rim with the normal's azimuth; a cap has active vertices instead of a Hessian.
+  // The boundary point moves along the edge with the normal's azimuth. A cap has active vertices instead of a Hessian.
   const Vector3 along_rim(-radial.y(), radial.x(), 0);
   jet.H = across < kCap ? Matrix3(Matrix3::Zero()) : Matrix3(radius_ / across * along_rim * along_rim.transpose());
 }
@@ -39,7 +39,8 @@ void Cylinder::add_active_vertices(const Vector3& n, const Vector3& toward, Acti
   const Vector3 end(0, 0, half_length_);
   const double across = std::hypot(n.x(), n.y());
   if (across < kCap) {
-    // An equilateral triangle of rim points, one of them in the direction of `toward`, contains the point.
+    // An equilateral triangle of points on the edge contains the cap's point nearest to `toward`. One of its vertices is in the
+    // direction of `toward`.
     const double distance = std::hypot(toward.x(), toward.y());
     const Vector3 rim =
         distance > kPole * radius_ ? Vector3(toward.x(), toward.y(), 0) / distance * radius_ : Vector3(radius_, 0, 0);

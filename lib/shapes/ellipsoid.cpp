@@ -20,7 +20,7 @@ void Ellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const double inverse = 1 / jet.h;
   jet.r = squares_.cwiseProduct(n) * inverse;
   if (order == Order::Point) return;
-  // H = (diag(a^2) - r r^T)/h with r = a w, |w| = 1: writing 1 - w_x^2 as w_y^2 + w_z^2 keeps the digits of a needle's small
+  // H = (diag(a^2) - r r^T)/h with r = a w and |w| = 1. Writing 1 - w_x^2 as w_y^2 + w_z^2 keeps the digits of a needle's small
   // radii.
   const Vector3 w = half_axes_.cwiseProduct(n) * inverse;  // unit vector
   const Vector3 rest(w.y() * w.y() + w.z() * w.z(), w.z() * w.z() + w.x() * w.x(), w.x() * w.x() + w.y() * w.y());

@@ -1,4 +1,4 @@
-// Tests for numbers that may be infinite or NaN, without floating-point exceptions.
+// Tests for infinite and NaN values that raise no floating-point exceptions.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,7 @@
 
 namespace supernormal {
 
-/// Replaces Eigen's allFinite(), which subtracts every entry from itself and so raises FE_INVALID where it is infinite.
+/// Replaces Eigen's allFinite(), which subtracts every entry from itself and so raises FE_INVALID for an infinite entry.
 template <typename Derived>
 bool all_finite(const Eigen::MatrixBase<Derived>& matrix) {
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
@@ -17,7 +17,7 @@ bool all_finite(const Eigen::MatrixBase<Derived>& matrix) {
   return true;
 }
 
-/// Whether no entry is larger than `limit`; false if one is not a number.
+/// Whether no |entry| is larger than `limit`; false for a NaN.
 template <typename Derived>
 bool all_within(const Eigen::MatrixBase<Derived>& matrix, double limit) {
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
@@ -28,7 +28,7 @@ bool all_within(const Eigen::MatrixBase<Derived>& matrix, double limit) {
   return true;
 }
 
-/// Whether |numerator / denominator| is less than `limit`, without the division, which might overflow; false if both are zero.
+/// Whether |numerator / denominator| < `limit`, without the division, which might overflow. False if both are zero.
 inline bool is_quotient_within(double numerator, double denominator, double limit) {
   return std::abs(numerator) < limit * std::abs(denominator);
 }

@@ -37,7 +37,7 @@ void LinearImage::evaluate(const Vector3& n, Order order, Jet& jet) const {
   if (order == Order::Point || !has_hessian()) return;
   const Matrix3 half = matrix_ * (jet.H / length);
   jet.H = half * matrix_.transpose();
-  // The two triangles differ by rounding, so the matrix is made symmetric.
+  // The two triangles of the matrix differ by rounding.
   jet.H = (0.5 * (jet.H + jet.H.transpose())).eval();
 }
 

@@ -14,12 +14,13 @@
 namespace supernormal {
 namespace {
 
-constexpr double kSphere = 4 * std::numbers::pi / 3;  // volume of the unit sphere
+constexpr double kSphere = 4 * std::numbers::pi / 3;  // volume of the unit ball
 
-// A layer thinner than this share of the body adds less than a double can hold, and products of its moments would underflow.
+// Relative to the smallest half-extent. A thinner layer adds less than a double can hold, and products of its moments would
+// underflow.
 constexpr double kThinnestLayer = 0x1p-60;
 
-/// The mass properties of a body with three planes of symmetry, from its volume and mean squares <x^2>, <y^2>, <z^2>.
+/// The mass properties of a body with three planes of symmetry, from its volume and its mean squares <x^2>, <y^2>, <z^2>.
 MassProperties symmetric(double volume, const Vector3& mean_squares) {
   MassProperties mass;
   mass.volume = volume;
@@ -36,10 +37,11 @@ MassProperties swept_superovoid(const MassProperties& core, const Superovoid& sh
   return mass;
 }
 
-/// A pointer to the shape that does not own it.
+/// A shared pointer that does not own the shape.
 std::shared_ptr<const Shape> borrowed(const Shape& shape) { return {std::shared_ptr<const Shape>(), &shape}; }
 
-/// The mass properties of the core swept by a sphere, in closed form or by spectral quadrature where the kind of core is known.
+/// The mass properties of the core swept by a sphere. For a core of a known class they are in closed form or by spectral
+/// quadrature.
 MassProperties swept(const Shape& core, double radius) {
   if (radius <= kThinnestLayer * core.half_extents().minCoeff()) return core.mass_properties();
   if (const auto* rounded = dynamic_cast<const Rounded*>(&core)) return swept(rounded->core(), rounded->radius() + radius);
@@ -71,8 +73,8 @@ MassProperties Sphere::mass_properties() const {
 MassProperties Ellipsoid::mass_properties() const { return symmetric(kSphere * half_axes_.prod(), squares_ / 5); }
 
 MassProperties Superellipsoid::mass_properties() const {
-  // d and e are Gamma(1 + k/delta) and Gamma(1 + k/epsilon). The textbook's Gamma(3/delta) / Gamma(1/delta) is G3 / (3 G1),
-  // without poles.
+  // d(k) and e(k) are Gamma(1 + k/delta) and Gamma(1 + k/epsilon). The textbook's Gamma(3/delta) / Gamma(1/delta) is d(3) / (3
+  // d(1)), which has no poles.
   const auto d = [this](int k) { return std::tgamma(1 + k / delta_); };
   const auto e = [this](int k) { return std::tgamma(1 + k / epsilon_); };
   const double volume = 8 * half_axes_.prod() * (d(1) * d(1) / d(2)) * (e(1) * e(2) / e(3));
@@ -82,15 +84,16 @@ MassProperties Superellipsoid::mass_properties() const {
 }
 
 MassProperties Superovoid::mass_properties() const {
-  // The section at s = z/c is that of the superellipsoid, scaled by X = 1 + taper_x s and Y = 1 + taper_y s, a polynomial in s.
-  // So all integrals are sums of those of w^m s^k over s from -1 to 1, w^epsilon = 1 - |s|^epsilon, and the odd ones vanish.
+  // The section at s = z/c is the superellipsoid's section, scaled by the polynomials X = 1 + taper_x s and Y = 1 + taper_y s. So
+  // all integrals are sums of integrals of w^m s^k over s from -1 to 1, with w^epsilon = 1 - |s|^epsilon. The integrals for odd k
+  // vanish.
   const auto e = [this](int k) { return std::tgamma(1 + k / epsilon_); };
   const auto integral = [&](int m, int k) { return 2 * e(m) * e(k + 1) / ((k + 1) * e(m + k + 1)); };
   const auto d = [this](int k) { return std::tgamma(1 + k / delta_); };
-  const double area = 4 * d(1) * d(1) / d(2);  // area of the section with half-axes 1, and the mean of x^2 in it
+  const double area = 4 * d(1) * d(1) / d(2);  // area of the section with half-axes 1; mean_square: mean of x^2 in it
   const double mean_square = d(3) * d(2) / (3 * d(1) * d(4));
   const double x = taper_x_, y = taper_y_;
-  // The integral of w^4 X^3 Y; that of w^4 X Y^3 follows with x and y exchanged.
+  // The integral of w^4 X^3 Y. Exchanging x and y gives the integral of w^4 X Y^3.
   const auto across = [&](double i, double j) {
     return integral(4, 0) + 3 * i * (i + j) * integral(4, 2) + i * i * i * j * integral(4, 4);
   };

@@ -1,13 +1,14 @@
 // Volume integrals of any convex body, from its support function alone.
 //
-// A normal with solid angle dw sits on the surface element D dw, with D the product of the two principal radii. By the divergence
-// theorem V = 1/3 int h D dw, the first moments are 1/4 int h r D dw and the second moments 1/5 int h r r^T D dw: integrals over
-// the unit sphere, for which Gauss-Legendre nodes in z times equidistant ones around it converge exponentially when h is smooth.
+// A normal with the solid angle dw belongs to the surface element D dw, where D is the product of the two principal radii. By the
+// divergence theorem the volume is 1/3 int h D dw, the first moment 1/4 int h r D dw, and the second moment 1/5 int h r r^T D dw.
+// These are integrals over the unit sphere. Gauss-Legendre nodes in z times equidistant nodes around z converge exponentially for a
+// smooth h.
 //
-// Surfaces without a smooth D escape the quadrature: a flat face is one normal, a straight edge an arc of them. The area that
-// escapes is known, because the area is also 1/2 int h T dw (T is the sum of the radii) and int T dw = 2 int h dw, where fewer
-// derivatives are needed (mixed volumes; Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 5.3). It is part of the
-// reported error.
+// The quadrature misses surfaces without a smooth D: a flat face is one normal, a straight edge an arc of normals. The missed area
+// is known, because two identities need fewer derivatives. With T the sum of the radii, the area is also 1/2 int h T dw, and int T
+// dw = 2 int h dw (mixed volumes; Schneider, Convex Bodies: The Brunn-Minkowski Theory, section 5.3). The missed area is part of
+// the reported error.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -23,8 +24,9 @@
 namespace supernormal {
 namespace {
 
-constexpr double kRefinementTolerance = 1e-11;  // relative change between two rules that ends the refinement
-constexpr int kMinRule = 8;                     // number of nodes in z
+// The refinement ends at this relative change between two rules.
+constexpr double kRefinementTolerance = 1e-11;
+constexpr int kMinRule = 8;  // number of nodes in z
 constexpr int kMaxRule = 256;
 
 using Tangents = Eigen::Matrix<double, 3, 2>;
@@ -40,7 +42,7 @@ Tangents tangents(const Vector3& m) {
   return t;
 }
 
-/// The shape in coordinates y, x = centre + scale y, in which it is about as long as wide, so that a needle is as easy as a ball.
+/// The shape in coordinates y with x = centre + scale y. In these it is about as long as wide, so a needle is as easy as a ball.
 class AffineView {
  public:
   explicit AffineView(const Shape& shape) : shape_(shape) { set(Vector3::Zero(), shape.half_extents().asDiagonal()); }
@@ -54,10 +56,10 @@ class AffineView {
   const Vector3& centre() const { return centre_; }
   const Matrix3& scale() const { return scale_; }
 
-  /// The boundary point whose normal is the unit vector m.
+  /// The boundary point with the unit normal m, in the view's coordinates.
   Vector3 point(const Vector3& m) const { return inverse_ * (shape_.point((inverse_.transpose() * m).normalized()) - centre_); }
 
-  /// The support function and, if `hessian`, the tangential part of its Hessian.
+  /// The support function, the boundary point and, if `hessian`, the tangential part of the Hessian.
   Jet jet(const Vector3& m, bool hessian) const {
     const Vector3 covector = inverse_.transpose() * m;
     const double length = covector.norm();
@@ -81,7 +83,7 @@ struct Node {
   double weight;
 };
 
-/// Gauss-Legendre nodes z in (-1, 1) for `count` nodes, by Newton's method on the Legendre polynomial.
+/// The `count` Gauss-Legendre nodes z in (-1, 1) with their weights, by Newton's method on the Legendre polynomial.
 std::vector<std::pair<double, double>> gauss_legendre(int count) {
   std::vector<std::pair<double, double>> rule;
   for (int i = 0; i < count; ++i) {
@@ -98,8 +100,8 @@ std::vector<std::pair<double, double>> gauss_legendre(int count) {
   return rule;
 }
 
-/// A rule of `count` nodes in z times twice as many around, half a step off the coordinate planes, where bodies tend to be
-/// singular.
+/// A rule of `count` nodes in z times twice as many around z. The nodes are half a step off the coordinate planes, where bodies
+/// tend to be singular.
 std::vector<Node> sphere_rule(int count) {
   std::vector<Node> nodes;
   for (const auto& [z, weight] : gauss_legendre(count)) {
@@ -112,7 +114,7 @@ std::vector<Node> sphere_rule(int count) {
   return nodes;
 }
 
-/// Chooses coordinates in which the boundary points of evenly spread normals scatter evenly. Exact for an ellipsoid.
+/// Chooses coordinates in which the boundary points of uniformly distributed normals scatter uniformly. Exact for an ellipsoid.
 void balance(AffineView& view) {
   const std::vector<Node> nodes = sphere_rule(kMinRule);
   for (int pass = 0; pass < 8; ++pass) {
@@ -129,14 +131,14 @@ void balance(AffineView& view) {
     if (!std::isfinite(largest)) throw std::domain_error("mass properties: the shape delivers points that are not finite");
     if (!(largest > 0)) return;  // the body is a point
     const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(scatter / largest);
-    constexpr double kThinnest = 1e-12;  // length ratio; thinner bodies have no volume
+    constexpr double kThinnest = 1e-12;  // ratio of lengths; thinner bodies have no volume
     const Vector3 lengths = std::sqrt(largest) * eigen.eigenvalues().cwiseMax(kThinnest * kThinnest).cwiseSqrt();
     view.set(view.centre() + view.scale() * mean, eigen.eigenvectors() * lengths.asDiagonal() * eigen.eigenvectors().transpose());
   }
 }
 
-/// The tangential Hessian, dr/dm, by central differences along great circles; steps in the ratio 1 : 2 : 4 cancel two error terms
-/// (Richardson). `step`, rad, is the smallest of the three.
+/// The tangential Hessian dr/dm by central differences along great circles. Steps in the ratio 1 : 2 : 4 cancel two error terms
+/// (Richardson). `step` (rad) is the smallest of the three.
 Eigen::Matrix2d differences(const AffineView& view, const Vector3& m, const Tangents& t, double step) {
   Eigen::Matrix2d D;
   for (int axis = 0; axis < 2; ++axis) {
@@ -155,15 +157,16 @@ struct Sums {
   double volume = 0;
   Vector3 first = Vector3::Zero();
   Matrix3 second = Matrix3::Zero();
-  double escaped = 0;  // bound on the volume under surface without a smooth D
+  double escaped = 0;  // bound on the volume below surface without a smooth D
 
   bool is_finite() const { return std::isfinite(volume + escaped) && first.allFinite() && second.allFinite(); }
 };
 
 Sums integrate(const AffineView& view, bool has_hessian, int rule) {
   Sums sums;
-  double width = 0, sum_of_radii = 0, area = 0, mixed_area = 0, reach = 0;
-  const double step = 0.25 / rule;  // in proportion to the distance of nodes: refinement shows the error of both
+  double width = 0, sum_of_radii = 0, area = 0, mixed_area = 0, farthest = 0;
+  // In proportion to the distance between nodes. So refining the rule shows the error of both.
+  const double step = 0.25 / rule;
   for (const Node& node : sphere_rule(rule)) {
     const Jet jet = view.jet(node.m, has_hessian);
     const Tangents t = tangents(node.m);
@@ -178,20 +181,20 @@ Sums integrate(const AffineView& view, bool has_hessian, int rule) {
     sum_of_radii += T;
     area += D;
     mixed_area += 0.5 * jet.h * T;
-    reach = std::max(reach, std::abs(jet.h));
+    farthest = std::max(farthest, std::abs(jet.h));
   }
-  sums.escaped = reach / 3 * (std::abs(mixed_area - area) + 0.5 * reach * std::abs(2 * width - sum_of_radii));
+  sums.escaped = farthest / 3 * (std::abs(mixed_area - area) + 0.5 * farthest * std::abs(2 * width - sum_of_radii));
   return sums;
 }
 
-/// The change from one rule to the next, relative to the body (which has size 1 in these coordinates).
+/// The change from one rule to the next, relative to the body, which has size 1 in these coordinates.
 double change(const Sums& a, const Sums& b) {
   const double difference = std::max(
       {std::abs(a.volume - b.volume), (a.first - b.first).cwiseAbs().maxCoeff(), (a.second - b.second).cwiseAbs().maxCoeff()});
   return difference / (b.volume + b.escaped);
 }
 
-/// Transforms the sums from the coordinates of the view to those of the body.
+/// Transforms the sums from the view's coordinates to the body's frame.
 MassProperties to_body(const AffineView& view, const Sums& sums) {
   MassProperties mass;
   const double dilation = view.scale().determinant();
@@ -222,7 +225,7 @@ MassProperties quadrature_mass_properties(const Shape& shape) {
     before_last = std::exchange(last, change(sums, finer));
     sums = finer;
   }
-  // If convergence is slow it is erratic too, and one small change proves little.
+  // Slow convergence is erratic too, so one small change proves little.
   const double unresolved = last > kRefinementTolerance ? 2 * std::max(last, before_last) : last;
   MassProperties mass = to_body(view, sums);
   mass.relative_error = unresolved + sums.escaped / (sums.volume + sums.escaped);

@@ -8,7 +8,7 @@
 namespace supernormal {
 namespace {
 
-/// If both parts have kinks, their corners are added in pairs, the highest along n first.
+/// Adds the sums of the shapes' active vertices: the eight highest along n, highest first.
 void add_highest_pairs(const Vector3& n, const ActiveVertices& first, const ActiveVertices& second, ActiveVertices& corners) {
   struct Pair {
     double height;
@@ -46,7 +46,7 @@ void MinkowskiSum::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H += other.H;
 }
 
-// The flatter part decides which normal its moved point has; the other part's point follows the normal.
+// The flatter shape determines the normal at its moved point. The other shape's point follows the normal.
 Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
   if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
   const Jet jet1 = first_->jet(n);
@@ -60,8 +60,8 @@ Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vec
   return second_->advance_normal(n, second_->jet(n), dn);
 }
 
-// A part without kinks contributes its boundary point. A list that names only some of the corners counts as complete, because
-// those of the sum need not be the same points for every normal.
+// A shape without nonsmooth points contributes its boundary point. A partial list counts as complete: a partial list must hold the
+// same points for every normal, and the sums need not be the same.
 void MinkowskiSum::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
   std::array<ActiveVertices, 2> parts;
   const std::array<const Shape*, 2> shapes = {first_.get(), second_.get()};

@@ -36,7 +36,7 @@ void Polytope::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.H.setZero();
 }
 
-// The vertices that are highest along n come first, as they are the first that can take over.
+// The highest vertices along n come first, because they are the first to become boundary points.
 void Polytope::add_active_vertices(const Vector3& n, const Vector3& /*toward*/, ActiveVertices& corners) const {
   struct Height {
     double height;

@@ -1,4 +1,4 @@
-// Volume integrals of a hull, as sums over the tetrahedra between its middle and the triangles of its surface.
+// Volume integrals of a hull: sums over the tetrahedra between its middle and its surface triangles.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -13,10 +13,10 @@
 namespace supernormal {
 namespace {
 
-/// The corners of a triangle, counter-clockwise seen from outside, relative to the middle.
+/// m; the vertices of a triangle, counter-clockwise seen from outside, relative to the middle.
 using Triangle = std::array<Vector3, 3>;
 
-/// The bounding box of the points. (half_extents() does not tell where it is.)
+/// The bounding box of the points. half_extents() does not contain its position.
 struct Bounds {
   Vector3 middle, half;
 
@@ -31,16 +31,17 @@ struct Bounds {
   }
 };
 
-/// The hull decides on a lattice which points span a triangle of the surface; the triangles are those of the points themselves,
-/// so that corners and coplanar faces keep their digits. The lattice is stretched with the body, which does not change its hull.
+/// The surface triangles of the hull. The hull of lattice points decides which points form a triangle. The triangles then use the
+/// points themselves, so vertices and coplanar faces keep their digits. The lattice is stretched with the body, which does not
+/// change the hull.
 std::vector<Triangle> surface(std::span<const Vector3> points, const Bounds& bounds) {
   std::map<LatticePoint, Vector3> places;
   std::vector<LatticePoint> lattice;
   for (const Vector3& point : points) {
     LatticePoint& place = lattice.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
-      const double share = (point[axis] - bounds.middle[axis]) / bounds.half[axis];
-      place[static_cast<std::size_t>(axis)] = std::llround(share * static_cast<double>(kLatticeHalfWidth - 1));
+      const double relative = (point[axis] - bounds.middle[axis]) / bounds.half[axis];
+      place[static_cast<std::size_t>(axis)] = std::llround(relative * static_cast<double>(kLatticeHalfWidth - 1));
     }
     places.try_emplace(place, point - bounds.middle);
   }
@@ -57,7 +58,7 @@ std::vector<Triangle> surface(std::span<const Vector3> points, const Bounds& bou
 /// Twice the area, along the outward normal.
 Vector3 area_vector(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
-/// A bound on the volume that points outside of the surface may add to it.
+/// m^3; a bound on the volume that points outside the triangles may add.
 double volume_outside(std::span<const Vector3> points, const Vector3& middle, std::span<const Triangle> triangles) {
   double sum = 0;
   for (const Triangle& triangle : triangles) {

@@ -9,14 +9,14 @@
 namespace supernormal {
 namespace {
 
-// Below this ratio k^p may be denormal, and k^p / k would lose digits: k^(p-1) is then computed by a power of its own.
+// Below this ratio k^p may be denormal, and k^p / k would lose digits. Then a power of its own computes k^(p-1).
 constexpr double kSmallRatio = 1e-140;
 
-// For p < 2 the second derivative grows without bound as k -> 0 (a flat face). It is held at its value for this ratio, which
-// exceeds any radius of curvature that matters and leaves room for products of two such numbers.
+// For p < 2 the second derivative is unbounded as k -> 0 (a flat face). Below this ratio it stays constant. That value exceeds any
+// relevant radius of curvature, and a product of two such numbers is still in range.
 constexpr double kFlatRatio = 1e-60;
 
-// A ratio of plain numbers keeps some distance from kFlatRatio, whichever of the three numbers it is taken of.
+// The least ratio of plain numbers. The ratio of any two of the three numbers is then well above kFlatRatio.
 constexpr double kPlainRatio = 1e-50;
 
 }  // namespace
@@ -92,7 +92,7 @@ void PowerNorm::evaluate_requests(std::array<PowerNorm3Request, kCount>& request
       const double power_1 = powers[i][a] / k[i][a];
       slope[a] = steepest * power_1;
       if (order == Order::Point) continue;
-      // The part of the two other numbers in the sum is found without a difference, which would cancel.
+      // The sum of the other two powers is added up, because subtracting from the whole sum would cancel.
       const double others = powers[i][(a + 1) % 3] + powers[i][(a + 2) % 3];
       bend[a] = norm->p_minus_1_ * steepest * steepest * others * (power_1 / k[i][a]);
     }
@@ -110,7 +110,7 @@ void PowerNorm::differentiate(const Ratio& f, PowerNormJet& jet) const {
 }
 
 void PowerNorm::differentiate_twice(const Ratio& f, PowerNormJet& jet) const {
-  // The derivatives are in the order (larger, smaller); the powers are k^(p-1) and k^(p-2).
+  // The derivatives are in the order (larger, smaller). power_1 is k^(p-1), power_2 is k^(p-2).
   const double d_larger = f.root / f.sum;
   const double power_1 = f.k > kSmallRatio ? f.power / f.k : std::pow(f.k, p_minus_1_);
   const double power_2 = f.k > kFlatRatio ? power_1 / f.k : std::pow(kFlatRatio, p_minus_1_ - 1);

@@ -23,7 +23,8 @@ void Rounded::evaluate(const Vector3& n, Order order, Jet& jet) const {
 
 Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
   if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
-  // The core's point moves by its own share, H_core dn, of the step; the sphere's share, radius dn, follows the normal.
+  // The core's point moves by H_core dn, and the sphere's point by radius dn. The sphere's point follows any normal, so the core
+  // decides.
   Jet core_jet;
   core_jet.h = jet.h - radius_;
   core_jet.r = jet.r - radius_ * n;
@@ -31,8 +32,8 @@ Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3&
   return core_->advance_normal(n, core_jet, dn);
 }
 
-// The sphere's share is the same for all corners, as in a Capsule. It turns with the normal, so that a list that names only some
-// of the core's corners has to count as complete.
+// The sphere's boundary point, radius n, is the same for all active vertices, as in a Capsule. It moves with the normal. So a
+// partial list counts as complete here, because a partial list must hold the same points for every normal.
 void Rounded::add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& corners) const {
   ActiveVertices of_core;
   core_->add_active_vertices(n, toward - radius_ * n, of_core);

@@ -33,7 +33,7 @@ double Shape::bounding_radius() const {
 }
 
 double Shape::min_curvature_radius_estimate() const {
-  // An ellipsoid with c the smallest and a the largest half-axis is sharpest at the ends of a, with the radius c^2/a.
+  // An ellipsoid with the smallest half-axis c and the largest a is sharpest at the ends of a, with the radius c^2/a.
   const Vector3 half = half_extents();
   return half.minCoeff() * (half.minCoeff() / half.maxCoeff());
 }

@@ -1,4 +1,4 @@
-// A test that decides how a body's normal moves along a section with sharp vertices.
+// Decides how a body's normal moves along a section with sharp vertices.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,13 +6,14 @@
 
 namespace supernormal {
 
-/// Whether a normal turns about an axis by more than 45 degrees. The arguments are the parts of the normal across the axis,
+/// Whether a normal rotates about an axis by more than 45 degrees. The arguments are the normal's components across the axis,
 /// scaled by the half-axes of the section.
 ///
-/// Along a sharp section the boundary point is a high power of the normal's direction, so the normal moves independently there,
-/// and the point determines it less well. But near the axis, as on a flat face, where that part of the normal may be arbitrarily
-/// small, a step that exceeds the section's radius of curvature turns it far. Then the point determines it better.
-inline bool turns_far(const Eigen::Vector2d& normal, const Eigen::Vector2d& moved) {
+/// Along a sharp section the boundary point is a high power of the normal's direction. There the normal moves by itself, because
+/// the point determines it less accurately. Near the axis, as on a flat face, the components across the axis may be arbitrarily
+/// small. There a step beyond the section's radius of curvature rotates them far, and the point determines the normal more
+/// accurately.
+inline bool rotates_far(const Eigen::Vector2d& normal, const Eigen::Vector2d& moved) {
   return std::abs(normal.x() * moved.y() - normal.y() * moved.x()) > normal.dot(moved);
 }
 

@@ -12,8 +12,8 @@ constexpr int kRows = 20;  // surface_area() takes kRows x kRows / 2 directions 
 
 }  // namespace
 
-// The normals m are equidistant in the coordinates in which the body is as long as wide, n = D^-1 m: an ellipsoid's points D m
-// then form the image of a regular polygon, whose share of the circle is known.
+// The normals are n = D^-1 m with D the half-extents. The m are equidistant, because D^-1 scales the body to equal extents. The
+// points D m of an ellipsoid are then the image of a regular polygon, whose fraction of the circle's area is known.
 double projected_area(const Shape& shape, const Vector3& direction) {
   const Vector3 extents = shape.half_extents();
   const Vector3 axis = direction.cwiseQuotient(extents).normalized();
@@ -36,7 +36,7 @@ double projected_area(const Shape& shape, const Vector3& direction) {
 }
 
 double surface_area(const Shape& shape) {
-  // The midpoint rule in z and around it; opposite directions have the same projection.
+  // The midpoint rule in z and around it. Opposite directions have the same projection.
   double sum = 0;
   for (int row = 0; row < kRows / 2; ++row) {
     const double z = 2 * (row + 0.5) / kRows;

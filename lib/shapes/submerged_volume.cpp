@@ -13,7 +13,7 @@ constexpr int kSubdivisions = 3;  // subdivisions of an octahedron: 8 x 4^3 tria
 
 using VertexTriple = std::array<int, 3>;
 
-/// A triangulation of the unit sphere, corners counter-clockwise from outside.
+/// A triangulation of the unit sphere; vertices counter-clockwise seen from outside.
 struct SphereMesh {
   std::vector<Vector3> points = {Vector3::UnitX(),  -Vector3::UnitX(), Vector3::UnitY(),
                                  -Vector3::UnitY(), Vector3::UnitZ(),  -Vector3::UnitZ()};
@@ -37,7 +37,7 @@ struct SphereMesh {
   }
 };
 
-/// Sums tetrahedra with one corner in common, the origin of the points.
+/// Sums tetrahedra with one common vertex, the origin of the points.
 struct Tetrahedra {
   double six_volumes = 0;
   Vector3 moment = Vector3::Zero();
@@ -49,7 +49,7 @@ struct Tetrahedra {
   }
 };
 
-/// Adds the part of a triangle with up.x <= 0, which has up to four corners.
+/// Adds the part of a triangle with up.x <= 0, a polygon of up to four vertices.
 void add_part_below(const std::array<Vector3, 3>& corners, const Vector3& up, Tetrahedra& sum) {
   std::array<Vector3, 4> part;
   std::size_t count = 0;
@@ -86,7 +86,7 @@ Submerged SubmergedVolume::below(const Vector3& up, double level) const {
   const auto [lowest, highest] = std::ranges::minmax(points_, {}, [&](const Vector3& point) { return up.dot(point); });
   if (up.dot(lowest) >= level) return {};
   if (up.dot(highest) <= level) return whole_;
-  // The origin is in the plane of the cut, so that the cut itself adds nothing to the integrals.
+  // With the origin in the waterplane, the waterplane itself adds nothing to the integrals.
   const Vector3 origin = level * up;
   Tetrahedra sum;
   for (const auto& [a, b, c] : triangles_) add_part_below({corner(a) - origin, corner(b) - origin, corner(c) - origin}, up, sum);

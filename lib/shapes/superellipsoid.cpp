@@ -12,25 +12,25 @@ namespace {
 // Below this exponent edges and vertices are so sharp that any overlap may have several local maxima.
 constexpr double kSharpExponent = 1.3;
 
-/// An estimate of the smallest radius of curvature of a superellipse with half-axes 1: at its corners, a superellipse of exponent
-/// e > 2 has 1/(e - 1) within a factor of 1.5; below 2 the vertices have radius 0 but rounded surroundings.
+/// An estimate of the smallest radius of curvature of a superellipse with half-axes 1. For an exponent e > 2 it is 1/(e - 1) at the
+/// rounded corners, within a factor of 1.5. Below 2 the radius is 0 at the vertices, but larger around them.
 double relative_radius(double exponent) {
   if (exponent >= 2) return 1 / (exponent - 1);
   return std::max(0.0, (exponent - kSharpExponent) / (2 - kSharpExponent));
 }
 
-/// The radius of a ball that rolls freely inside the superellipsoid with half-axes 1; 0 if there is none, as at the vertices and
-/// edges of an exponent below 2.
+/// The radius of a ball that rolls freely inside the superellipsoid with half-axes 1. It is 0 if there is none: an exponent below 2
+/// has vertices or edges.
 ///
-/// The support function is a p-norm with dual exponent p in (1, 2], twice. With c and s the cosine and sine of the normal's angle,
-/// the radius of curvature of a p-norm,
-///     (p-1) (c s)^(p-2) / (c^p + s^p)^(2 - 1/p),
-/// is least at 45 degrees, where it is (p-1) 2^(1/p - 1/2), and the norm itself is between 1 and 2^(1/p - 1/2). Let t be the inner
-/// norm over a unit vector, and let mu and gamma be the parts of a unit tangent vector along the meridian and across it. By the
-/// chain rule the second derivative along it is at least
-///     along (mu - slope gamma)^2 + across gamma^2,    slope = |t'|/t <= 2 - p,
-/// (t'/t = (x^(p-1) - x)/(1 + x^p) for the tangent x <= 1 of the angle, convex in p and 0 for p = 2), which in turn is at least
-/// the smaller eigenvalue of that quadratic form.
+/// The support function nests two p-norms with dual exponents p in (1, 2]. With c and s the cosine and sine of the normal's angle,
+/// the radius of curvature of a p-norm is
+///     (p-1) (c s)^(p-2) / (c^p + s^p)^(2 - 1/p).
+/// It is least at 45 degrees, where it is (p-1) 2^(1/p - 1/2). The norm itself is between 1 and 2^(1/p - 1/2). Let t be the inner
+/// norm of a unit vector. Let mu and gamma be the components of a unit tangent vector along the meridian and across it. By the
+/// chain rule the second derivative along the tangent vector is at least
+///     along (mu - slope gamma)^2 + across gamma^2,    slope = |t'|/t <= 2 - p.
+/// This is at least the smaller eigenvalue of the quadratic form, which is the result. The bound on the slope: with x <= 1 the
+/// tangent of the angle, t'/t = (x^(p-1) - x)/(1 + x^p), which is convex in p and 0 for p = 2.
 double unit_rolling_radius(double delta, double epsilon) {
   if (delta < 2 || epsilon < 2) return 0;
   const double p = delta / (delta - 1), q = epsilon / (epsilon - 1);
@@ -43,14 +43,15 @@ double unit_rolling_radius(double delta, double epsilon) {
   return 2 * along * across / (along_both + across + discriminant);
 }
 
-/// The same for half-axes a, whose smallest and largest stretch the ball to an ellipsoid.
+/// The same for half-axes in m: the smallest and largest half-axis stretch the ball to an ellipsoid.
 double rolling_radius_of(const Vector3& half_axes, double delta, double epsilon) {
   const double smallest = half_axes.minCoeff();
   return smallest * (smallest / half_axes.maxCoeff()) * unit_rolling_radius(delta, epsilon);
 }
 
-/// The distance of the farthest point of a superellipse from its centre. By Hoelder's inequality the squares of the coordinates, in
-/// units of those of the half-axes, sum up to no more than the norm of these with the exponent e/(e - 2).
+/// m; the distance of a superellipse's farthest point from its centre. Let u and v be the coordinates over the half-axes:
+/// |u|^e + |v|^e = 1. By Hoelder's inequality the squared distance, a^2 u^2 + b^2 v^2, is at most the norm of (a^2, b^2) with the
+/// exponent e/(e - 2).
 double largest_radius(double a, double b, double exponent) {
   const double larger = std::max(a, b), ratio = std::min(a, b) / larger;
   if (exponent <= 2) return larger;
@@ -71,7 +72,7 @@ Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double ep
       rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)),
       bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)) {}
 
-// With equal exponents the two norms are a single one of three numbers. This is not used for a sharp body, whose high powers p
+// With equal exponents the two norms are one norm of three numbers. A sharp body does not use this, because its high powers p
 // amplify the rounding of the ratios.
 bool Superellipsoid::is_one_norm_at(const Vector3& n) const {
   const Vector3 scaled = half_axes_.cwiseProduct(n).cwiseAbs();
@@ -103,7 +104,7 @@ void Superellipsoid::assemble(const PowerNorm3Request& norm, const Vector3& n, O
   }
 }
 
-// Evaluates the inner norms of x and y, and then with them ("x") and z ("y") the outer ones.
+// Evaluates first the inner norms of x and y, then the outer norms of the inner norm ("x") and z ("y").
 template <std::size_t kCount>
 void Superellipsoid::evaluate_by_two_norms(const std::array<EvalRequest, kCount>& requests, Order order) {
   std::array<PowerNormRequest, kCount> inner, outer;
@@ -129,7 +130,7 @@ void Superellipsoid::evaluate_requests(const std::array<EvalRequest, kCount>& re
     evaluate_by_one_norm(requests, order);
   } else if (one_norms == 0) {
     evaluate_by_two_norms(requests, order);
-  } else {  // a body has the same digits in any company
+  } else {  // the digits of a body must not depend on the other bodies
     for (const EvalRequest& request : requests) evaluate_requests(std::array<EvalRequest, 1>{request}, order);
   }
 }
@@ -152,7 +153,7 @@ void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet&
   jet.r = signed_axes.cwiseProduct(Vector3(outer.dx * inner.dx, outer.dx * inner.dy, outer.dy));
   if (order == Order::Point) return;
 
-  // The chain rule: inner second derivatives are inner.xx / t, and outer.dx / t stays finite at the pole t = 0.
+  // The chain rule: the inner second derivatives are inner.xx / t and so on, and outer.dx / t stays finite at the pole t = 0.
   const double tt = outer.xx / outer.value;
   const double tz = outer.xy / outer.value;
   const double slope = outer.dx_over_x / outer.value;
@@ -170,8 +171,8 @@ void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet&
 }
 
 Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
-  // Each of the two norms moves separately: a flat one (exponent above 2) through the boundary point, a sharp one through the
-  // normal, unless the section's normal turns far.
+  // Each of the two norms moves separately. A flat norm (exponent above 2) moves through the boundary point. A sharp norm moves
+  // through the normal, unless the section's normal rotates far.
   Vector3 moved = n + dn;
   const bool inner_is_flat = delta_ > 2;
   const bool outer_is_flat = epsilon_ > 2;
@@ -187,8 +188,8 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   outer_gauge_.gradient(inner.value, gauge_point.z(), outer);
   result.z() = outer.dy;
   if (!outer_is_flat) {
-    // A flat inner norm turns the normal about the axis only: if that moves the point less far, near the pole, this norm goes
-    // through the point as well.
+    // A flat inner norm only rotates the normal about the axis. Near the pole this moves the point less far. There the outer norm
+    // moves through the point as well.
     const double across = inner_support_.value(scaled.x(), scaled.y());
     if (across * outer.dy >= outer.dx * scaled.z()) {
       outer.dx = across;
@@ -196,7 +197,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
     }
   }
   const bool goes_with_point =
-      inner_is_flat || turns_far(half_axes_.cwiseProduct(n).head<2>(), half_axes_.cwiseProduct(moved).head<2>());
+      inner_is_flat || rotates_far(half_axes_.cwiseProduct(n).head<2>(), half_axes_.cwiseProduct(moved).head<2>());
   if (goes_with_point) {
     result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);
   } else {
@@ -210,7 +211,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
       .cwiseQuotient(half_axes_);
 }
 
-// With equal exponents the two norms are a single one of three numbers, whose gradient takes no root.
+// With equal exponents the two norms are one norm of three numbers, and the direction of its gradient takes no root.
 Vector3 Superellipsoid::along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const {
   const double largest = gauge_point.maxCoeff();
   Vector3 gradient;

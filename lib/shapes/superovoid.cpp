@@ -1,10 +1,11 @@
-// Let N(s) = |(a X nx, b Y ny)|_p be the width of the section at height s = z/c in the direction (nx, ny), before it is scaled by
-// the meridian w(s) = (1 - |s|^epsilon)^(1/epsilon). Then
+// Let N(s) = |(a X nx, b Y ny)|_p be the width of the section at height s = z/c in the direction (nx, ny), before the meridian w(s)
+// = (1 - |s|^epsilon)^(1/epsilon) scales it. Then
 //     h(n) = max over s of w(s) N(s) + c nz s,
-// a concave function. Its maximum is where the tangent of the meridian has the slope v/t with
+// a maximum of a concave function. It is where the tangent of the meridian has the slope v/t with
 //     F = v N(s) - t (w(s) N'(s) + c nz) = 0.
-// The pair (t, v) is the unknown: s and w are the gradient of the dual norm at (t, v), smooth where the meridian is flat and where
-// it is steep. One of the two is 1, the other at most 1 in magnitude, so that both keep their relative precision down to the axes.
+// The unknown is the pair (t, v): s and w are the gradient of the dual norm at (t, v), which is smooth where the meridian is flat
+// and where it is steep. One of t and v is 1, and the other at most 1 in magnitude. So both keep their relative precision down to
+// the axes.
 #include "supernormal/shapes/superovoid.hpp"
 
 #include <algorithm>
@@ -19,11 +20,11 @@
 namespace supernormal {
 namespace {
 
-// Newton takes four to nine evaluations; where the second derivative vanishes (at the limit of convexity) bisection takes over.
+// Newton takes four to nine evaluations. Bisection takes over where the second derivative vanishes, at the limit of convexity.
 constexpr int kMaxIterations = 200;
 
-// At the limit of convexity the second derivative vanishes at one height, and rounding decides its sign: it is kept above this
-// share of its usual size.
+// Relative to the usual size of the second derivative. At the limit of convexity it vanishes at one height, and rounding decides
+// its sign. It is kept above this bound.
 constexpr double kLeastSlope = 1e-15;
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
@@ -53,7 +54,7 @@ class Width {
     }
   }
 
-  /// Computes the norm's derivatives at the present height; until then `jet` may be empty.
+  /// Computes the norm's derivatives at the present height. Before this call `jet` may be empty.
   void complete(Order order) {
     if (order == Order::Value || !is_similar_) return;
     if (order == Order::Point) {
@@ -65,11 +66,11 @@ class Width {
 
   /// The derivatives of N' with respect to a|nx| and b|ny|.
   Eigen::Vector2d slope_gradient() const {
-    const double turn = difference() * jet.xy;
-    return {taper_x_ * jet.dx - X * turn * share(full_y_ * Y), taper_y_ * jet.dy + Y * turn * share(full_x_ * X)};
+    const double mixed = difference() * jet.xy;
+    return {taper_x_ * jet.dx - X * mixed * share(full_y_ * Y), taper_y_ * jet.dy + Y * mixed * share(full_x_ * X)};
   }
 
-  double X = 1, Y = 1;  ///< scale of the section at the height
+  double X = 1, Y = 1;  ///< scale of the section at the present height
   double value = 0, slope = 0, bend = 0;
   PowerNormJet jet;
 
@@ -84,18 +85,18 @@ class Width {
   double full_ = 0;         // their norm
 };
 
-/// The solution of F = 0 and what belongs to it, for c nz >= 0.
+/// The solution of F = 0 for c nz >= 0, and the quantities there.
 struct Summit {
   double t = 1, v = 0;
   double w = 0, s = 0;
   double climb = 0;  // w N'(s) + c nz
-  double slope = 0;  // dF/dv where t = 1, -dF/dt where v = 1; above 0
+  double slope = 0;  // dF/dv where t = 1, -dF/dt where v = 1; positive
   PowerNormJet meridian;
 };
 
 class SummitSearch {
  public:
-  /// `rise` is c nz, `knee` the height where t = v.
+  /// `rise` is c nz (m); `knee` is the height s where t = v.
   SummitSearch(const PowerNorm& norm, Width& width, double rise, double knee) : norm_(norm), width_(width), rise_(rise) {
     width_.move_to(knee);
     is_steep_ = width_.value - knee * width_.slope <= rise;
@@ -126,7 +127,7 @@ class SummitSearch {
     return width_.value > 0 ? std::clamp((rise_ + width_.slope) / width_.value, -1.0, 1.0) : 0;
   }
 
-  /// F at x, or -F where F falls with x.
+  /// F at x, or -F where F decreases with x.
   double evaluate(double x) {
     Summit& m = summit_;
     m.t = is_steep_ ? x : 1;
@@ -166,7 +167,7 @@ Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, d
       outer_gauge_(PowerNorm::of_exponent(epsilon)) {
   require_convex_taper(delta, epsilon, taper_x, taper_y);
   half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};
-  // If the section has shrunk to this share, the radius of its meridian has shrunk with its square.
+  // Where the section is scaled by `narrowest`, the radius of curvature of its meridian is scaled by the square.
   const double narrowest = 1 - std::max(std::abs(taper_x_), std::abs(taper_y_));
   min_curvature_radius_ = Superellipsoid(half_axes_, delta_, epsilon_).min_curvature_radius_estimate() * narrowest * narrowest;
 }
@@ -176,7 +177,7 @@ double Superovoid::max_taper(double epsilon) {
 }
 
 void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
-  const double up = std::copysign(1.0, n.z());  // the body upside down has the opposite tapers
+  const double up = std::copysign(1.0, n.z());  // upside down, the body has the opposite tapers
   const double rise = half_axes_.z() * std::abs(n.z());
   Width width(half_axes_, up * taper_x_, up * taper_y_, inner_support_, n);
   const Summit m = SummitSearch(outer_support_, width, rise, knee_).find();
@@ -190,7 +191,8 @@ void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.r = axes.cwiseProduct(Vector3(m.w * X * norm.dx, m.w * Y * norm.dy, m.s));
   if (order == Order::Point) return;
 
-  // The section's own part of the Hessian, w times the Hessian of N, and the part of the height that follows the normal.
+  // The Hessian has two parts: w times the Hessian of N, for a fixed height, and the part from the change of height with the
+  // normal.
   const bool is_steep = m.v == 1;
   const double per_width = m.meridian.dx_over_x / m.meridian.value / (is_steep ? m.climb : width.value);  // w/N
   const double follows = (is_steep ? m.meridian.xx : m.meridian.yy) / m.meridian.value / m.slope;
@@ -209,15 +211,15 @@ void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
 
 bool Superovoid::surely_contains(const Vector3& point) const {
   const Vector3 gauge_point = point.cwiseQuotient(half_axes_).cwiseAbs();
-  if (!(gauge_point.z() <= 1)) return false;  // the section is positive between the ends
+  if (!(gauge_point.z() <= 1)) return false;  // between the ends the section is positive
   const double s = point.z() / half_axes_.z();
   const double width = inner_gauge_.value(gauge_point.x() / (1 + taper_x_ * s), gauge_point.y() / (1 + taper_y_ * s));
   return outer_gauge_.value(width, gauge_point.z()) <= 1;
 }
 
 Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
-  // Each of the two norms moves separately, as in the Superellipsoid: a flat one (exponent above 2) through the boundary point, a
-  // sharp one through the normal, unless the point demands a longer step.
+  // Each of the two norms moves separately, as in the Superellipsoid. A flat norm (exponent above 2) moves through the boundary
+  // point. A sharp norm moves through the normal, unless the point demands a longer step.
   const Vector3 moved = n + dn;
   const bool inner_is_flat = delta_ > 2;
   const bool outer_is_flat = epsilon_ > 2;
@@ -225,23 +227,24 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
 
   const Vector3 target = jet.r + jet.H * dn;
   const Vector3 gauge_point = target.cwiseQuotient(half_axes_);
-  const double s = std::clamp(gauge_point.z(), -1.0, 1.0);  // a long step may leave the heights where the section is positive
+  // A long step may leave the heights where the section is positive.
+  const double s = std::clamp(gauge_point.z(), -1.0, 1.0);
   const double X = 1 + taper_x_ * s, Y = 1 + taper_y_ * s;
   PowerNormJet section, meridian;
   inner_gauge_.gradient(std::abs(gauge_point.x()) / X, std::abs(gauge_point.y()) / Y, section);
 
-  // The normal's part in the section, scaled to a dual norm of 1, and its signs.
+  // The normal's components in the section, scaled to a dual norm of 1, and their signs.
   const Eigen::Vector2d axes(X * half_axes_.x(), Y * half_axes_.y());
   const Eigen::Vector2d scaled = axes.cwiseProduct(moved.head<2>());
   const double width = inner_support_.value(std::abs(scaled.x()), std::abs(scaled.y()));
-  const bool goes_with_point = inner_is_flat || turns_far(axes.cwiseProduct(n.head<2>()), scaled);
+  const bool goes_with_point = inner_is_flat || rotates_far(axes.cwiseProduct(n.head<2>()), scaled);
   Eigen::Vector2d across(section.dx, section.dy);
   if (!goes_with_point) across = width > 0 ? Eigen::Vector2d(scaled.cwiseAbs() / width) : Eigen::Vector2d(Eigen::Vector2d::Zero());
   const Vector3& sign = goes_with_point ? target : moved;
   const Vector3 direction(std::copysign(across.x(), sign.x()) / axes.x(), std::copysign(across.y(), sign.y()) / axes.y(), 0);
 
   outer_gauge_.gradient(section.value, std::abs(gauge_point.z()), meridian);
-  // A point that goes up comes nearer to the middle of its section, which has grown.
+  // As a point moves up, the section grows, and the point's place relative to the section comes nearer to its middle.
   const double growth = section.value > 0 ? (section.dx * std::abs(gauge_point.x()) * taper_x_ / (X * X) +
                                              section.dy * std::abs(gauge_point.y()) * taper_y_ / (Y * Y))
                                           : 0;

@@ -1,11 +1,12 @@
-// The body is convex when the width of its section at the height s = z/c, g(s) = w(s) N(s), is concave in s for every direction
-// (A, B) in the section. Here w(s) = (1 - |s|^epsilon)^(1/epsilon) and
+// The body is convex if the width of its section at the height s = z/c, g(s) = w(s) N(s), is concave in s for every direction (A,
+// B) in the section. Here w(s) = (1 - |s|^epsilon)^(1/epsilon) and
 //     N = |(A X, B Y)|_p,   X = 1 + taper_x s,   Y = 1 + taper_y s.
-// With the shares u = (A X)^p / N^p and v = 1 - u of the two sides, and their relative slopes rx = taper_x / X, ry = taper_y / Y,
-//     N'/N = u rx + v ry,   N''/N = (p - 1) u v (rx - ry)^2,
-// and -g'' >= 0, times (1 - |s|^epsilon)^2 |s|^(2 - epsilon) / g, reads
+// Let u = (A X)^p / N^p and v = 1 - u be the fractions of the two sides, and rx = taper_x / X, ry = taper_y / Y their relative
+// slopes. Then
+//     N'/N = u rx + v ry,   N''/N = (p - 1) u v (rx - ry)^2.
+// The condition -g'' >= 0, times (1 - |s|^epsilon)^2 |s|^(2 - epsilon) / g, is
 //     (epsilon - 1) + 2 s (1 - |s|^epsilon) (u rx + v ry) - (p - 1) u v (rx - ry)^2 |s|^(2 - epsilon) (1 - |s|^epsilon)^2 >= 0
-// for all s in [-1, 1] and u in [0, 1]. For equal tapers the last term is 0 and the rest is least where |s|^epsilon = 1/2. For
+// for all s in [-1, 1] and u in [0, 1]. For equal tapers the last term is 0, and the rest is least where |s|^epsilon = 1/2. For
 // different tapers and epsilon > 2 the last term is unbounded at s = 0.
 #include "shapes/superovoid_convexity.hpp"
 
@@ -24,12 +25,12 @@ constexpr int kSamples = 2048;  // number of heights
 /// The left side of the inequality above at height s, for the worst direction in the section.
 double margin_at(double s, double delta, double epsilon, double taper_x, double taper_y) {
   const double height = std::abs(s);
-  const double room = 1 - std::pow(height, epsilon);
+  const double remainder = 1 - std::pow(height, epsilon);
   const double rx = taper_x / (1 + taper_x * s);
   const double ry = taper_y / (1 + taper_y * s);
   // (epsilon - 1) + slope (ry + u (rx - ry)) - bend u (1 - u) is a parabola in u, open upwards.
-  const double slope = 2 * s * room;
-  const double bend = (rx - ry) * (rx - ry) / (delta - 1) * std::pow(height, 2 - epsilon) * room * room;
+  const double slope = 2 * s * remainder;
+  const double bend = (rx - ry) * (rx - ry) / (delta - 1) * std::pow(height, 2 - epsilon) * remainder * remainder;
   const double tilt = slope * (rx - ry);
   const double u = bend > 0 ? std::clamp(0.5 * (1 - tilt / bend), 0.0, 1.0) : (tilt > 0 ? 0.0 : 1.0);
   return (epsilon - 1) + slope * ry + u * tilt - bend * u * (1 - u);
@@ -65,7 +66,7 @@ void require_convex_taper(double delta, double epsilon, double taper_x, double t
   const char* const names[] = {"taper_x", "taper_y"};
   const double tapers[] = {taper_x, taper_y};
   for (int axis = 0; axis < 2; ++axis) {
-    if (std::islessequal(std::abs(tapers[axis]), largest)) continue;  // false for NaN, and quiet about it
+    if (std::islessequal(std::abs(tapers[axis]), largest)) continue;  // false for NaN, without a floating-point exception
     throw std::invalid_argument(std::string(names[axis]) + " = " + to_text(tapers[axis]) + " is outside [" + to_text(-largest) +
                                 ", " + to_text(largest) + "], where a body with epsilon = " + to_text(epsilon) +
                                 " is convex: |taper| <= 2^(1/epsilon) (epsilon - 1)/epsilon");

@@ -1,14 +1,14 @@
-// The layer that a sphere adds to a superovoid (with tapers 0: a superellipsoid) when it sweeps it.
+// The layer that sweeping by a sphere adds to a superovoid, or to a superellipsoid if both tapers are 0.
 //
-// The parallel surface at distance s is r + s n with the area element n.((r_u + s n_u) x (r_v + s n_v)): a polynomial in s, so the
-// integral across the layer is exact (Steiner), and the three coefficients have to be integrated over the boundary. With angles
-// w, e of the section and the meridian,
+// The parallel surface at distance s is r + s n, with the area element n.((r_u + s n_u) x (r_v + s n_v)). This is a polynomial in
+// s, so the integral across the layer is exact (Steiner). Its three coefficients are integrated over the boundary. Let w and e be
+// the angles of the section and the meridian. Then point and normal have the closed forms
 //     r = (a X cos^(2/epsilon) e cos^(2/delta) w, b Y cos^(2/epsilon) e sin^(2/delta) w, c sin^(2/epsilon) e),
-//     n ~ (cos^(2/q) e cos^(2/p) w / (a X), cos^(2/q) e sin^(2/p) w / (b Y), (sin^(2/q) e - g cos^2 e) / c)
-// with the dual exponents p, q, the scale X = 1 + taper_x z/c, Y = 1 + taper_y z/c of the section and its relative growth
-// g = taper_x/X cos^2 w + taper_y/Y sin^2 w: point and normal in closed form. The powers are singular at both ends of an octant for
-// boxes (r) and octahedra (n) alike. In log tan of the angles they decay exponentially; log tan w = sinh t makes that doubly
-// exponential, for which the trapezoidal rule converges exponentially (Takahasi and Mori 1974).
+//     n ~ (cos^(2/q) e cos^(2/p) w / (a X), cos^(2/q) e sin^(2/p) w / (b Y), (sin^(2/q) e - g cos^2 e) / c).
+// Here p and q are the dual exponents, X = 1 + taper_x z/c and Y = 1 + taper_y z/c the scales of the section, and g = taper_x/X
+// cos^2 w + taper_y/Y sin^2 w its relative growth. At both ends of an octant the powers are singular, for boxes (r) and octahedra
+// (n) alike. In log tan of the angles they decay exponentially. With log tan w = sinh t they decay doubly exponentially, and the
+// trapezoidal rule converges exponentially (Takahasi and Mori 1974).
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,12 @@
 namespace supernormal {
 namespace {
 
-/// A power of cosine and sine of an angle and their derivatives with respect to log tan of the angle.
+/// Powers of the cosine and sine of an angle, and their derivatives with respect to log tan of the angle.
 struct Powers {
   double cos, sin, dcos, dsin;
 };
 
-/// One node of the rule: the powers 2/exponent for points, 2/dual for normals; the derivatives carry the weight of the node.
+/// A node of the rule, with the powers 2/exponent for points and 2/dual for normals. The derivatives include the node's weight.
 struct LayerNode {
   Powers point, normal;
 };
@@ -40,8 +40,8 @@ Powers powers(double exponent, double log_tan, double weight) {
   return {cos, sin, -slope * std::exp(log_sin2) * cos, slope * std::exp(log_cos2) * sin};
 }
 
-/// Nodes at a distance of `step` in t, out to where the slowest power has decayed below rounding. `log_aspect` is how much later
-/// that is for normals of a body that is longer than wide by this logarithm.
+/// Nodes with the spacing `step` in t, out to where the slowest power has decayed below rounding. `log_aspect` is the logarithm of
+/// the body's aspect ratio: the normals of a long body decay later by it.
 std::vector<LayerNode> make_rule(double exponent, double step, double log_aspect) {
   const double dual = exponent / (exponent - 1);
   const double end = std::asinh(std::max(exponent, dual) * (20 + 0.5 * log_aspect));
@@ -56,7 +56,7 @@ std::vector<LayerNode> make_rule(double exponent, double step, double log_aspect
   return rule;
 }
 
-/// Volume, diagonal of the second moment and first moment along z.
+/// Volume, diagonal of the second moment, and first moment along z.
 using Moments = Eigen::Matrix<double, 5, 1>;
 
 /// The half of a body with z >= 0, or its other half upside down.
@@ -65,11 +65,11 @@ struct Half {
   double taper_x, taper_y;
 };
 
-/// A point of the surface, its normal and their derivatives with respect to the two parameters, which carry the weights of the
-/// nodes.
+/// A point of the surface, its normal, and their derivatives with respect to the two parameters. The derivatives include the nodes'
+/// weights.
 struct Surface {
   Vector3 r, r_w, r_e;
-  Vector3 n, n_w, n_e;  // n_w and n_e are up to a part along n
+  Vector3 n, n_w, n_e;  // n_w and n_e may have a component along n
 };
 
 Surface surface(const Half& half, const LayerNode& w, const LayerNode& e) {
@@ -80,7 +80,8 @@ Surface surface(const Half& half, const LayerNode& w, const LayerNode& e) {
   const Eigen::Array2d point(w.point.cos, w.point.sin), point_w(w.point.dcos, w.point.dsin);
   const Eigen::Array2d normal(w.normal.cos, w.normal.sin), normal_w(w.normal.dcos, w.normal.dsin);
   const Eigen::Array2d side = axes.head<2>().array() * scale;
-  const Eigen::Array2d share = point * normal, share_w = point_w * normal + point * normal_w;  // cos^2 w and sin^2 w
+  // cos^2 w and sin^2 w.
+  const Eigen::Array2d share = point * normal, share_w = point_w * normal + point * normal_w;
   const double cos2 = e.point.cos * e.normal.cos, cos2_e = e.point.dcos * e.normal.cos + e.point.cos * e.normal.dcos;
 
   Surface out;

@@ -15,7 +15,7 @@ namespace {
 
 using Index = std::uint32_t;
 
-// Normals closer than this (radians) are not halved any more: between them an edge bends as if it were sharp.
+// rad; an edge between nearer normals is not halved any more. The boundary between them bends like a sharp edge.
 constexpr double kClosest = 1e-9;
 
 constexpr Index kWhole = ~Index{0};
@@ -58,13 +58,13 @@ class Tessellator {
     if (!(normal1.dot(normal2) > 0)) return false;
     const double length = edge.norm();
     if (length <= chord_error_) return true;
-    // How far the ends are below one another's tangent planes, and along them from one another.
+    // How far each end is below the other's tangent plane, and how far apart the ends are along it.
     const double below1 = std::max(-normal1.dot(edge), 0.0), below2 = std::max(normal2.dot(edge), 0.0);
     const auto along = [length](double below) { return std::sqrt(std::max(length * length - below * below, 0.0)); };
     return length * below1 * below2 <= chord_error_ * (below1 * along(below2) + below2 * along(below1));
   }
 
-  /// The corner in the middle of an edge; kWhole if it stays as it is.
+  /// The vertex at the middle of an edge, or kWhole if the edge is not halved.
   Index middle_of(Index i, Index j) {
     const auto [place, is_new] = middles_.try_emplace(std::minmax(i, j), kWhole);
     if (is_new && !is_straight(i, j)) {
@@ -74,7 +74,7 @@ class Tessellator {
     return place->second;
   }
 
-  /// Splits every triangle along the edges that are not straight; whether there was one.
+  /// Splits every triangle along its edges that are not straight. Returns whether there was such an edge.
   bool halve_edges() {
     bool is_changed = false;
     std::vector<Triangle> old;
@@ -100,7 +100,7 @@ class Tessellator {
       mesh_.triangles.push_back(corner);
       return;
     }
-    // Turned so that the first edge is halved and, of two, the second too.
+    // Rotate the vertices so that the first edge is halved and, if two are, the second too.
     std::size_t first = 0;
     while (middle[first] == kWhole || (halved == 2 && middle[(first + 1) % 3] == kWhole)) ++first;
     const Index a = corner[first], b = corner[(first + 1) % 3], c = corner[(first + 2) % 3], ab = middle[first];
@@ -111,7 +111,7 @@ class Tessellator {
     }
     const Index bc = middle[(first + 1) % 3];
     mesh_.triangles.push_back({ab, b, bc});
-    // The shorter diagonal of the rest.
+    // Split the remaining quadrilateral along its shorter diagonal.
     const bool is_from_a = (mesh_.points[a] - mesh_.points[bc]).norm() < (mesh_.points[ab] - mesh_.points[c]).norm();
     mesh_.triangles.push_back(is_from_a ? Triangle{a, ab, bc} : Triangle{a, ab, c});
     mesh_.triangles.push_back(is_from_a ? Triangle{a, bc, c} : Triangle{ab, bc, c});

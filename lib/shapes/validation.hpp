@@ -1,4 +1,4 @@
-// Refusal of parameters: the message names the parameter, its value and what is allowed.
+// Refuses parameters: the message names the parameter, its value and the valid range.
 #pragma once
 
 #include <charconv>
@@ -10,7 +10,7 @@
 
 namespace supernormal {
 
-// Lengths between these keep every quantity that a shape delivers, up to the fifth power in its second moments, a normal number.
+// Within these lengths every quantity of a shape is a normal number, up to the fifth power in the second moments.
 constexpr double kMinLength = 1e-30;  // m
 constexpr double kMaxLength = 1e30;   // m
 
@@ -21,8 +21,9 @@ inline std::string to_text(double value) {
   return {buffer, end};
 }
 
-/// Returns `value`, or throws std::invalid_argument, such as "radius = -1 m is outside [0, 1e+30] m", unless low <= value <= high;
-/// a NaN is outside, and raises no floating-point exception, as the operator >= would. `unit` is "" for a number without one.
+/// Returns `value` if low <= value <= high. Otherwise throws std::invalid_argument, such as "radius = -1 m is outside [0, 1e+30]
+/// m". A NaN is outside, and raises no floating-point exception, which the operator >= would. `unit` is "" for a dimensionless
+/// value.
 inline double require_in(const char* name, double value, double low, double high, const char* unit = "") {
   if (std::isgreaterequal(value, low) && std::islessequal(value, high)) return value;
   const std::string tail = *unit == '\0' ? std::string() : std::string(" ") + unit;
@@ -30,7 +31,8 @@ inline double require_in(const char* name, double value, double low, double high
                               to_text(high) + "]" + tail);
 }
 
-/// Returns the half-axes a, b, c; throws std::invalid_argument with the name of the first one outside [kMinLength, kMaxLength].
+/// Returns the half-axes a, b, c in m. Throws std::invalid_argument with the name of the first one outside [kMinLength,
+/// kMaxLength].
 inline Vector3 require_half_axes(const Vector3& half_axes) {
   const char* const names[] = {"half-axis a", "half-axis b", "half-axis c"};
   for (int axis = 0; axis < 3; ++axis) require_in(names[axis], half_axes[axis], kMinLength, kMaxLength, "m");

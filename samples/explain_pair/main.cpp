@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.hpp"
+#include "base/write_file.hpp"
 #include "drawing/lengths.hpp"
 #include "drawing/picture.hpp"
 #include "method/explanation.hpp"
-#include "output/write_file.hpp"
 #include "pair/described_body.hpp"
 #include "pair/hard_case.hpp"
 #include "pair/recorded_pair.hpp"
-#include "scene/input_error.hpp"
 
 namespace {
 

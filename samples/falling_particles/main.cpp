@@ -11,20 +11,20 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "check/doubts.hpp"
-#include "check/forecast.hpp"
-#include "measurements/measurement.hpp"
+#include "base/input_error.hpp"
+#include "base/interrupt.hpp"
+#include "input/list_parts.hpp"
+#include "input/list_population.hpp"
+#include "input/list_sections.hpp"
+#include "input/load_effects.hpp"
+#include "model/scene.hpp"
+#include "observe/measurement.hpp"
 #include "output/lammps_input.hpp"
 #include "output/list_tables.hpp"
 #include "output/rendering.hpp"
-#include "parts/list_parts.hpp"
-#include "population/list_population.hpp"
-#include "scene/input_error.hpp"
-#include "scene/list_sections.hpp"
-#include "scene/load_effects.hpp"
-#include "scene/scene.hpp"
-#include "simulation/interrupt.hpp"
-#include "simulation/run.hpp"
+#include "run/doubts.hpp"
+#include "run/forecast.hpp"
+#include "run/run.hpp"
 
 namespace {
 

@@ -8,6 +8,9 @@ import argparse
 import csv
 import math
 import pathlib
+import re
+import resource
+import statistics
 import string
 import subprocess
 import tomllib
@@ -23,12 +26,14 @@ class Study:
         self.folder = pathlib.Path(folder).resolve().parent
         parser = argparse.ArgumentParser(description=description)
         parser.add_argument("--seeds", type=int, default=seeds, help="runs of each case, with seeds 1, 2, ... (%(default)s)")
-        parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/studies") / self.folder.name)
+        parser.add_argument("--out", type=pathlib.Path, help="out/studies/NAME without it, with the endings of the next two")
+        parser.add_argument("--look-ahead", action="store_true", help="contacts before overlap; results in NAME_ahead")
+        parser.add_argument("--step-factor", type=float, default=1, help="times the step; results in NAME_stepFACTOR")
         parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
         parser.add_argument("--match", default="", help="run only the cases whose names contain this; the table has all that are there")
         self.arguments = parser.parse_args()
         self.seeds = range(1, self.arguments.seeds + 1)
-        self.out = self.arguments.out
+        self.out = self.arguments.out or pathlib.Path("out/studies") / (self.folder.name + way_of(self.arguments))
         self.out.mkdir(parents=True, exist_ok=True)
 
     def run(self, case, seed, values, template="scene.toml.in", catalogue="grains.toml.in"):
@@ -36,7 +41,7 @@ class Study:
         name = f"{case}_{seed}"
         values = {**values, "seed": seed, "catalogue": f"{name}.grains.toml"}
         texts = {
-            self.out / f"{name}.toml": fill(self.folder / template, values),
+            self.out / f"{name}.toml": self.go_its_way(fill(self.folder / template, values)),
             self.out / f"{name}.grains.toml": fill(self.folder / catalogue, values),
         }
         results = self.out / name
@@ -50,8 +55,16 @@ class Study:
         scene_file = self.out / f"{name}.toml"
         print(f"{name} ...", flush=True)
         command = [self.arguments.program, "--quiet", "--threads", "1", "--no-pictures", "--scene", scene_file, "--out", self.out]
+        before = processor_time()
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        time_file(results).write_text(f"{processor_time() - before:.2f}\n")
         return results
+
+    def go_its_way(self, scene):
+        """The text of a scene with what --look-ahead and --step-factor ask for."""
+        if self.arguments.step_factor != 1:
+            scene = at_step(scene, self.arguments.step_factor)
+        return looking_ahead(scene) if self.arguments.look_ahead else scene
 
     def write(self, header, rows):
         """results.csv, a table on stdout and figure.svg by the study's plot.gp."""
@@ -67,6 +80,35 @@ class Study:
         with figure.open("wb") as file:
             subprocess.run(["gnuplot", "-c", self.folder / "plot.gp", table], check=True, stdout=file)
         print(f"{table}, {figure}")
+
+
+def way_of(arguments):
+    """What --look-ahead and --step-factor add to the name of a folder: runs of different ways do not replace one another."""
+    step = "" if arguments.step_factor == 1 else f"_step{arguments.step_factor:g}"
+    return ("_ahead" if arguments.look_ahead else "") + step
+
+
+def at_step(scene, factor):
+    """Another time step. Whatever else the scene has to do with steps stays: intervals are to be multiples of the new one."""
+    return re.sub(r"(?m)^step = (\S+)", lambda step: f"step = {factor * float(step[1]):g}", scene, count=1)
+
+
+def looking_ahead(scene):
+    """Contacts before overlap, in place of the two sections that help contacts after it."""
+    for section in ("surface_layer", "max_correcting_velocity"):
+        scene = re.sub(rf"(?m)^\[{section}\]\n(.+\n)*\n?", "", scene)
+    return scene + "\n[speculative_contacts]\n"
+
+
+def processor_time():
+    """s, of all programs that have run."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def time_file(results):
+    """Holds the processor time of the run: beside its results, which the program replaces as a whole."""
+    return results.with_name(results.name + ".processor_s")
 
 
 def is_complete(results):
@@ -99,14 +141,23 @@ def read_summary(results):
     return tomllib.loads((results / "summary.toml").read_text())
 
 
-HEALTH = ["deepest_overlap_percent", "leaked"]
+HEALTH = ["deepest_overlap_percent", "leaked", "deepest_in_median_frame_percent", "processor_s"]
 
 
 def health(runs):
-    """Of all runs: the deepest overlap at the end relative to the smallest half-axis, and the grains that have leaked."""
+    """Of all runs: the deepest overlap at the end relative to the smallest half-axis, the grains that have leaked, the deepest
+    overlap in the median of the frames with contacts, and the mean processor time."""
     summaries = [read_summary(results) for results in runs]
     deepest = max(summary["end"]["deepest_overlap_relative"] for summary in summaries)
-    return [100 * deepest, sum(summary["end"]["bodies_leaked"] for summary in summaries)]
+    leaked = sum(summary["end"]["bodies_leaked"] for summary in summaries)
+    times = mean(float(time_file(results).read_text()) if time_file(results).exists() else math.nan for results in runs)
+    return [100 * deepest, leaked, 100 * max(map(deepest_in_median_frame, runs)), times]
+
+
+def deepest_in_median_frame(results):
+    """Relative to the smallest half-axis: what a bed has while it moves, without the blow of grains that arrive."""
+    depths = [line["deepest_contact_m"] for line in read_table(results / "state.csv")]
+    return statistics.median(depth for depth in depths if depth > 0) / read_summary(results)["end"]["smallest_half_axis"]
 
 
 def mean(values):

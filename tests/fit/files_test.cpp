@@ -19,6 +19,7 @@
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
 
+#include "input/catalogue.hpp"
 #include "input/read_data.hpp"
 #include "model/fit_error.hpp"
 #include "model/fit_union.hpp"
@@ -26,7 +27,6 @@
 #include "output/picture.hpp"
 #include "output/report.hpp"
 #include "samples/temporary_folder.hpp"
-#include "scene/catalogue.hpp"
 #include "study/truth.hpp"
 
 using namespace fit;

@@ -13,10 +13,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/input_error.hpp"
 #include "expect.hpp"
+#include "model/scene.hpp"
 #include "samples/temporary_folder.hpp"
-#include "scene/input_error.hpp"
-#include "scene/scene.hpp"
 
 namespace supernormal::fuzz {
 namespace {

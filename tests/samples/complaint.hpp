@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/input_error.hpp"
-#include "scene/scene.hpp"
+#include "base/input_error.hpp"
+#include "model/scene.hpp"
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "model/scene.hpp"
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 

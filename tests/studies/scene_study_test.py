@@ -115,20 +115,67 @@ class Hopper(unittest.TestCase):
         self.assertAlmostEqual(study.flow(lines, 0.25), 100)
 
 
+class Health(unittest.TestCase):
+    def test_the_frame_in_the_middle_of_those_with_contacts(self):
+        with tempfile.TemporaryDirectory() as out:
+            results = pathlib.Path(out) / "case_1"
+            results.mkdir()
+            end = "[end]\nsmallest_half_axis = 0.002\ndeepest_overlap_relative = 0.01\nbodies_leaked = 3\n"
+            (results / "summary.toml").write_text(end)
+            (results / "state.csv").write_text("time_s,deepest_contact_m\n0,0\n1,9e-4\n2,2e-5\n3,1e-5\n")
+            at_end, leaked, in_median_frame, seconds = scene_study.health([results])
+            self.assertEqual((at_end, leaked), (1, 3))
+            self.assertAlmostEqual(in_median_frame, 1)
+            self.assertTrue(math.isnan(seconds))  # of a run before they were kept
+            scene_study.time_file(results).write_text("1.50\n")
+            self.assertEqual(scene_study.health([results])[3], 1.5)
+
+
+def first_scenes(study, out, *options):
+    """The scene files that a study writes until it reads its first results, parsed."""
+    module = load(study.parent.name)
+    ran = []
+    arguments = [str(study), "--seeds", "1", "--out", out, *options]
+    with mock.patch.object(sys, "argv", arguments), mock.patch("builtins.print"):
+        with mock.patch.object(scene_study.subprocess, "run", lambda command, **_: ran.append(command)):
+            try:
+                module.main()
+            except FileNotFoundError:  # of the first results that it reads
+                return {path.name: tomllib.loads(path.read_text()) for path in pathlib.Path(out).glob("*.toml")}
+    raise AssertionError(f"{ran} left results")
+
+
 class Scenes(unittest.TestCase):
     def test_every_study_fills_its_templates(self):
         for study in sorted(STUDIES.glob("*/study")):
             with self.subTest(study=study.parent.name), tempfile.TemporaryDirectory() as out:
-                module = load(study.parent.name)
-                ran = []
-                arguments = [str(study), "--seeds", "1", "--out", out]
-                with mock.patch.object(sys, "argv", arguments), mock.patch("builtins.print"):
-                    with mock.patch.object(scene_study.subprocess, "run", lambda command, **_: ran.append(command)):
-                        with self.assertRaises(FileNotFoundError):  # of the first results that it reads
-                            module.main()
-                self.assertTrue(ran)
-                for path in pathlib.Path(out).glob("*.toml"):
-                    tomllib.loads(path.read_text())
+                self.assertTrue(first_scenes(study, out))
+
+    def test_the_ways_change_contacts_and_step_and_nothing_else(self):
+        for study in sorted(STUDIES.glob("*/study")):
+            with self.subTest(study=study.parent.name), tempfile.TemporaryDirectory() as out:
+                plain = first_scenes(study, out)
+                ahead = first_scenes(study, out, "--look-ahead", "--step-factor", "2.5")
+                self.assertEqual(plain.keys(), ahead.keys())
+                for name, scene in plain.items():
+                    if "time" in scene:  # not a catalogue
+                        for section in ("surface_layer", "max_correcting_velocity"):
+                            scene.pop(section, None)
+                        scene["speculative_contacts"] = {}
+                        self.assertAlmostEqual(ahead[name]["time"]["step"], 2.5 * scene["time"].pop("step"))
+                        ahead[name]["time"].pop("step")
+                    self.assertEqual(scene, ahead[name])
+
+    def test_each_way_has_its_folder(self):
+        def folder(*options):
+            with mock.patch.object(sys, "argv", ["study", *options]), mock.patch.object(pathlib.Path, "mkdir"):
+                return str(scene_study.Study(STUDIES / "drum_exponents/study", "").out)
+
+        self.assertEqual(folder(), "out/studies/drum_exponents")
+        self.assertEqual(folder("--look-ahead"), "out/studies/drum_exponents_ahead")
+        self.assertEqual(folder("--step-factor", "2"), "out/studies/drum_exponents_step2")
+        self.assertEqual(folder("--look-ahead", "--step-factor", "0.5"), "out/studies/drum_exponents_ahead_step0.5")
+        self.assertEqual(folder("--look-ahead", "--out", "here"), "here")
 
 
 class Again(unittest.TestCase):

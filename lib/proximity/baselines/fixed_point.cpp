@@ -9,28 +9,28 @@
 namespace supernormal {
 namespace {
 
-// The remaining error is summed as the geometric series of the iteration's contraction; no slower contraction than this is
-// believed.
+// The remaining error is summed as a geometric series with the contraction of the iteration. The contraction is assumed to be no
+// slower than this.
 constexpr double kSlowestContraction = 0.95;
 
 // Safety factor on the gain, because the next contraction may differ from the last.
 constexpr double kGainSafety = 2;
 
-// Two normals closer than this (radians) do not determine a radius of curvature: the boundary points differ by rounding only.
-constexpr double kSmallestTurn = 1e-9;
+// rad; two normals closer than this do not determine a radius of curvature, because their boundary points differ only by rounding.
+constexpr double kSmallestAngle = 1e-9;
 
-/// The outward normal line of one body at its boundary point, and the centre of curvature estimated on it.
+/// The outward normal line of one body at its boundary point, and the estimated centre of curvature on it.
 class NormalLine {
  public:
-  /// `support` is the distance of the tangent plane from the body's origin: the first estimate of the radius of curvature.
+  /// `support` (m) is the distance of the tangent plane from the body's origin: the first estimate of the radius of curvature.
   Vector3 centre_of_curvature(const Vector3& point, const Vector3& normal, double support) {
     if (!has_previous_) {
       radius_ = support;
     } else {
-      // The new centre is the point of this line nearest to the previous one; nearly parallel lines keep the radius.
+      // The new centre is the point of this line nearest to the previous line. Nearly parallel lines keep the radius.
       const Vector3 across = normal.cross(normal_);
       const double squared = across.squaredNorm();
-      if (squared > kSmallestTurn * kSmallestTurn) radius_ = -across.dot((point_ - point).cross(normal_)) / squared;
+      if (squared > kSmallestAngle * kSmallestAngle) radius_ = -across.dot((point_ - point).cross(normal_)) / squared;
     }
     has_previous_ = true;
     point_ = point;
@@ -44,8 +44,8 @@ class NormalLine {
   bool has_previous_ = false;
 };
 
-/// The answer after convergence. The search needs no derivatives, but the contact point does: one evaluation more, where there are
-/// any and it is allowed.
+/// The answer after convergence. The search needs no derivatives, but the contact point does. So this makes one more evaluation, if
+/// there are derivatives and the limit allows it.
 Proximity converged_answer(GapFunction& gap, const Settings& settings, GapJet& jet, double error) {
   const bool knows_contact = !gap.has_hessian() || gap.evaluations() < settings.max_evaluations;
   if (knows_contact && gap.has_hessian()) gap.evaluate(jet.n, Order::Hessian, jet);
@@ -71,7 +71,7 @@ Proximity solve_fixed_point(GapFunction& gap, const Settings& settings, const Ve
     const Vector3 next = (centre2 - centre1).normalized();
     if (!all_finite(next) || next == Vector3::Zero()) return answer(gap, settings, jet, 0, Status::Diverged);
 
-    // Slope times step bounds the gain of this step; the steps after it shrink by the contraction.
+    // Slope times step bounds the gain of this step. The following steps shrink by the contraction.
     const double gain = std::abs(jet.d.dot(next - n * next.dot(n)));
     const double contraction = previous_gain > 0 ? std::min(gain / previous_gain, kSlowestContraction) : kSlowestContraction;
     const double error = kGainSafety * gain / (1 - contraction);

@@ -8,7 +8,7 @@
 namespace supernormal {
 namespace {
 
-// The predicted gain is half the slope times the step; twice that allows for the change of the Hessian over the step.
+// The predicted gain is half the slope times the step. This factor allows for the change of the Hessian over the step.
 constexpr double kHessianChange = 2;
 
 Proximity answer_with_contact(GapFunction& gap, const Settings& settings, const GapJet& jet, double error, Status status) {
@@ -27,7 +27,7 @@ Proximity solve_newton(GapFunction& gap, const Settings& settings, const Vector3
     gap.evaluate(n, Order::Hessian, jet);
     if (settings.stop_when_apart && jet.s > 0) return answer_with_contact(gap, settings, jet, 0, Status::Apart);
 
-    // The step makes the two tangential components of d zero, whatever kind of stationary point it leads to.
+    // The step makes both tangential components of d zero. It may lead to any kind of stationary point.
     const LocalModel local = LocalModel::of(gap, jet);
     const Vector2 step = local.model.A.solve(local.model.g);
     if (!all_finite(step))

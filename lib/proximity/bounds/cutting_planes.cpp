@@ -7,16 +7,16 @@
 namespace supernormal {
 namespace {
 
-// Slopes are compared relative to the steepest cut: a ridge whose slope is below this share of it is level.
+// Relative to the steepest half-space's slope: a ridge with a smaller slope counts as level.
 constexpr double kLevelSlope = 1e-14;
 
-// Cuts whose values differ by less than this share of the largest value or slope meet at a point.
+// Relative to the largest value or slope: half-spaces whose values differ by less meet at a point.
 constexpr double kTie = 1e-13;
 
-// As the square of a length over another.
+// The square of a ratio of lengths.
 constexpr double kShort = 0.01;
 
-/// One cut over the tangent plane: value + slope.u
+/// A supporting half-space over the tangent plane: value + slope.u.
 struct Cut {
   double value;
   Vector2 slope;
@@ -24,12 +24,12 @@ struct Cut {
   double at(const Vector2& u) const { return value + slope.dot(u); }
 };
 
-/// The point of the segment a b nearest to the origin. Between the ends it is exactly across the segment, however short: the slopes
-/// of two flat faces may be a thousand times steeper than the ridge where they meet. Of a segment that is short itself, as between
-/// two neighbours on a rim, the product would cancel.
+/// The point of the segment a b nearest to the origin. Between the ends it is exactly perpendicular to the segment, however short
+/// it is: the slopes of two flat faces may be a thousand times steeper than the ridge where they meet. For a short segment, as
+/// between two neighbours on a curved edge, the product would cancel.
 Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
   const Vector2 edge = b - a;
-  // Asked of each end by itself: their difference drowns in the rounding of a long segment.
+  // Each end has its own test, because their difference would drown in the rounding of a long segment.
   if (!(a.dot(edge) < 0)) return a;
   if (!(b.dot(edge) > 0)) return b;
   const double squared = edge.squaredNorm();
@@ -39,9 +39,10 @@ Vector2 nearest_on_segment(const Vector2& a, const Vector2& b) {
 
 using Cuts = std::array<Cut, 1 + CuttingPlanes::kCapacity>;
 
-/// Steepest ascent of the least of some cuts that are equal here: the element of least norm in the convex hull of their slopes,
-/// zero where their minimum has its maximum. It lies on a vertex or an edge of the hull, in front of which no slope lies, or the
-/// hull holds the origin. Slopes of very different length meet on flat faces: rounding is that of the steepest.
+/// Steepest ascent of the minimum of half-spaces that are equal here: the element of least norm in the convex hull of their slopes.
+/// It is zero where the minimum of the half-spaces has its maximum. It lies on a vertex or an edge of the hull with no slope in
+/// front of it; otherwise the hull contains the origin. Slopes of very different lengths meet on flat faces, so the steepest sets
+/// the rounding error.
 Vector2 steepest_ascent(const Cuts& cuts, std::size_t count) {
   double steepest = 0;
   for (std::size_t i = 0; i < count; ++i) steepest = std::max(steepest, cuts[i].slope.norm());
@@ -56,7 +57,7 @@ Vector2 steepest_ascent(const Cuts& cuts, std::size_t count) {
   return Vector2::Zero();
 }
 
-/// The distance to walk from u along the unit vector p until |u| = radius.
+/// The distance from u along the unit vector p to the circle |u| = radius.
 double distance_to_circle(const Vector2& u, const Vector2& p, double radius) {
   const double along = u.dot(p);
   const double rest = std::max(0.0, radius * radius - u.squaredNorm());
@@ -112,26 +113,27 @@ CuttingPlanes::Maximum CuttingPlanes::maximize(const TangentPlane& plane, double
     const double slope = ascent.norm();
     if (slope <= kLevelSlope * steepest) {
       best.is_interior = true;
-      best.uncertainty = highest_met - best.value;  // a mean of these cuts is level, and lies above their least everywhere
+      // A mean of these half-spaces is level, and it is nowhere below their minimum.
+      best.uncertainty = highest_met - best.value;
       break;
     }
-    // Walk up until another cut becomes the lowest, or to the rim.
+    // Walk up until another half-space becomes the lowest, or to the circle.
     const Vector2 p = ascent / slope;
     double distance = distance_to_circle(best.u, p, radius);
-    bool reaches_rim = true;
+    bool reaches_circle = true;
     for (std::size_t k = 0; k < count; ++k) {
       const double value = cuts[k].at(best.u);
       const double closing = slope - cuts[k].slope.dot(p);
       if (value <= best.value + kTie * scale || closing <= 0) continue;
-      const double reach = (value - best.value) / closing;
-      if (reach < distance) {
-        distance = reach;
-        reaches_rim = false;
+      const double distance_to_cut = (value - best.value) / closing;
+      if (distance_to_cut < distance) {
+        distance = distance_to_cut;
+        reaches_circle = false;
       }
     }
     best.u += distance * p;
     best.value += distance * slope;
-    if (reaches_rim) break;
+    if (reaches_circle) break;
   }
   return best;
 }

@@ -14,13 +14,13 @@
 namespace supernormal {
 namespace {
 
-// Where the origin is on a face, an edge or a vertex of the hull of what is known, the search goes on around a point beside it: so
-// many times the rounding of s away, which makes the bound larger by as much.
+// If the origin is on a face, an edge or a vertex of the hull of the known points, the search continues around a point beside the
+// origin. The point is this vector, in units of the rounding error of s. The bound grows by its length.
 const Vector3 kBeside(7, 11, 9);
 
 }  // namespace
 
-// A shape may be a callback that asks queries of its own: they find the storage taken and use another.
+// A shape may be a callback that makes queries of its own. Such a query finds the storage taken and uses another.
 ExpandingPolytope::ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings,
                                      double tolerance)
     : gap_(gap),
@@ -38,13 +38,13 @@ InnerPolytope& ExpandingPolytope::kept_polytope() {
   return polytope;
 }
 
-bool ExpandingPolytope::run(const Goal& goal, GapJet& best, double& error, Status& status) {
-  goal_ = goal;
+bool ExpandingPolytope::run(const SearchLimits& limits, GapJet& best, double& error, Status& status) {
+  limits_ = limits;
   best_ = best;
   error_ = error;
   status_ = status;
   top_count_ = 0;
-  remember_top(ascent_.candidate());
+  keep_top(ascent_.candidate());
   is_enclosed_ = enclose_origin();
   if (is_enclosed_) expand();
   climb_from_tops();
@@ -56,12 +56,12 @@ bool ExpandingPolytope::run(const Goal& goal, GapJet& best, double& error, Statu
   return excess_ <= width();
 }
 
-// GJK: where the hull of the known points does not hold the origin, the next normal is that of its nearest point.
+// GJK: if the hull of the known points does not contain the origin, the next normal is the direction of the hull's nearest point.
 bool ExpandingPolytope::enclose_origin() {
   Vector3 centre = Vector3::Zero();
   while (!is_apart()) {
     std::array<Vector3, CuttingPlanes::kCapacity> shifted;
-    // The centre is no vertex: in symmetric poses the origin is on the line from there to a boundary point.
+    // The centre is no vertex: in symmetric poses the origin is on the line between the centre and a boundary point.
     const std::span<const Vector3> boundary = cuts_.boundary_points(), points(shifted.data(), boundary.size());
     for (std::size_t k = 0; k < points.size(); ++k) shifted[k] = boundary[k] - centre;
     const MinimumNormPoint nearest = minimum_norm_point(points);
@@ -75,7 +75,7 @@ bool ExpandingPolytope::enclose_origin() {
       centre = gap_.rounding() * kBeside;
       continue;
     }
-    if (!may_go_on()) return false;
+    if (!may_continue()) return false;
     cuts_.keep_lowest_at(nearest.normal);
     const Vector3 point = evaluate(nearest.normal) - centre;
     climb_if_higher();
@@ -88,10 +88,10 @@ bool ExpandingPolytope::enclose_origin() {
 }
 
 void ExpandingPolytope::expand() {
-  while (may_go_on() && !is_apart()) {
+  while (may_continue() && !is_apart()) {
     const InnerPolytope::Nearest facet = polytope_.nearest();
     if (!(-facet.distance - (best_.s + rho_) > width())) return;
-    // Through the origin itself goes no facet but one that is thin.
+    // A facet through the origin itself is a sliver.
     if (facet.normal.isZero(0)) {
       polytope_.give_up(facet);
       continue;
@@ -111,15 +111,15 @@ Vector3 ExpandingPolytope::evaluate(const Vector3& normal) {
 }
 
 void ExpandingPolytope::climb_if_higher() {
-  if (jet_.s > best_.s + goal_.cutoff && gap_.evaluations() < goal_.max_evaluations) {
+  if (jet_.s > best_.s + limits_.cutoff && gap_.evaluations() < limits_.max_evaluations) {
     climb_from(jet_.n);
   } else {
-    remember_top({jet_.n, jet_.s});
+    keep_top({jet_.n, jet_.s});
   }
 }
 
-// Of a hill the highest normal only.
-void ExpandingPolytope::remember_top(const LocalCandidate& top) {
+// Keeps only the highest normal of each basin of attraction.
+void ExpandingPolytope::keep_top(const LocalCandidate& top) {
   const auto is_lower = [](const LocalCandidate& a, const LocalCandidate& b) { return a.s < b.s; };
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   auto place =
@@ -133,14 +133,14 @@ void ExpandingPolytope::remember_top(const LocalCandidate& top) {
 }
 
 void ExpandingPolytope::climb_from_tops() {
-  if (goal_.near == 0) return;
-  // Bodies with centres of symmetry have s(-n) = s(n) - 2 n.c: about concentric, they may leave one another on either side.
+  if (limits_.near == 0) return;
+  // Point-symmetric bodies have s(-n) = s(n) - 2 n.c. If they are nearly concentric, they may separate on either side.
   const auto may_climb = [&] { return gap_.evaluations() < settings_.max_evaluations; };
-  if (may_climb() && std::abs(2 * best_.n.dot(gap_.offset())) < goal_.near) climb_from(-best_.n);
+  if (may_climb() && std::abs(2 * best_.n.dot(gap_.offset())) < limits_.near) climb_from(-best_.n);
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
   for (auto top = tops_.begin(); top != end && may_climb(); ++top) {
-    if (top->s > best_.s - goal_.near && top->n.dot(best_.n) < kTuning.same_hill_cosine) climb_from(top->n);
+    if (top->s > best_.s - limits_.near && top->n.dot(best_.n) < kTuning.same_hill_cosine) climb_from(top->n);
   }
 }
 

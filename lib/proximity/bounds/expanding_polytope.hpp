@@ -1,4 +1,4 @@
-// How much higher than the best known normal any other can be.
+// How much higher than the best known normal any other normal can be.
 #pragma once
 
 #include <algorithm>
@@ -9,31 +9,34 @@
 
 namespace supernormal {
 
-/// Bounds the largest value of s over the whole sphere and finds higher normals on the way, by the expanding polytope algorithm:
-/// the facet of the hull of the known boundary points that is nearest to the origin says how large s may still be, and at its
-/// normal s is evaluated next. A normal that turns out higher is climbed from.
+/// Bounds the largest value of s over the whole sphere, and finds higher normals, by the expanding polytope algorithm. The facet of
+/// the hull of the known boundary points that is nearest to the origin bounds s. The next evaluation is at this facet's normal. If
+/// it is higher, the ascent climbs from there.
 ///
-/// Where a ball of radius rho rolls inside the difference of the bodies, the ball is taken out first: s + rho is the gap function
-/// of what remains, d + rho n its boundary point, and the hull fits it more tightly.
+/// If a ball of radius rho rolls inside the Minkowski difference, the ball is taken out first. The remaining body has the gap
+/// function s + rho and the boundary points d + rho n, and the hull fits it more tightly.
 class ExpandingPolytope {
  public:
-  /// Keeps references. `ascent` is the one that climbs from higher normals, and `cuts` has the points known so far.
+  /// Keeps references. `ascent` climbs from higher normals. `cuts` contains the points known so far. `tolerance` in m.
   ExpandingPolytope(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const Settings& settings, double tolerance);
   ~ExpandingPolytope();
   ExpandingPolytope(const ExpandingPolytope&) = delete;
   ExpandingPolytope& operator=(const ExpandingPolytope&) = delete;
 
-  /// What a search is to achieve.
-  struct Goal {
-    double share;         ///< it ends when no depth is proved to be less than the best by more than this share of it,
-    int max_evaluations;  ///< or when the query has taken so many, the climbs at the end apart
-    double cutoff;        ///< m; a normal that is higher than the best by more than this is climbed from
-    double near;          ///< m; in the end those are, too, that are lower by less and lead up other hills; none if 0
+  /// When a search ends, and from where it climbs.
+  struct SearchLimits {
+    /// Relative to the best depth: the search ends when it is proved that no depth is smaller by more than this.
+    double relative_width;
+    int max_evaluations;  ///< the search also ends after this many evaluations of the query, without the final climbs
+    double cutoff;        ///< m; the ascent climbs from a normal that is higher than the best by more than this
+    /// m; in the end the ascent also climbs from normals that are lower by less than this, in other basins of attraction. 0: no
+    /// such climbs.
+    double near;
   };
 
-  /// Searches for higher normals than `best`. Whether the width was reached; `best`, `error` and `status` are those of the last
-  /// climb that got higher.
-  bool run(const Goal& goal, GapJet& best, double& error, Status& status);
+  /// Searches for higher normals than `best`. Returns whether the depth is proved within width(). `best`, `error` and `status` are
+  /// from the last climb that got higher.
+  bool run(const SearchLimits& limits, GapJet& best, double& error, Status& status);
 
   /// m; no normal is higher than the best by more.
   double excess() const { return excess_; }
@@ -47,12 +50,12 @@ class ExpandingPolytope {
   Vector3 evaluate(const Vector3& normal);
   void climb_if_higher();
   void climb_from(const Vector3& normal);
-  void remember_top(const LocalCandidate& top);
+  void keep_top(const LocalCandidate& top);
   void climb_from_tops();
-  bool may_go_on() const { return status_ != Status::InvalidInput && gap_.evaluations() < goal_.max_evaluations; }
-  /// Without their balls the bodies are apart: a climb has shown it, and found the only maximum.
+  bool may_continue() const { return status_ != Status::InvalidInput && gap_.evaluations() < limits_.max_evaluations; }
+  /// Whether the bodies without their balls are apart. A climb has then found the only maximum.
   bool is_apart() const { return best_.s + rho_ > 0; }
-  double width() const { return std::max(-goal_.share * best_.s, tolerance_); }
+  double width() const { return std::max(-limits_.relative_width * best_.s, tolerance_); }
 
   GapFunction& gap_;
   CuttingPlanes& cuts_;
@@ -60,13 +63,13 @@ class ExpandingPolytope {
   const Settings& settings_;
   const double rho_, tolerance_;  // m
   InnerPolytope polytope_;        // of the points d + rho n
-  bool is_enclosed_ = false;      // whether it has the origin inside; until then its points are of another query
-  Goal goal_{};
+  bool is_enclosed_ = false;      // whether it contains the origin; until then it still has the points of an earlier query
+  SearchLimits limits_{};
   double excess_ = 0;                          // m
-  std::array<LocalCandidate, kMaxTops> tops_;  // the highest normals that were not climbed from
+  std::array<LocalCandidate, kMaxTops> tops_;  // the highest normals from which there was no climb
   std::size_t top_count_ = 0;
   GapJet best_, jet_;
-  double error_ = 0;  // m; of the climb to the best
+  double error_ = 0;  // m; from the climb to the best
   Status status_ = Status::Converged;
 };
 

@@ -10,14 +10,14 @@
 namespace supernormal {
 namespace {
 
-// A point is beyond a facet when it is so by more than this share of the longest vertex.
+// Relative to the longest vertex: a point is beyond a facet if it is beyond it by more than this.
 constexpr double kBeyond = 8 * std::numeric_limits<double>::epsilon();
 
-// The plane of a triangle whose two shorter sides are that nearly parallel (radians) is rounding.
+// rad; if the two shorter sides of a triangle are this nearly parallel, its plane is only rounding error.
 constexpr double kThin = 1e-8;
 
-/// The unit normal of a triangle, counter-clockwise as seen from outside; zero where it is too thin to have one. Of two long sides
-/// the digits would cancel.
+/// The unit normal of a triangle, counter-clockwise as seen from outside. Zero if the triangle is too thin. Uses the two shorter
+/// sides, because the digits of longer sides would cancel.
 Vector3 normal_of(const Vector3& a, const Vector3& b, const Vector3& c) {
   const std::array<Vector3, 3> sides = {b - a, c - b, a - c};
   const std::array<double, 3> squares = {sides[0].squaredNorm(), sides[1].squaredNorm(), sides[2].squaredNorm()};
@@ -68,7 +68,7 @@ bool InnerPolytope::add(const Vector3& point) {
   return most > kBeyond * length_ && replace_visible(vertex, seen);
 }
 
-// The plane of a thin facet may not be known, but that across its nearest point is.
+// The plane of a thin facet may be unknown. The plane across the direction of its nearest point is known.
 bool InnerPolytope::add(const Vector3& point, const Nearest& facet) {
   const Vector3 vertex = point - centre_;
   const bool is_beyond = facet.normal.dot(vertex) - (facet.distance + centre_.norm()) > kBeyond * length_;
@@ -76,8 +76,8 @@ bool InnerPolytope::add(const Vector3& point, const Nearest& facet) {
 }
 
 bool InnerPolytope::replace_visible(const Vector3& vertex, Index seen) {
-  // A vertex on an edge of the horizon would make a triangle without area: there the facet beyond, of the same plane or none, goes
-  // too.
+  // A vertex on an edge of the horizon would make a triangle without area. In this case the facet beyond that edge is removed too:
+  // it is coplanar, or it is thin.
   if (!find_horizon(vertex, seen, 0) && !find_horizon(vertex, seen, -kBeyond * length_)) return false;
   for (const Index facet : visible_) facets_[facet].is_removed = true;
   const auto apex = static_cast<Index>(vertices_.size());
@@ -97,8 +97,8 @@ bool InnerPolytope::replace_visible(const Vector3& vertex, Index seen) {
   return true;
 }
 
-// The facets that the point is beyond by more than `level`, from one of them on, and the edges around them in order. False if the
-// point with these edges does not go around the origin as the facets do.
+// Collects the facets that the point is beyond by more than `level`, starting with `seen`, and the edges around them in order.
+// Returns false if the triangles between the point and these edges would not go around the origin as the facets do.
 bool InnerPolytope::find_horizon(const Vector3& point, Index seen, double level) {
   ++visit_;
   horizon_.clear();
@@ -137,7 +137,7 @@ bool InnerPolytope::is_closed_cone(const Vector3& apex) {
 }
 
 InnerPolytope::Index InnerPolytope::add_facet(const std::array<Index, 3>& vertex, const Vector3& normal) {
-  // Of the heights of the vertices that of the nearest has the most digits.
+  // The height of the nearest vertex has the most digits.
   const auto is_nearer = [&](Index i, Index j) { return vertices_[i].squaredNorm() < vertices_[j].squaredNorm(); };
   const Index nearest = *std::min_element(vertex.begin(), vertex.end(), is_nearer);
   const Facet facet{vertex, {}, normal, normal.dot(vertices_[nearest]), false, 0};
@@ -165,7 +165,7 @@ bool InnerPolytope::is_foot_inside(const Facet& facet) const {
   return facet.height > 0 && is_left(0) && is_left(1) && is_left(2);
 }
 
-// The plane of a facet is no farther than the facet itself, whose distance is computed only when its plane is the nearest.
+// A facet's plane is no farther than the facet itself. So a facet's own distance is only computed when its plane is the nearest.
 InnerPolytope::Nearest InnerPolytope::nearest() {
   const double error = centre_.norm();
   while (true) {
@@ -174,8 +174,8 @@ InnerPolytope::Nearest InnerPolytope::nearest() {
     const Entry entry = heap_.front();
     const Facet& facet = facets_[entry.facet];
     if (is_foot_inside(facet)) return {entry.facet, facet.height - error, facet.normal};
-    const std::array<Vector3, 3> corners = {vertices_[facet.vertex[0]], vertices_[facet.vertex[1]], vertices_[facet.vertex[2]]};
-    const MinimumNormPoint nearest = minimum_norm_point(corners);
+    const std::array<Vector3, 3> triangle = {vertices_[facet.vertex[0]], vertices_[facet.vertex[1]], vertices_[facet.vertex[2]]};
+    const MinimumNormPoint nearest = minimum_norm_point(triangle);
     if (entry.is_exact) return {entry.facet, nearest.norm - error, nearest.normal};
     std::pop_heap(heap_.begin(), heap_.end(), is_farther);
     heap_.back() = {nearest.norm, entry.facet, true};

@@ -1,4 +1,4 @@
-// The hull of boundary points around the origin, whose facets bound the gap function.
+// The hull of boundary points around the origin. Its facets bound the gap function.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace supernormal {
 
-/// A closed surface of triangles around the origin, all of whose vertices are points of one convex body.
+/// A closed surface of triangles around the origin. All its vertices are points of one convex body.
 ///
 /// Lemma. Let every ray from the origin meet the surface, and let r be the least distance of its triangles from the origin. Then
-/// the body contains the ball of radius r about the origin, and its gap function is nowhere above -r.
-/// Proof. A triangle lies in the body, and so does the segment from the origin, which the body contains, to any of its points. On
-/// every ray one of these is as long as r. A body that contains the ball has the support plane of every normal beyond it.
+/// the body contains the ball of radius r about the origin, and its gap function is nowhere above -r. Proof. The body contains the
+/// origin and every triangle, so it contains the segments from the origin to the points of the triangles. On every ray one of these
+/// segments has at least the length r. So the body contains the ball, and the supporting plane of every normal is beyond the ball.
 ///
-/// The surface need not be convex for that. Where rounding leaves it so the bound is the same, and where a vertex would turn a
-/// triangle away from the origin it is not added. In exact arithmetic the surface is the convex hull of its vertices: it grows as
-/// in the expanding polytope algorithm (van den Bergen, Proximity queries and penetration depth computation on 3D game objects,
-/// GDC 2001).
+/// The surface need not be convex for this lemma. So rounding errors that make it nonconvex do not affect the bound. A vertex that
+/// would turn a triangle away from the origin is not added. In exact arithmetic the surface is the convex hull of its vertices. It
+/// grows as in the expanding polytope algorithm (van den Bergen, Proximity queries and penetration depth computation on 3D game
+/// objects, GDC 2001).
 class InnerPolytope {
  public:
   using Index = std::uint32_t;
@@ -32,40 +32,41 @@ class InnerPolytope {
     Vector3 normal;   ///< unit, outward
   };
 
-  /// Starts from a tetrahedron that has the origin inside; false where it has not, or is flat. Its vertices are points of the body
-  /// less `centre`, a point so near to the origin that its distance counts as an error: the surface is one around the centre.
+  /// Starts with a tetrahedron around the origin. Returns false if the origin is not inside, or if the tetrahedron is flat. Its
+  /// vertices are points of the body less `centre`. The surface is around `centre`, a point so near to the origin that its distance
+  /// counts as an error.
   bool start(const std::array<Vector3, 4>& tetrahedron, const Vector3& centre = Vector3::Zero());
 
-  /// Adds a point that lies beyond a facet that is the nearest, or beyond any. Returns whether the surface has changed.
+  /// Adds a point that lies beyond `facet`, a result of nearest(), or beyond any facet. Returns whether the surface has changed.
   bool add(const Vector3& point, const Nearest& facet);
   bool add(const Vector3& point);
 
-  /// The facet nearest to the origin, of those that were not given up.
+  /// The facet nearest to the origin, without the facets that were given up.
   Nearest nearest();
 
-  /// Leaves a facet as it is: it still bounds distance(), but will not be the nearest any more.
+  /// Gives up on a facet. It still bounds inner_radius(), but nearest() does not return it any more.
   void give_up(const Nearest& facet);
 
-  /// m; the ball about the origin with this radius is in the body.
+  /// m; the body contains the ball about the origin with this radius.
   double inner_radius();
 
  private:
   struct Facet {
     std::array<Index, 3> vertex;     // counter-clockwise as seen from outside
-    std::array<Index, 3> neighbour;  // across the edge from the vertex of this place to the next
-    Vector3 normal;                  // unit, outward; zero where the triangle has no area
-    double height;                   // m; of the plane
+    std::array<Index, 3> neighbour;  // neighbour[k] lies across the edge from vertex[k] to vertex[k + 1]
+    Vector3 normal;                  // unit, outward; zero if the triangle has no area
+    double height;                   // m; distance of the plane
     bool is_removed;
-    std::uint32_t visit;  // the last search that saw it
+    std::uint32_t visit;  // the last search that visited it
   };
   struct Entry {
     double distance;  // m; a lower bound, or exact
     Index facet;
-    bool is_exact;  // the distance of the triangle and not of its plane
+    bool is_exact;  // whether it is the distance of the triangle and not of its plane
   };
   struct Edge {
     Index from, to, outer;  // two vertices, and the facet that stays
-    Vector3 normal;         // of the facet that takes the edge
+    Vector3 normal;         // of the new facet on the edge
   };
 
   static bool is_farther(const Entry& a, const Entry& b) { return a.distance > b.distance; }
@@ -80,13 +81,13 @@ class InnerPolytope {
 
   std::vector<Vector3> vertices_;
   std::vector<Facet> facets_;
-  std::vector<Entry> heap_;     // the nearest first, with entries of removed facets
-  std::vector<Edge> horizon_;   // in order around the point that is being added
-  std::vector<Index> visible_;  // facets that it sees
+  std::vector<Entry> heap_;     // the nearest first; may contain removed facets
+  std::vector<Edge> horizon_;   // in order around the added point
+  std::vector<Index> visible_;  // the facets that the added point is beyond
   std::uint32_t visit_ = 0;
   Vector3 centre_ = Vector3::Zero();
   double given_up_ = 0;  // m
-  double length_ = 0;    // m; of the longest vertex: rounding is that of its components
+  double length_ = 0;    // m; of the longest vertex, which sets the rounding error
 };
 
 }  // namespace supernormal

@@ -7,8 +7,8 @@
 namespace supernormal {
 namespace {
 
-// A point lies no nearer to the origin than the best when its height along it exceeds this share of the lengths involved; a
-// determinant of three vectors has an error below this share of their lengths.
+// Relative to the lengths involved. The search ends if no point's height along the best is less than the best's length by more than
+// this. The error of a determinant of three vectors is below this fraction of the product of their lengths.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
 Vector3 unit(const Vector3& v) {
@@ -21,7 +21,7 @@ Vector3 unit(const Vector3& v) {
 const MinimumNormPoint& MinimumNormSearch::update(std::span<const Vector3> points) {
   const double before = best_.norm;
   search(points);
-  // The last simplex may be thin, and at its end in rounding, where another one is not.
+  // The last simplex may be thin and limited by rounding where another simplex is not.
   if (!(best_.norm < before) && best_.norm > 0) {
     *this = {};
     search(points);
@@ -73,11 +73,11 @@ void MinimumNormSearch::offer(const Vector3& a) {
 
 void MinimumNormSearch::offer(const Vector3& a, const Vector3& b) {
   const Vector3 edge = b - a;
-  const double share = -a.dot(edge), squared = edge.squaredNorm();
-  if (!(share > 0 && share < squared)) return;
-  Vector3 point = a + share / squared * edge;
-  // The shares of a long edge have rounding that a second pass takes off.
-  const double more = -point.dot(edge), refined = share + more;
+  const double weight = -a.dot(edge), squared = edge.squaredNorm();
+  if (!(weight > 0 && weight < squared)) return;
+  Vector3 point = a + weight / squared * edge;
+  // Weights on a long edge have rounding errors, which a second pass removes.
+  const double more = -point.dot(edge), refined = weight + more;
   if (refined > 0 && refined < squared) point += more / squared * edge;
   if (!is_better(point, point)) return;
   vertices_ = {a, b, b};
@@ -90,7 +90,7 @@ void MinimumNormSearch::offer(const Vector3& a, const Vector3& b, const Vector3&
   const double of_b = -a.cross(c - a).dot(normal), of_c = -(b - a).cross(a).dot(normal);
   if (!(of_b > 0 && of_c > 0 && of_b + of_c < squared)) return;
   Vector3 point = a + of_b / squared * (b - a) + of_c / squared * (c - a);
-  // So have those of a sliver.
+  // The same for a sliver.
   const double more_of_b = -point.cross(c - a).dot(normal), more_of_c = -(b - a).cross(point).dot(normal);
   const double refined_b = of_b + more_of_b, refined_c = of_c + more_of_c;
   if (refined_b > 0 && refined_c > 0 && refined_b + refined_c < squared) {

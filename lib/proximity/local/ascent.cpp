@@ -9,7 +9,7 @@
 namespace supernormal {
 namespace {
 
-// A trust radius below the spacing of double-precision directions leaves the model no normal to try.
+// A trust radius below the spacing of double-precision directions contains no other normal.
 constexpr double kNoRadius = 1e-15;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -31,42 +31,42 @@ Status Ascent::climb(const Vector3& start, double cutoff) {
   restart();
   evaluate(start, now_);
   if (!gap_.has_hessian()) bfgs_.restart(current());
-  return climb_on(cutoff);
+  return continue_climb(cutoff);
 }
 
 Status Ascent::climb(const GapJet& start) {
   restart();
   current() = start;
-  return climb_on(-kInfinity);
+  return continue_climb(-kInfinity);
 }
 
 void Ascent::restart() {
   radius_ = kTuning.longest_step;
   upper_ = kInfinity;
-  is_hulls_turn_ = false;
+  is_hull_next_ = false;
   is_model_short_ = false;
   is_stuck_ = false;
   is_from_bounds_ = false;
 }
 
-Status Ascent::climb_on(double cutoff) {
+Status Ascent::continue_climb(double cutoff) {
   Status status = Status::Converged;
   while (true) {
     if (!current().is_finite()) return Status::InvalidInput;
     if (settings_.stop_when_apart && current().s > 0) return Status::Apart;
-    // What one bound proves needs no model: with colliders whose vertices are known that is nearly every warm query.
+    // If one bound proves the result, no model is needed. With colliders of known vertices this is nearly every warm query.
     error_ = optimality_gap_bound(current(), rolling_radius_);
     if (error_ <= tolerance_ && !is_from_bounds_) return Status::Converged;
     const Step step = choose_step();
     if (is_finished(cutoff, status)) {
-      if (has_kinks_ && is_from_bounds_) go_to_stratum();
+      if (has_kinks_ && is_from_bounds_) move_to_exact_normal();
       return status;
     }
     evaluate(step.normal.normalized(), 1 - now_);
     if (!gap_.has_hessian()) learn_hessian();
     const double actual_gain = trial().s - current().s;
     if (!is_from_hull_) adapt_radius(step, actual_gain);
-    // Below the concave part a normal of the hull may lie on another hill.
+    // Where s + rho is not concave, the hull's normal may be in another basin of attraction.
     if (actual_gain > 0 || is_level_but_flatter(actual_gain)) {
       if (is_from_hull_ && !is_concave()) radius_ = kTuning.longest_step;
       now_ = 1 - now_;
@@ -77,13 +77,13 @@ Status Ascent::climb_on(double cutoff) {
   }
 }
 
-// A normal that bounds have proposed is that of a face or an edge of body 2 but for rounding, and the boundary point is one of its
-// vertices. The model's step goes to the exact normal, where any point between the vertices is a boundary point.
-void Ascent::go_to_stratum() {
+// Apart from rounding, a normal from the bounds is the normal of a face or an edge of body 2, and the boundary point is one of its
+// vertices. The model's step goes to the exact normal. There any point between the vertices is a boundary point.
+void Ascent::move_to_exact_normal() {
   const Step step = model_.propose(current(), active_[now_], bfgs_, kTuning.longest_step);
   if (model_.leaves_face() || gap_.evaluations() >= settings_.max_evaluations) return;
   evaluate(step.normal.normalized(), 1 - now_);
-  // What a bound has proved of the normal must hold for the other one, too.
+  // If a bound has proved the present normal, it must prove the other one, too.
   const bool is_as_good = error_ <= tolerance_ || optimality_gap_bound(trial(), rolling_radius_) <= tolerance_;
   if (is_as_good && trial().s >= current().s - gap_.rounding()) now_ = 1 - now_;
 }
@@ -123,7 +123,8 @@ Step Ascent::choose_step() {
   return step;
 }
 
-// Faces that lie on one another, also half beside one another, hold the point between them on the line of the origins.
+// The line through the origins crosses the plane halfway between the tangent planes at this point. Both bodies contain it if their
+// faces lie on each other, even half beside each other.
 bool Ascent::have_common_point() const {
   const double height = current().jet1.h + 0.5 * current().s, whole = current().n.dot(gap_.offset());
   if (!(height > 0 && height < whole)) return false;
@@ -132,24 +133,24 @@ bool Ascent::have_common_point() const {
          gap_.shape2().surely_contains(gap_.rotation().transpose() * (point - gap_.offset()));
 }
 
-// Every p in the hull of the cuts has s + rho <= m.p <= |p| for every unit m.
+// Every point p of the hull of the cuts has s(m) + rho <= m.p <= |p| for every unit m.
 void Ascent::ask_hull(bool must_replace, Step& step) {
   keep_own_cut();
   const auto [point, upper, normal] = hull_.update(cuts_.points());
   is_overlap_proved_ = !is_concave() && upper <= gap_.rounding();
   if (is_overlap_proved_) return;
   error_ = is_concave() ? std::max(upper - height(), 0.0) : std::numeric_limits<double>::infinity();
-  // Where s + rho is concave the model's steps go on to flatten the slope, on which the bound depends; elsewhere they are at their
-  // end.
-  is_hulls_turn_ = must_replace || !is_concave() || !is_hulls_turn_;
-  if (!is_hulls_turn_) return;
+  // Where s + rho is concave, more steps of the model reduce the slope, on which the bound depends. Elsewhere the model has
+  // converged.
+  is_hull_next_ = must_replace || !is_concave() || !is_hull_next_;
+  if (!is_hull_next_) return;
   const bool is_repeated = !(upper < upper_) && (normal - hulls_normal_).norm() < kNoRadius;
   is_stuck_ = upper <= gap_.rounding() || (is_repeated && (radius_ < kNoRadius || !is_concave()));
   if (is_stuck_) return;
   upper_ = upper;
   hulls_normal_ = normal;
   if (must_replace) radius_ = std::max(0.5 * std::min(radius_, step.length), 0.5 * kNoRadius);
-  // The hull of points that all but coincide loses digits; over the tangent plane their cuts do not.
+  // For nearly coincident points the hull loses digits. Their cuts over the tangent plane do not.
   if (is_repeated) return take_top_of_cuts(step);
   is_from_hull_ = true;
   cuts_.keep_lowest_at(normal);
@@ -164,13 +165,13 @@ void Ascent::take_top_of_cuts(Step& step) {
   step = {current().n + plane.lift(top.u), top.u.norm(), std::max(top.value - height(), 0.0), kInfinity};
   cuts_.keep_lowest_at(step.normal);
   if (!top.is_interior) return;
-  // Cuts whose maximum is not on the rim bound s + rho where it is not negative, and elsewhere to first order in every direction:
-  // there s gains no more, but for the turn itself.
+  // If the maximum of the cuts is in the interior, it bounds s + rho where this is not negative. Elsewhere it is a bound to first
+  // order in every direction: s gains no more, except by the rotation itself.
   const double safety = is_concave() ? 1 : kTuning.gain_safety;
   error_ = std::min(error_, std::max(safety * step.gain + top.uncertainty, is_concave() ? -2 * height() : 0.0));
 }
 
-// Newer cuts may have taken the place of that of the current normal.
+// Newer cuts may have replaced the cut of the current normal.
 void Ascent::keep_own_cut() {
   const Vector3 own = current().d + rolling_radius_ * current().n;
   if (std::ranges::find(cuts_.points(), own) == cuts_.points().end()) cuts_.add(own);
@@ -180,7 +181,7 @@ bool Ascent::is_ruled_out(const Step& step) const {
   return cuts_.upper_bound(step.normal) <= (height() + kTuning.poor_share * step.gain) * step.normal.norm();
 }
 
-// Near the maximum s is level to rounding while its slope still tells the way.
+// Near the maximum s is constant to rounding, but its slope still gives the direction.
 bool Ascent::is_level_but_flatter(double actual_gain) const {
   const auto slope = [](const GapJet& jet) { return (jet.d - jet.s * jet.n).squaredNorm(); };
   return std::abs(actual_gain) <= gap_.rounding() && slope(trial()) < slope(current());
@@ -189,11 +190,12 @@ bool Ascent::is_level_but_flatter(double actual_gain) const {
 void Ascent::evaluate(const Vector3& normal, std::size_t place) {
   GapJet& jet = jets_[place];
   gap_.evaluate(normal, gap_.has_hessian() ? Order::Hessian : Order::Point, jet);
-  if (has_kinks_) held_[place] = vertices_.shared_normal(vertices_.project_witness(jet, active_[place]), jet.n).normalized();
+  if (has_kinks_)
+    exact_normals_[place] = vertices_.shared_normal(vertices_.project_witness(jet, active_[place]), jet.n).normalized();
   cuts_.add(jet.d + rolling_radius_ * jet.n);
 }
 
-// The boundary point of a body with vertices jumps: only the smooth body's tells a radius of curvature.
+// The boundary point of a body with vertices jumps. Only the smooth body's point contains a radius of curvature.
 void Ascent::learn_hessian() {
   if (!has_kinks_) {
     bfgs_.update(current(), trial());

@@ -7,7 +7,7 @@
 namespace supernormal {
 namespace {
 
-// The cosine of the angle between their axes from which on two turns are across one another.
+// If the cosine of the angle between the axes of two rotations is below this, the rotations are across each other.
 constexpr double kAcross = 0.95;
 
 }  // namespace
@@ -26,8 +26,8 @@ void BfgsHessian::update(const GapJet& from, const GapJet& to) {
   const Vector3 predicted = H_ * dn;
   const double slope = change.dot(dn);
   const double predicted_slope = predicted.dot(dn);
-  // Rounding can make a vanishing slope negative, or the update larger than the estimate is good for, or all that was seen: skip it
-  // then.
+  // Rounding may make a vanishing slope negative. It may also make the update larger than the accuracy of the estimate. Skip the
+  // update then.
   const double least = std::max(std::numeric_limits<double>::epsilon() * predicted_slope, rounding_ * dn.norm());
   if (!(slope > least) || !(predicted_slope > 0)) return;
   const Vector3 axis = from.n.cross(dn).normalized();

@@ -10,11 +10,11 @@
 namespace supernormal {
 namespace {
 
-// A radius of curvature beyond this, in units of the pair's length, is that of a flat face: the step through the normal is
-// rounding.
+// In units of the pair's length: beyond this, a radius of curvature belongs to a flat face, and a step in the normal is only
+// rounding error.
 constexpr double kFlattest = 1e8;
 
-// A normal that is this near to being across another has no useful gnomonic coordinates (cosine).
+// Cosine: a normal this nearly perpendicular to another has no useful gnomonic coordinates.
 constexpr double kGrazing = 1e-6;
 
 }  // namespace
@@ -27,10 +27,10 @@ CertifiedNewton::CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const Se
       rolling_radius_(gap.rolling_radius()),
       has_flat_faces_(gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces()) {}
 
-CertifiedNewton::End CertifiedNewton::run(const Vector3& start, Branch branch) {
+CertifiedNewton::End CertifiedNewton::run(const Vector3& start, WantedMaximum wanted) {
   const bool is_finite = evaluate(start);
   best_ = 1 - best_;
-  if (!is_finite || (branch == Branch::OfStart && !is_within_reach())) return End::Open;
+  if (!is_finite || (wanted == WantedMaximum::Tracked && !is_provable())) return End::Open;
   while (true) {
     if (settings_.stop_when_apart && best().s > 0) return End::Apart;
     if (is_proved()) return End::Proved;
@@ -42,7 +42,7 @@ CertifiedNewton::End CertifiedNewton::run(const Vector3& start, Branch branch) {
 
 bool CertifiedNewton::is_proved() {
   error_ = optimality_gap_bound(best(), rolling_radius_);
-  return is_within_reach() && error_ <= tolerance_;
+  return is_provable() && error_ <= tolerance_;
 }
 
 bool CertifiedNewton::evaluate(const Vector3& n) {
@@ -58,41 +58,41 @@ bool CertifiedNewton::propose(Vector3& step) const {
   if (!hessian.is_regular()) return false;
   step = hessian.solve(jet.d - jet.s * jet.n);
   if (has_flat_faces_ && !parametrizations_agree(step) && !through_boundary_points(hessian, H2, step)) return false;
-  // Deeper than the ball there is nothing to prove: it is left to others when no more is to be gained.
-  if (!is_within_reach() && !(jet.d.dot(step) > tolerance_)) return false;
+  // Deeper than the ball nothing can be proved. If the step gains nothing either, other methods take over.
+  if (!is_provable() && !(jet.d.dot(step) > tolerance_)) return false;
   const double squared = step.squaredNorm();
   if (squared > kTuning.longest_step * kTuning.longest_step) step *= kTuning.longest_step / std::sqrt(squared);
   return true;
 }
 
-// The boundary point of a body with flat faces across its axes is a function of the ratios of the normal's components: where these
-// hardly change, both steps are the same.
+// If the flat faces are across the body's axes, the boundary point is a function of the ratios of the normal's components. If the
+// ratios hardly change, both steps are the same.
 bool CertifiedNewton::parametrizations_agree(const Vector3& step) const {
-  const auto is_less = [](const Vector3& turn, const Vector3& normal) {
-    return (turn.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
+  const auto is_less = [](const Vector3& tilt, const Vector3& normal) {
+    return (tilt.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
   };
   return is_less(step, best().n) && is_less(gap_.rotation().transpose() * step, best().m);
 }
 
-// On a flat face the normal is a gentle function of the boundary point, not the other way round. So each body says which normal
-// belongs to the point that the step leads to, and Newton's equation is solved with these turns in place of its own.
+// On a flat face the normal is a smooth function of the boundary point, but not the other way round. So each body returns the
+// normal at the point that the step leads to. Newton's equation is then solved with these tilts.
 bool CertifiedNewton::through_boundary_points(const RegularHessian& hessian, const Matrix3& H2, Vector3& step) const {
   const GapJet& jet = best();
-  const auto turn_beyond_step = [&](const Vector3& normal, Vector3& turn) {
+  const auto tilt_beyond_step = [&](const Vector3& normal, Vector3& tilt) {
     const double height = normal.dot(jet.n);
     if (!(height > kGrazing * normal.norm())) return false;
-    turn = normal / height - jet.n - step;
+    tilt = normal / height - jet.n - step;
     return true;
   };
-  Vector3 pull = Vector3::Zero(), turn;
+  Vector3 pull = Vector3::Zero(), tilt;
   if (gap_.shape1().has_flat_faces()) {
-    if (!turn_beyond_step(gap_.shape1().advance_normal(jet.n, jet.jet1, step), turn)) return false;
-    pull = jet.jet1.H * turn;
+    if (!tilt_beyond_step(gap_.shape1().advance_normal(jet.n, jet.jet1, step), tilt)) return false;
+    pull = jet.jet1.H * tilt;
   }
   if (gap_.shape2().has_flat_faces()) {
     const Vector3 normal = gap_.shape2().advance_normal(jet.m, jet.jet2, -(gap_.rotation().transpose() * step));
-    if (!turn_beyond_step(-(gap_.rotation() * normal), turn)) return false;
-    pull += H2 * turn;
+    if (!tilt_beyond_step(-(gap_.rotation() * normal), tilt)) return false;
+    pull += H2 * tilt;
   }
   const Vector3 through_points = step + hessian.solve(pull);
   if (jet.d.dot(through_points) > 0) step = through_points;
@@ -114,11 +114,11 @@ bool CertifiedNewton::climb(Vector3 step) {
   return false;
 }
 
-// On a flat face the boundary point crosses the face within a turn of the normal that is below rounding, and d(n) does not come
-// near the line of n. But n tilted by so little that s cannot change by the tolerance has a boundary point on the other side of
-// that line: hulls of few such points meet it.
+// On a flat face the boundary point crosses the face within a tilt below rounding. So d(n) does not come near the line along n. But
+// the tilt can be so small that s does not change by the tolerance, and the boundary point is on the other side of this line. Hulls
+// of few such points meet the line.
 bool CertifiedNewton::prove_by_tilts() {
-  if (!is_within_reach()) return false;
+  if (!is_provable()) return false;
   const Vector3 n = best().n;
   const double height = best().s + rolling_radius_;
   const int most = std::min(settings_.max_evaluations, gap_.evaluations() + kMostTilts);
@@ -135,7 +135,8 @@ bool CertifiedNewton::prove_by_tilts() {
     const double tilt = std::min(growth * least_tilt, tolerance_ / distance);
     if (!evaluate((n + tilt / distance * beside).normalized())) return false;
     beside_[beside_count_++] = {next().n, next().jet1.r, next().d};
-    // Where the body is round this way, the point has gone a part of the way only: by as much again it is as far on the other side.
+    // If the body is round in this direction, the point has only moved a part of the distance. With a larger tilt it is as far on
+    // the other side.
     const double reached = next().d.dot(beside) / distance;
     growth = reached > 0 && reached < distance ? 2 * tilt / least_tilt * distance / (distance - reached) : 1;
   }

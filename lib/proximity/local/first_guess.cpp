@@ -5,13 +5,13 @@
 namespace supernormal {
 namespace {
 
-// Centres closer than this share of the bodies' size have no direction from one to the other.
+// Relative to the size of the bodies: nearer centres have no direction from one to the other.
 constexpr double kConcentric = 1e-12;
 
-// A determinant below this share of the cube of the trace counts as none.
+// Relative to the cube of the trace: a smaller determinant counts as zero.
 constexpr double kSingular = 1e-150;
 
-/// The axis along which the body is thinnest: there the smallest translation separates concentric bodies.
+/// The axis along which the body is thinnest. Along it the shortest translation separates concentric bodies.
 Vector3 thinnest_axis(const Vector3& half_extents) {
   int axis = 0;
   half_extents.minCoeff(&axis);
@@ -31,15 +31,15 @@ Vector3 first_guess(const GapFunction& gap) {
   }
   const Vector3 direction = gap.offset() / distance;
   if (sum == 0) return direction;  // two points
-  // The squares of the half-extents over the body's size, in units in which the trace of both matrices together is 1. A point has
-  // none.
+  // The squares of the half-extents over the body's size, scaled so that the two matrices together have the trace 1. A point gives
+  // zero.
   const double scale = 1 / sum;
   const auto squares_over_size = [scale](const Vector3& half, double size) -> Vector3 {
     return size > 0 ? half.cwiseProduct(half * (scale / size)) : Vector3(Vector3::Zero());
   };
   Matrix3 M = R * squares_over_size(half2, size2).asDiagonal() * R.transpose();
   M.diagonal() += squares_over_size(half1, size1);
-  // The inverse but for the determinant, which vanishes for a segment and a point.
+  // The inverse up to the determinant, which vanishes for a segment and a point.
   const Vector3 column = M.col(1).cross(M.col(2));
   if (!(M.col(0).dot(column) > kSingular)) return direction;
   return Vector3(column.dot(direction), M.col(2).cross(M.col(0)).dot(direction), M.col(0).cross(M.col(1)).dot(direction))

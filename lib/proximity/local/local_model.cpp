@@ -10,7 +10,7 @@ Vector3 flattest_axis(const Matrix3& H, double& radius) {
   return Vector3::Unit(axis);
 }
 
-/// The plane across the normal along the flattest axis. A point has no curvature at all, and so no such axis.
+/// The plane across the normal, with its basis along the flattest axis. A point has no curvature and no such axis.
 TangentPlane plane_along(const Vector3& axis, double radius, const Vector3& normal) {
   return radius > 0 ? TangentPlane(normal, axis) : TangentPlane::at(normal);
 }

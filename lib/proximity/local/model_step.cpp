@@ -11,14 +11,16 @@
 namespace supernormal {
 namespace {
 
-// A radius of curvature beyond this, in units of the bodies' size, is that of a flat face: turns of the normal on it are rounding.
+// In units of the bodies' size: beyond this, a radius of curvature belongs to a flat face, where a tilt of the normal is only
+// rounding error.
 constexpr double kFlatRadius = 1e8;
 
-// Directions closer than this (radians) to the plane of another have no gnomonic coordinates beyond rounding.
+// Sine: a direction this near to the plane of another has no gnomonic coordinates beyond rounding.
 constexpr double kBesidePlane = 1e-15;
 
-/// The bodies propose u1 and u2; each counts by its own radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2). This is computed as what
-/// the rounder body changes of the flatter one's, which counts alone where the sum is that of an edge, singular.
+/// Combines the bodies' proposals u1 and u2, each weighted by the body's radii of curvature: (A1 + A2)^-1 (A1 u1 + A2 u2). It is
+/// computed as the flatter body's proposal plus the rounder body's change. At an edge the sum is singular, and the flatter body's
+/// proposal counts alone.
 Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, const Vector2& u2) {
   const bool is_first_flatter = A1.trace() > A2.trace();
   const Vector2& flat = is_first_flatter ? u1 : u2;
@@ -27,7 +29,8 @@ Vector2 blend(const Symmetric2& A1, const Symmetric2& A2, const Vector2& u1, con
   return all_finite(change) ? Vector2(flat + change) : flat;
 }
 
-/// The gnomonic coordinates of a direction; false if it is not on the side of the plane's normal, or grazes the plane.
+/// The gnomonic coordinates of a direction. Returns false if it is not on the side of the plane's normal, or is nearly in the
+/// plane.
 bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
   const double height = direction.dot(plane.n);
   if (!(height > kBesidePlane * direction.norm())) return false;
@@ -35,7 +38,7 @@ bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
   return true;
 }
 
-/// Whether there may be flat faces that are not across the axes of the body's frame.
+/// Whether the body may have flat faces that are not across the axes of its frame.
 bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && !shape.has_axis_aligned_faces(); }
 
 }  // namespace
@@ -75,12 +78,12 @@ Step ModelStep::kinked_step(const GapJet& jet, const LocalModel& local, const Ac
   PiecewiseModel::Peak peak;
   if (is_concave) {
     peak = model.maximize();
-    if (model.A != local.model.A && !complementarity.is_held(peak, pieces, local.model.A)) {
+    if (model.A != local.model.A && !complementarity.is_strict(peak, pieces, local.model.A)) {
       model.A = local.model.A;
       is_concave = false;
     }
   }
-  // The model is 0 here; where its matrix is as good as singular, rounding may leave it without a maximum that is not lower.
+  // The model is 0 at u = 0. If its matrix is nearly singular, rounding may leave it without a maximum that is at least 0.
   const bool has_maximum = is_concave && peak.gain >= -gap_.rounding();
   const double whole_gain = has_maximum ? std::max(peak.gain, 0.0) : std::numeric_limits<double>::infinity();
   if (!is_concave || peak.u.norm() > radius) peak = model.maximize(radius);
@@ -88,8 +91,8 @@ Step ModelStep::kinked_step(const GapJet& jet, const LocalModel& local, const Ac
   Target target = target_of(jet, local, peak, pieces);
   const Vector3 normal = vertices_.shared_normal(peak, jet.n + local.plane1.lift(peak.u));
   Step step{normal, peak.u.norm(), std::max(peak.gain, 0.0), kTuning.gain_safety * whole_gain};
-  // Vertices around the peak hold the normal whatever the radii of curvature, which on a flat face say nothing a little farther on.
-  const bool is_at_face = peak.count == 3 && complementarity.is_held(peak, pieces, {});
+  // If the vertices at the peak determine the normal, the radii of curvature do not matter; on a flat face they only hold nearby.
+  const bool is_at_face = peak.count == 3 && complementarity.is_strict(peak, pieces, {});
   if (has_flat_faces_ && !is_at_face && flat_step(jet, local, target, radius, step) != FlatStep::Taken) {
     target.newton = peak.u;
     leaves_face_ = flat_step(jet, local, target, radius, step) != FlatStep::Taken;
@@ -110,20 +113,20 @@ ModelStep::Target ModelStep::target_of(const GapJet& jet, const LocalModel& loca
     if (peak.count > 1) cuts_.add(vertices_.difference(jet, peak.active[i]) + gap_.rolling_radius() * jet.n);
   }
   if (local.A1.trace() > kFlatRadius * gap_.length_unit()) {
-    // On a face this flat the turn of the normal drowns in the rounding of u, but not the way that the boundary point is to move.
-    const Vector2 way = target.slope - local.A2 * peak.u - jet.s * peak.u;
-    const Vector2 turn = local.A1.solve(way);
-    if (all_finite(turn)) target.newton = turn;
+    // On such a flat face the tilt of the normal drowns in the rounding of u, but the displacement of the boundary point does not.
+    const Vector2 displacement = target.slope - local.A2 * peak.u - jet.s * peak.u;
+    const Vector2 tilt = local.A1.solve(displacement);
+    if (all_finite(tilt)) target.newton = tilt;
   }
   return target;
 }
 
-// The boundary point of a body with flat faces across its axes is a function of the ratios of the normal's components: where these
-// hardly change, both steps are the same.
+// If the flat faces are across the body's axes, the boundary point is a function of the ratios of the normal's components. If the
+// ratios hardly change, both steps are the same.
 bool ModelStep::parametrizations_agree(const GapJet& jet, const LocalModel& local, const Vector2& newton) const {
   if (may_be_tilted_) return false;
-  const auto is_less = [](const Vector3& turn, const Vector3& normal) {
-    return (turn.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
+  const auto is_less = [](const Vector3& tilt, const Vector3& normal) {
+    return (tilt.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
   };
   return is_less(local.plane1.lift(newton), jet.n) && is_less(local.plane2.lift(newton), jet.m);
 }
@@ -140,18 +143,18 @@ ModelStep::FlatStep ModelStep::flat_step(const GapJet& jet, const LocalModel& lo
   if (target.peak != nullptr && !to_plane(local.plane1, vertices_.shared_normal(*target.peak, jet.n + local.plane1.lift(u)), u)) {
     return FlatStep::LeavesFace;
   }
-  const double rise = target.value + target.slope.dot(u);
-  if (!(rise > 0)) return FlatStep::None;
-  // The cut of this normal lets s gain at most the slope times the step, however flat the face.
-  step.remaining_gain = std::max(step.remaining_gain, rise);
+  const double gain_bound = target.value + target.slope.dot(u);
+  if (!(gain_bound > 0)) return FlatStep::None;
+  // The cut of this normal bounds the gain of s by the slope times the step, however flat the face.
+  step.remaining_gain = std::max(step.remaining_gain, gain_bound);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
-  if (length < kTuning.creep * newton.norm() && rise < kTuning.poor_share * step.gain) return FlatStep::Taken;
+  if (length < kTuning.creep * newton.norm() && gain_bound < kTuning.poor_share * step.gain) return FlatStep::Taken;
   const double shrink = length > radius ? radius / length : 1;
   u *= shrink;
   step.normal = jet.n + local.plane1.lift(u);
   if (target.peak != nullptr) step.normal = vertices_.shared_normal(*target.peak, step.normal);
   step.length = u.norm();
-  step.gain = std::min(step.gain, shrink * rise);
+  step.gain = std::min(step.gain, shrink * gain_bound);
   return FlatStep::Taken;
 }
 

@@ -12,24 +12,24 @@ namespace {
 using Peak = PiecewiseModel::Peak;
 using Indices = std::array<std::size_t, 4>;
 
-// A step may be this much longer than the radius: it is only a trial.
-constexpr double kReach = 1.1;
-constexpr int kMaxShifts = 24;  // the secant takes two to four
+// Relative to the radius: a step may be this long, because it is only a trial.
+constexpr double kOvershoot = 1.1;
+constexpr int kMaxShifts = 24;  // the secant method takes two to four
 
-// Nearer to the ends of its interval, in shares of it, the shift is not searched.
-constexpr double kLeastShare = 1e-2;
+// Relative to its interval: the shift is not searched nearer to the ends.
+constexpr double kLeastFraction = 1e-2;
 
-// A piece that lies lower than the maximum by less than this share of the values is no lower.
+// Relative to the values: a piece that is lower than the maximum by less is not lower.
 constexpr double kValueRounding = 1e-15;
 
-// Where pieces meet farther away than about this (gnomonic), they are parallel but for rounding.
+// Gnomonic: if pieces meet farther away than about this, they are parallel to rounding.
 constexpr double kFarthest = 1e100;
 
 bool is_moderate(double numerator, double denominator) { return is_quotient_within(numerator, denominator, kFarthest); }
 
 double inverse(double length) { return length > 0 ? 1 / length : std::numeric_limits<double>::infinity(); }
 
-/// The maxima of one, two or three pieces alone, kept where they are equal.
+/// The maxima of one, two or three pieces alone, on the set where they are equal.
 class Candidates {
  public:
   Candidates(const PiecewiseModel& model, const Indices& subset, std::size_t count)
@@ -37,7 +37,7 @@ class Candidates {
     best_.gain = -std::numeric_limits<double>::infinity();
   }
 
-  /// The best of the maxima over all sets of at most three of the subset that contain its last piece.
+  /// The best maximum over all sets of at most three pieces of the subset that contain its last piece.
   Peak best() {
     const std::size_t last = subset_[count_ - 1];
     try_one(last);
@@ -52,7 +52,7 @@ class Candidates {
   const Piece& piece(std::size_t k) const { return model_.pieces[k]; }
 
   void offer(const Peak& peak) {
-    // Asked first: an infinite u would raise floating-point exceptions below.
+    // Tested first, because an infinite u would raise floating-point exceptions below.
     if (!all_finite(peak.u)) return;
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < count_; ++k) {
@@ -66,7 +66,7 @@ class Candidates {
 
   void try_one(std::size_t i) { offer({model_.A.solve(piece(i).slope), 0, {i, 0, 0}, {1, 0, 0}, 1}); }
 
-  // On the line where the two are equal, and not as a sum of their own maxima: those lie far away where A is nearly singular.
+  // Solves on the line where the two are equal, and not as a sum of their own maxima, which are far away if A is nearly singular.
   void try_two(std::size_t i, std::size_t j) {
     const Vector2 difference = piece(j).slope - piece(i).slope;
     const double squared = difference.squaredNorm();
@@ -78,9 +78,9 @@ class Candidates {
     const double slope = line.dot(piece(i).slope - model_.A * foot);
     if (!is_moderate(slope, curvature)) return;
     const Vector2 u = foot + slope / curvature * line;
-    const double share = difference.dot(model_.A * u - piece(i).slope) / squared;
-    if (!(share >= 0 && share <= 1)) return;
-    offer({u, 0, {i, j, 0}, {1 - share, share, 0}, 2});
+    const double fraction = difference.dot(model_.A * u - piece(i).slope) / squared;
+    if (!(fraction >= 0 && fraction <= 1)) return;
+    offer({u, 0, {i, j, 0}, {1 - fraction, fraction, 0}, 2});
   }
 
   void try_three(std::size_t i, std::size_t j, std::size_t k) {
@@ -151,26 +151,26 @@ PiecewiseModel::Peak PiecewiseModel::maximize(double radius) const {
   };
   double steepest = 0;
   for (const Piece& piece : pieces) steepest = std::max(steepest, piece.slope.norm());
-  // |u| falls with the shift, and |u| <= steepest / (low + shift).
+  // |u| decreases with the shift, and |u| <= steepest / (low + shift).
   double below = low > 0 ? 0 : -low;
-  double above = std::max(steepest / radius - low, below + kLeastShare * std::abs(low));
+  double above = std::max(steepest / radius - low, below + kLeastFraction * std::abs(low));
   if (low > 0) {
     const Peak peak = shifted(0);
-    if (peak.u.norm() <= kReach * radius) return peak;
+    if (peak.u.norm() <= kOvershoot * radius) return peak;
   }
   Peak best = shifted(above);
   double inverse_below = 0;
   double inverse_above = inverse(best.u.norm());
-  for (int step = 0; step < kMaxShifts && best.u.norm() * kReach < radius; ++step) {
-    if (!(above - below > kLeastShare * above)) break;  // kinks hold it nearer than the radius
+  for (int step = 0; step < kMaxShifts && best.u.norm() * kOvershoot < radius; ++step) {
+    if (!(above - below > kLeastFraction * above)) break;  // nonsmooth points keep u inside the radius
     // 1/|u| is a nearly linear function of the shift.
-    const double share = std::isfinite(inverse_above) && inverse_above > inverse_below
-                             ? (1 / radius - inverse_below) / (inverse_above - inverse_below)
-                             : 0.5;
-    const double shift = below + std::clamp(share, kLeastShare, 1 - kLeastShare) * (above - below);
+    const double fraction = std::isfinite(inverse_above) && inverse_above > inverse_below
+                                ? (1 / radius - inverse_below) / (inverse_above - inverse_below)
+                                : 0.5;
+    const double shift = below + std::clamp(fraction, kLeastFraction, 1 - kLeastFraction) * (above - below);
     const Peak peak = shifted(shift);
     const double length = peak.u.norm();
-    if (length <= kReach * radius) {
+    if (length <= kOvershoot * radius) {
       best = peak;
       above = shift;
       inverse_above = inverse(length);

@@ -7,13 +7,13 @@
 
 namespace supernormal {
 
-/// M = H + s I + t n n^T with the trace t of H + |s| I. H n = 0, so that M maps n to a multiple of itself and what is across n to
-/// what is across n, where it is the negative Hessian of the gap function: one factorization L D L^T in three dimensions solves for
-/// steps in the tangent plane.
+/// M = H + s I + t n n^T, where t is the trace of H + |s| I. Because H n = 0, M maps n to a multiple of n, and vectors across n to
+/// vectors across n. There M is the negative Hessian of the gap function. So one factorization L D L^T in three dimensions solves
+/// for steps in the tangent plane.
 class RegularHessian {
  public:
-  /// H, s: m. It is regular where M is positive definite beyond rounding, and in units of `length_unit` (m) neither nothing nor
-  /// larger than `flattest`.
+  /// H and s in m. The result is regular if M is positive definite beyond rounding, and if its trace, in units of `length_unit`
+  /// (m), is neither zero nor larger than `flattest`.
   RegularHessian(const Matrix3& H, double s, const Vector3& n, double length_unit, double flattest) {
     const double trace = H.trace() + std::abs(s);
     if (!(trace < flattest * length_unit && trace > kNothing * length_unit)) return;
@@ -38,7 +38,7 @@ class RegularHessian {
 
   bool is_regular() const { return is_regular_; }
 
-  /// M^-1 b; only of a regular one.
+  /// M^-1 b. M must be regular.
   Vector3 solve(const Vector3& b) const {
     const double y = b.y() - yx_ * b.x();
     const double z = (b.z() - zx_ * b.x() - zy_ * y) * inverse_.z();
@@ -47,13 +47,13 @@ class RegularHessian {
   }
 
  private:
-  // Of the trace: a pivot that is smaller is rounding, or nearly.
+  // Relative to the trace: a smaller pivot is only rounding error, or nearly.
   static constexpr double kSingular = 1e-12;
 
-  // Of the pair's length: two vertices, whose radii of curvature vanish. The inverse of less might overflow.
+  // Relative to the pair's length: two vertices, whose radii of curvature vanish. The inverse of a smaller trace might overflow.
   static constexpr double kNothing = 1e-30;
 
-  Vector3 inverse_;      // of D, 1/m
+  Vector3 inverse_;      // 1/m; of D
   double yx_, zx_, zy_;  // of L, below its diagonal of ones
   bool is_regular_ = false;
 };

@@ -1,4 +1,4 @@
-// Which corners that share a normal hold it.
+// Which of the vertices tied at a normal have a positive multiplier (strict complementarity).
 #pragma once
 
 #include <span>
@@ -7,22 +7,22 @@
 
 namespace supernormal {
 
-/// Where corners of body 2 meet, on an edge or a face, s has a kink there: it falls to either side, whatever its curvature. But
-/// only where the point of body 1 is between them.
+/// If vertices of body 2 are tied at a normal, on an edge or a face, s is nonsmooth there. It decreases to both sides, whatever its
+/// curvature, but only if the point of body 1 is between these vertices.
 class StrictComplementarity {
  public:
-  /// `rounding`, `length_unit`: m
+  /// `rounding` and `length_unit` in m.
   StrictComplementarity(double rounding, double length_unit) : rounding_(rounding), length_unit_(length_unit) {}
 
-  /// Whether all the pieces that meet at a peak hold it, for a model of this curvature.
-  bool is_held(const PiecewiseModel::Peak& peak, std::span<const Piece> pieces, const Symmetric2& A) const;
+  /// Whether all pieces that meet at the peak have positive multipliers, for a model with the curvature A.
+  bool is_strict(const PiecewiseModel::Peak& peak, std::span<const Piece> pieces, const Symmetric2& A) const;
 
-  /// The curvature that matters for the pieces here.
+  /// The curvature with A replaced across the directions in which the pieces tied at u = 0 determine the normal.
   Symmetric2 reduced_hessian(const Symmetric2& A, std::span<const Piece> pieces) const;
 
  private:
-  /// Of pieces that meet, those that hold the normal.
-  PiecewiseModel::Peak holding(std::span<const Piece> tied) const;
+  /// Of the tied pieces, those with positive multipliers.
+  PiecewiseModel::Peak with_positive_multipliers(std::span<const Piece> tied) const;
 
   double rounding_, length_unit_;
 };

@@ -7,25 +7,25 @@
 namespace supernormal {
 namespace {
 
-// A step to the rim may be this share of the radius off it: it is only a trial.
-constexpr double kRimTolerance = 1e-2;
+// Relative to the radius: a step to the circle may miss it by this, because it is only a trial.
+constexpr double kCircleTolerance = 1e-2;
 
-// The shift cannot come nearer to minus the negative eigenvalue than this share of it.
+// Relative to the negative eigenvalue: the shift cannot come nearer to its magnitude.
 constexpr double kShiftRounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kMaxSecularSteps = 20;  // Newton on the secular equation takes two to four
 
-// Of the determinant over the square of the trace: with less the eigenvectors are needed to tell a small curvature from rounding.
+// Determinant over squared trace. Below this, the eigenvectors are needed to distinguish a small curvature from rounding.
 constexpr double kWellConditioned = 1e-6;
 
 // m; the square of a larger trace might overflow.
 constexpr double kMostTrace = 1e150;
 
-// m; shares of a smaller slope might underflow.
+// m; fractions of a smaller slope might underflow.
 constexpr double kNoSlope = 1e-290;
 
 double without_underflow(double slope) { return std::abs(slope) < kNoSlope ? 0 : slope; }
 
-// Where s is level as far as it goes, its slope may go on for a quarter turn (radians).
+// rad; where s is level in a direction, its slope may continue for a quarter turn.
 constexpr double kQuarterTurn = 1.6;
 
 double find_largest_gain(const Vector2& g, const Eigen2& e, double rounding) {
@@ -42,21 +42,23 @@ Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
   const double high = without_underflow(e.high_vector.dot(g));
   const double slope = std::hypot(low, high);  // may be too small to square
   if (slope == 0 && !(e.low < 0)) return Vector2::Zero();
-  // Asked before dividing, which might overflow. Where s is level one way, with no slope that way, there is nothing to gain by it.
+  // Tested before the divisions, which might overflow. If s is level in a direction and has no slope in it, nothing is gained by
+  // that direction.
   if (e.low >= 0 && std::abs(low) <= radius * e.low && std::abs(high) <= radius * e.high) {
     const Vector2 newton(e.low > 0 ? low / e.low : 0, high / e.high);
     if (newton.norm() <= radius) return newton.x() * e.low_vector + newton.y() * e.high_vector;
   }
   const double floor = std::max(0.0, -e.low);
   const double least_shift = kShiftRounding * floor;
-  // The hard case, as on a saddle: hardly a slope along the negative curvature, but that way, to either side, leads up.
+  // The hard case, as on a saddle: there is hardly a slope along the negative curvature, but this direction leads up to either
+  // side.
   if (e.low < 0 && std::abs(low) <= least_shift * radius) {
     const double across = slope <= least_shift * radius ? 0 : high / (e.high - e.low + least_shift);
     if (std::abs(across) < radius) {
       return std::copysign(std::sqrt(radius * radius - across * across), low) * e.low_vector + across * e.high_vector;
     }
   }
-  // |(A + shift I)^-1 g| = radius, for a shift that makes A + shift I positive definite; bracketed Newton on 1/|u|.
+  // Solves |(A + shift I)^-1 g| = radius for a shift that makes A + shift I positive definite, by bracketed Newton on 1/|u|.
   double above = floor + slope / radius;
   double below = std::max(floor, slope / radius - e.high);
   double shift = std::max(below, floor + std::max(least_shift, 1e-12 * slope / radius));
@@ -66,11 +68,12 @@ Vector2 find_maximum(const Vector2& g, const Eigen2& e, double radius) {
     const double high_sum = e.high + shift;
     u = Vector2(low / low_sum, high / high_sum);
     const double length = u.norm();
-    if (std::abs(length - radius) <= kRimTolerance * radius) break;
+    if (std::abs(length - radius) <= kCircleTolerance * radius) break;
     (length > radius ? below : above) = shift;
-    const Vector2 way = u / length;
-    const double fall = way.x() * way.x() / low_sum + way.y() * way.y() / high_sum;  // of the length, relative to it
-    double next = shift + (length / radius - 1) / fall;
+    const Vector2 direction = u / length;
+    // The decrease of the length with the shift, relative to the length.
+    const double decrease = direction.x() * direction.x() / low_sum + direction.y() * direction.y() / high_sum;
+    double next = shift + (length / radius - 1) / decrease;
     if (!(next > below && next < above)) next = 0.5 * (below + above);
     shift = next;
   }

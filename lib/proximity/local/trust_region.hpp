@@ -12,17 +12,17 @@ struct QuadraticModel {
 
   double gain(const Vector2& u) const { return g.dot(u) - 0.5 * u.dot(A * u); }
 
-  /// The largest gain over the whole plane; infinite unless A is positive definite. Curvature within `rounding` (m) of zero counts
-  /// as none: such a direction, as around the equator of a spheroid with a point at its centre, has what its slope can gain over a
-  /// quarter turn.
+  /// m; the largest gain over the whole plane; infinite unless A is positive definite. A curvature within `rounding` (m) of zero
+  /// counts as zero. In such a direction, as around the equator of a spheroid with a point at its centre, the gain is the slope's
+  /// over a quarter turn.
   double largest_gain(double rounding = 0) const;
 
-  /// The maximum over |u| <= radius: the Newton step if it fits, otherwise on the rim (More and Sorensen 1983, in the
+  /// The maximum over |u| <= radius: the Newton step if it fits, otherwise a point on the circle (More and Sorensen 1983, in the
   /// eigenvectors of A).
   Vector2 maximize(double radius) const;
 
-  /// maximize(radius) and largest_gain(rounding), for little more than a division where A is well-conditioned and positive
-  /// definite.
+  /// maximize(radius) and largest_gain(rounding) together. If A is well-conditioned and positive definite, this costs little more
+  /// than a division.
   struct Peak {
     Vector2 u;
     double whole_gain;  ///< m

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "simulation/random.hpp"
+#include "base/random.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/shape.hpp"
 

@@ -1,7 +1,7 @@
 // Random normals and orientations.
 #pragma once
 
-#include "simulation/random.hpp"
+#include "base/random.hpp"
 #include "supernormal/shapes/shape.hpp"
 
 namespace accuracy_cost {

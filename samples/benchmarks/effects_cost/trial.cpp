@@ -3,10 +3,10 @@
 #include <array>
 #include <ctime>
 
-#include "simulation/contact_joints.hpp"
-#include "simulation/random.hpp"
-#include "simulation/stepper.hpp"
-#include "simulation/world.hpp"
+#include "base/random.hpp"
+#include "world/contact_joints.hpp"
+#include "world/stepper.hpp"
+#include "world/world.hpp"
 
 namespace effects_cost {
 

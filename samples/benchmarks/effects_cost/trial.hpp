@@ -4,8 +4,8 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "scene/scene.hpp"
-#include "simulation/placement.hpp"
+#include "model/scene.hpp"
+#include "world/placement.hpp"
 
 namespace effects_cost {
 

@@ -11,13 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "measure/energy.hpp"
+#include "base/random.hpp"
+#include "observe/energy.hpp"
 #include "output/output_files.hpp"
 #include "output/picture.hpp"
-#include "simulation/placement.hpp"
-#include "simulation/random.hpp"
-#include "simulation/stepper.hpp"
-#include "simulation/world.hpp"
+#include "output/result_names.hpp"
+#include "world/placement.hpp"
+#include "world/stepper.hpp"
+#include "world/world.hpp"
 
 namespace {
 
@@ -66,7 +67,7 @@ std::vector<Candidate> candidates(const Contents& contents) {
   for (const PictureFormat& format : picture_formats()) {
     Candidate candidate;
     candidate.name = format.name;
-    candidate.folder = std::make_unique<OutputFolder>(fs::temp_directory_path(), "pictures_cost");
+    candidate.folder = std::make_unique<OutputFolder>(fs::temp_directory_path(), "pictures_cost", result_names());
     candidate.picture = format.make(*candidate.folder, format, contents);
     all.push_back(std::move(candidate));
   }
@@ -81,7 +82,7 @@ void measure(const Options& options) {
   Stepper stepper(world, scene);
   const Contents contents = contents_of(world, scene);
   std::vector<Candidate> all = candidates(contents);
-  OutputFolder tables(fs::temp_directory_path(), "pictures_cost");
+  OutputFolder tables(fs::temp_directory_path(), "pictures_cost", result_names());
   Trajectory trajectory(tables.file(std::string(kTrajectoryFile)));
   double stepping = 0, writing = 0, framing = 0;
   int frames = 0;

@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/input_error.hpp"
+#include "base/interval.hpp"
+#include "base/nearest_word.hpp"
 #include "body.hpp"
-#include "scene/input_error.hpp"
-#include "scene/interval.hpp"
-#include "scene/nearest_word.hpp"
 
 namespace explain_pair {
 namespace {

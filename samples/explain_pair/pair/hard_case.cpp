@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/input_error.hpp"
+#include "base/nearest_word.hpp"
 #include "catalogue.hpp"
-#include "scene/input_error.hpp"
-#include "scene/nearest_word.hpp"
 
 namespace explain_pair {
 

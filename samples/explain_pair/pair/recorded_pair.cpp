@@ -11,13 +11,13 @@
 #include <supernormal/proximity/solve.hpp>
 #include <vector>
 
-#include "checkpoint/read_file.hpp"
+#include "base/input_error.hpp"
+#include "base/interval.hpp"
+#include "base/read_file.hpp"
+#include "model/grain_shape.hpp"
+#include "model/scene.hpp"
 #include "pair/described_body.hpp"
-#include "scene/grain_shape.hpp"
-#include "scene/input_error.hpp"
-#include "scene/interval.hpp"
-#include "scene/scene.hpp"
-#include "simulation/placement.hpp"
+#include "world/placement.hpp"
 
 namespace explain_pair {
 namespace {

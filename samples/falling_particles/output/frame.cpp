@@ -1,11 +1,11 @@
-#include "output/frame.hpp"
+#include "frame.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "parts/part_mesh.hpp"
-#include "simulation/stepper.hpp"
-#include "simulation/world.hpp"
+#include "part_mesh.hpp"
+#include "world/stepper.hpp"
+#include "world/world.hpp"
 
 namespace falling_particles {
 namespace {

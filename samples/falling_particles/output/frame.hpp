@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "container/geometry.hpp"
-#include "container/parts.hpp"
-#include "measure/energy.hpp"
-#include "scene/scene.hpp"
+#include "model/geometry.hpp"
+#include "model/scene.hpp"
+#include "observe/container_picture.hpp"
+#include "observe/energy.hpp"
 
 namespace falling_particles {
 

@@ -1,12 +1,12 @@
-#include "output/frame_log.hpp"
+#include "frame_log.hpp"
 
 #include <fstream>
 #include <string>
 
-#include "checkpoint/archive.hpp"
-#include "checkpoint/files.hpp"
-#include "checkpoint/hash.hpp"
-#include "scene/input_error.hpp"
+#include "base/archive.hpp"
+#include "base/files.hpp"
+#include "base/hash.hpp"
+#include "base/input_error.hpp"
 
 namespace falling_particles {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "output/frame.hpp"
-#include "output/write_file.hpp"
+#include "base/write_file.hpp"
+#include "frame.hpp"
 
 namespace falling_particles {
 

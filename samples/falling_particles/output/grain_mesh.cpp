@@ -1,6 +1,6 @@
-#include "output/grain_mesh.hpp"
+#include "grain_mesh.hpp"
 
-#include "scene/grain_shape.hpp"
+#include "model/grain_shape.hpp"
 
 namespace falling_particles {
 

@@ -3,7 +3,7 @@
 
 #include <supernormal/shapes/tessellation.hpp>
 
-#include "scene/grain.hpp"
+#include "model/grain.hpp"
 
 namespace falling_particles {
 

@@ -1,11 +1,11 @@
-#include "output/lammps_dump.hpp"
+#include "lammps_dump.hpp"
 
 #include <algorithm>
 #include <initializer_list>
 #include <string>
 
-#include "output/shown_parts.hpp"
-#include "scene/interval.hpp"
+#include "base/interval.hpp"
+#include "shown_parts.hpp"
 
 namespace falling_particles {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "output/picture.hpp"
-#include "output/write_file.hpp"
+#include "base/write_file.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 

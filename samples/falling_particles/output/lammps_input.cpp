@@ -1,4 +1,4 @@
-#include "output/lammps_input.hpp"
+#include "lammps_input.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "output/write_file.hpp"
-#include "parts/container_parts.hpp"
-#include "scene/input_error.hpp"
-#include "simulation/placement.hpp"
-#include "simulation/random.hpp"
+#include "base/input_error.hpp"
+#include "base/random.hpp"
+#include "base/write_file.hpp"
+#include "model/container_parts.hpp"
+#include "world/placement.hpp"
 
 namespace falling_particles {
 namespace {

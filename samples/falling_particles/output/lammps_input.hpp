@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "output/lammps_walls.hpp"
-#include "scene/scene.hpp"
+#include "lammps_walls.hpp"
+#include "model/scene.hpp"
 
 namespace falling_particles {
 

@@ -1,9 +1,9 @@
-#include "output/lammps_walls.hpp"
+#include "lammps_walls.hpp"
 
 #include <sstream>
 #include <variant>
 
-#include "scene/input_error.hpp"
+#include "base/input_error.hpp"
 
 namespace falling_particles {
 namespace {

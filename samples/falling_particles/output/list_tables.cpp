@@ -1,11 +1,11 @@
-#include "output/list_tables.hpp"
+#include "list_tables.hpp"
 
 #include <algorithm>
 
-#include "measurements/measuring.hpp"
-#include "output/output_files.hpp"
-#include "output/toml_string.hpp"
-#include "simulation/simulation.hpp"
+#include "base/toml_string.hpp"
+#include "observe/measuring.hpp"
+#include "observe/simulation.hpp"
+#include "output_files.hpp"
 
 namespace falling_particles {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "scene/interval.hpp"
+#include "base/interval.hpp"
 
 namespace falling_particles {
 namespace {

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/energy.hpp"
-#include "output/write_file.hpp"
-#include "population/population.hpp"
-#include "simulation/compression.hpp"
-#include "simulation/world.hpp"
+#include "base/write_file.hpp"
+#include "observe/energy.hpp"
+#include "world/compression.hpp"
+#include "world/population.hpp"
+#include "world/world.hpp"
 
 namespace falling_particles {
 

@@ -1,4 +1,4 @@
-#include "output/packed_frames.hpp"
+#include "packed_frames.hpp"
 
 #include <zlib.h>
 
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "output/base64.hpp"
+#include "base/base64.hpp"
 
 namespace falling_particles {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "output/frame.hpp"
+#include "frame.hpp"
 
 namespace falling_particles {
 

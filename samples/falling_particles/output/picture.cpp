@@ -1,13 +1,13 @@
-#include "output/picture.hpp"
+#include "picture.hpp"
 
 #include <algorithm>
 
-#include "output/lammps_dump.hpp"
-#include "output/plots.hpp"
-#include "output/povray_scene.hpp"
-#include "output/scene_glb.hpp"
-#include "output/view_page.hpp"
-#include "output/vtk_series.hpp"
+#include "lammps_dump.hpp"
+#include "plots.hpp"
+#include "povray_scene.hpp"
+#include "scene_glb.hpp"
+#include "view_page.hpp"
+#include "vtk_series.hpp"
 
 namespace falling_particles {
 namespace {
@@ -37,8 +37,6 @@ const std::vector<PictureFormat>& picture_formats() {
       {"plots", {}, make_plots, {"energies.svg", "state.svg", "discharge.svg", "compression.svg"}}};
   return formats;
 }
-
-std::vector<std::string> default_pictures() { return {"page", "glb", "plots"}; }
 
 const PictureFormat* find_picture_format(std::string_view name) {
   const auto found = std::ranges::find(picture_formats(), name, &PictureFormat::name);

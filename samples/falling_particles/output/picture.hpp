@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "output/frame.hpp"
-#include "output/output_folder.hpp"
-#include "output/rendering.hpp"
+#include "base/output_folder.hpp"
+#include "frame.hpp"
+#include "rendering.hpp"
 
 namespace falling_particles {
 
@@ -39,9 +39,6 @@ struct PictureFormat {
 
 /// All formats, in the order in which they are listed for users.
 const std::vector<PictureFormat>& picture_formats();
-
-/// The formats that a run leaves when its scene does not name any.
-std::vector<std::string> default_pictures();
 
 /// Null if there is no such format.
 const PictureFormat* find_picture_format(std::string_view name);

@@ -1,9 +1,9 @@
-#include "output/plots.hpp"
+#include "plots.hpp"
 
 #include <string>
 #include <variant>
 
-#include "measurements/measuring.hpp"
+#include "observe/measuring.hpp"
 
 // The texts of the scripts (plot_scripts.S).
 extern "C" const char kEnergiesScript[], kStateScript[], kDischargeScript[], kCompressionScript[], kMeasurementScript[];

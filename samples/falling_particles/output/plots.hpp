@@ -1,7 +1,7 @@
 // Plots of a run's tables.
 #pragma once
 
-#include "output/picture.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 

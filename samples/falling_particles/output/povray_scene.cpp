@@ -1,4 +1,4 @@
-#include "output/povray_scene.hpp"
+#include "povray_scene.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "output/grain_mesh.hpp"
-#include "output/palette.hpp"
-#include "output/write_file.hpp"
-#include "scene/interval.hpp"
+#include "base/interval.hpp"
+#include "base/write_file.hpp"
+#include "grain_mesh.hpp"
+#include "palette.hpp"
 
 namespace falling_particles {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "output/picture.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 

@@ -1,8 +1,8 @@
-#include "output/recorder.hpp"
+#include "recorder.hpp"
 
 #include <algorithm>
 
-#include "checkpoint/files.hpp"
+#include "base/files.hpp"
 
 namespace falling_particles {
 namespace {

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "output/frame_log.hpp"
-#include "output/output_files.hpp"
-#include "output/output_folder.hpp"
-#include "output/picture.hpp"
-#include "simulation/simulation.hpp"
+#include "base/output_folder.hpp"
+#include "frame_log.hpp"
+#include "observe/simulation.hpp"
+#include "output_files.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 

@@ -1,12 +1,12 @@
-#include "output/rendering.hpp"
+#include "rendering.hpp"
 
 #include <cstdio>
 #include <map>
 #include <sstream>
 
-#include "output/child_process.hpp"
-#include "output/write_file.hpp"
-#include "simulation/interrupt.hpp"
+#include "base/child_process.hpp"
+#include "base/interrupt.hpp"
+#include "base/write_file.hpp"
 
 namespace falling_particles {
 namespace {

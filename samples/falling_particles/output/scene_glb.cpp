@@ -1,4 +1,4 @@
-#include "output/scene_glb.hpp"
+#include "scene_glb.hpp"
 
 #include <tiny_gltf.h>
 
@@ -10,9 +10,9 @@
 #include <string>
 #include <supernormal/shapes/tessellation.hpp>
 
-#include "output/grain_mesh.hpp"
-#include "output/palette.hpp"
-#include "output/write_file.hpp"
+#include "base/write_file.hpp"
+#include "grain_mesh.hpp"
+#include "palette.hpp"
 
 namespace falling_particles {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "output/picture.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 

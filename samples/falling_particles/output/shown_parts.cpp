@@ -1,4 +1,4 @@
-#include "output/shown_parts.hpp"
+#include "shown_parts.hpp"
 
 #include <Eigen/Geometry>
 

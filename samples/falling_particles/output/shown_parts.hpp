@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "output/frame.hpp"
+#include "frame.hpp"
 
 namespace falling_particles {
 

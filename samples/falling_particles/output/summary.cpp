@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <variant>
 
-#include "measure/beverloo.hpp"
-#include "toml_string.hpp"
+#include "base/toml_string.hpp"
+#include "observe/beverloo.hpp"
 
 namespace falling_particles {
 namespace {

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "measure/bed.hpp"
-#include "measure/discharge.hpp"
-#include "measure/energy.hpp"
-#include "measure/heap.hpp"
-#include "measure/overlap.hpp"
-#include "measure/sizes.hpp"
-#include "measurements/measuring.hpp"
-#include "population/population.hpp"
-#include "scene/scene.hpp"
-#include "simulation/compression.hpp"
-#include "simulation/stepper.hpp"
-#include "simulation/stopwatch.hpp"
+#include "base/stopwatch.hpp"
+#include "model/scene.hpp"
+#include "observe/bed.hpp"
+#include "observe/discharge.hpp"
+#include "observe/energy.hpp"
+#include "observe/heap.hpp"
+#include "observe/measuring.hpp"
+#include "observe/overlap.hpp"
+#include "observe/sizes.hpp"
+#include "world/compression.hpp"
+#include "world/population.hpp"
+#include "world/stepper.hpp"
 
 namespace falling_particles {
 

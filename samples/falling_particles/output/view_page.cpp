@@ -1,4 +1,4 @@
-#include "output/view_page.hpp"
+#include "view_page.hpp"
 
 #include <array>
 #include <cstdint>
@@ -8,10 +8,10 @@
 #include <string_view>
 #include <supernormal/shapes/tessellation.hpp>
 
-#include "output/base64.hpp"
-#include "output/grain_mesh.hpp"
-#include "output/palette.hpp"
-#include "output/write_file.hpp"
+#include "base/base64.hpp"
+#include "base/write_file.hpp"
+#include "grain_mesh.hpp"
+#include "palette.hpp"
 
 // The page as `npm run build` leaves it in page/ (view_page_html.S).
 extern "C" const char kViewPageHtml[], kViewPageHtmlEnd[];

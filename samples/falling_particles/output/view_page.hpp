@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "output/packed_frames.hpp"
-#include "output/picture.hpp"
+#include "packed_frames.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 

@@ -1,4 +1,4 @@
-#include "output/vtk_series.hpp"
+#include "vtk_series.hpp"
 
 #include <array>
 #include <cstdio>
@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "output/shown_parts.hpp"
-#include "output/write_file.hpp"
-#include "scene/interval.hpp"
+#include "base/interval.hpp"
+#include "base/write_file.hpp"
+#include "shown_parts.hpp"
 
 namespace falling_particles {
 namespace {

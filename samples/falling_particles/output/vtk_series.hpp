@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "output/picture.hpp"
+#include "picture.hpp"
 
 namespace falling_particles {
 

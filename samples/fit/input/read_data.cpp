@@ -16,7 +16,7 @@
 #include <sstream>
 #include <utility>
 
-#include "checkpoint/read_file.hpp"  // of samples/falling_particles
+#include "base/read_file.hpp"  // of samples/falling_particles
 #include "orientation.hpp"
 #include "read_ply.hpp"
 

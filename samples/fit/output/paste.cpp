@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "output/toml_string.hpp"
+#include "base/toml_string.hpp"
 
 namespace fit {
 namespace {

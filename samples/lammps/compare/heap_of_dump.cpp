@@ -12,10 +12,10 @@
 #include <variant>
 #include <vector>
 
-#include "measure/heap.hpp"
-#include "measure/overlap.hpp"
-#include "scene/scene.hpp"
-#include "simulation/world.hpp"
+#include "model/scene.hpp"
+#include "observe/heap.hpp"
+#include "observe/overlap.hpp"
+#include "world/world.hpp"
 
 namespace {
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "input/load_mesh.hpp"
 #include "kernel/walls/box_wall.hpp"
 #include "kernel/walls/cylinder_wall.hpp"
 #include "kernel/walls/mesh_wall.hpp"
 #include "kernel/walls/plane_wall.hpp"
-#include "parts/load_mesh.hpp"
 #include "styles/coefficients.hpp"
 
 namespace granular {

@@ -6,7 +6,7 @@
 
 #include "kernel/contact_material.hpp"
 #include "kernel/walls/wall.hpp"
-#include "parts/motion.hpp"
+#include "model/motion.hpp"
 #include "styles/words.hpp"
 
 namespace granular {

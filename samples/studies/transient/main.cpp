@@ -100,7 +100,7 @@ class Study {
       const Contestant& contestant = contestants_[k];
       const bool is_wanted =
           options_.methods.empty() || std::ranges::find(options_.methods, contestant.name) != options_.methods.end();
-      if (!is_wanted) continue;
+      if (!is_wanted || (contestant.is_for_ellipsoids && trial.setup.body_class != BodyClass::Ellipsoid)) continue;
       write(body_class, contacts, trial, contestant, "", watch(trial, contestant),
             transient::run(trial, contestant, false, &certified, nullptr));
     }

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.hpp"
 #include "pair/described_body.hpp"
 #include "pair/hard_case.hpp"
 #include "pair/recorded_pair.hpp"
-#include "scene/input_error.hpp"
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <variant>
 
+#include "base/input_error.hpp"
+#include "base/random.hpp"
 #include "relative.hpp"
-#include "scene/input_error.hpp"
-#include "simulation/random.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <unordered_set>
 
 #include "method.hpp"
@@ -43,27 +44,27 @@ class AbortCatcher {
 
 class FclDistance final : public Method {
  public:
-  explicit FclDistance(double tolerance) : Method("FCL signed distance", power_of_ten(tolerance)), request_(true, true) {
+  FclDistance(double tolerance, Motion motion)
+      : Method("FCL signed distance", power_of_ten(tolerance)), motion_(motion), request_(true, true) {
     request_.distance_tolerance = tolerance;
     request_.gjk_solver_type = fcl::GJKSolverType::GST_LIBCCD;
   }
 
   Answer query(const Pair& pair) const override {
+    if (motion_ == Motion::Moves) return ask_unless_it_aborts(pair).value_or(Answer());
     if (aborted_.contains(&pair)) return {};
-    if (seen_.insert(&pair).second && aborts(pair)) {
-      aborted_.insert(&pair);
-      return {};
-    }
-    return ask(pair);
+    if (!seen_.insert(&pair).second) return ask(pair);
+    // The first query of a pair is not timed.
+    const std::optional<Answer> answer = ask_unless_it_aborts(pair);
+    if (!answer) aborted_.insert(&pair);
+    return answer.value_or(Answer());
   }
 
  private:
-  /// Runs outside the measured time, because the first query of a pair is not timed.
-  bool aborts(const Pair& pair) const {
+  std::optional<Answer> ask_unless_it_aborts(const Pair& pair) const {
     const AbortCatcher catcher;
-    if (sigsetjmp(return_point, 0) != 0) return true;  // leaks the memory that FCL had allocated
-    ask(pair);
-    return false;
+    if (sigsetjmp(return_point, 0) != 0) return std::nullopt;  // leaks the memory that FCL had allocated
+    return ask(pair);
   }
 
   Answer ask(const Pair& pair) const {
@@ -81,17 +82,18 @@ class FclDistance final : public Method {
     return {Answer::Kind::Gap, gap, normal, 0, 0.5 * (point1 + point2)};
   }
 
+  Motion motion_;
   fcl::DistanceRequestd request_;
   mutable std::unordered_set<const Pair*> seen_, aborted_;
 };
 
 }  // namespace
 
-Methods fcl_methods() {
+Methods fcl_methods(Motion motion) {
   Methods methods;
   constexpr int kMostDigits = 8;
   methods.reserve(kMostDigits);
-  for (int digits = 1; digits <= kMostDigits; ++digits) methods.push_back(std::make_unique<FclDistance>(std::pow(10.0, -digits)));
+  for (int digits = 1; digits <= kMostDigits; ++digits) methods.push_back(std::make_unique<FclDistance>(std::pow(10.0, -digits), motion));
   return methods;
 }
 

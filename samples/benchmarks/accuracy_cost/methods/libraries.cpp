@@ -12,7 +12,7 @@ Methods bullet_methods() { return {}; }
 
 #ifndef ACCURACY_COST_FCL_VERSION
 #define ACCURACY_COST_FCL_VERSION ""
-Methods fcl_methods() { return {}; }
+Methods fcl_methods(Motion /*motion*/) { return {}; }
 #endif
 
 #ifndef ACCURACY_COST_SIMBODY_VERSION

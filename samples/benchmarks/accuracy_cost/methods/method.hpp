@@ -89,8 +89,12 @@ std::vector<Library> libraries();
 /// GJK and EPA of Bullet, with our shapes as support functions. Empty if Bullet is missing, and likewise below.
 Methods bullet_methods();
 
+/// Whether the bodies of a pair move. A method places moving bodies again in every query. Others it places once, outside the
+/// measured time.
+enum class Motion { None, Moves };
+
 /// Signed distance and contact of ellipsoids, with the library's own shapes, at several tolerances.
-Methods fcl_methods();
+Methods fcl_methods(Motion motion = Motion::None);
 Methods simbody_methods();
 
 /// The mesh of a superellipsoid or ellipsoid.
@@ -105,9 +109,7 @@ Methods ode_mesh_methods();
 /// The methods of samples/benchmarks/literature at this tolerance, started in their own way or from Pair::warm_normal.
 Methods literature_methods(Start start, double tolerance);
 
-/// Meshes of 160, 960 and 3840 triangles: as trimeshes of ODE, and as convex hulls with GJK and EPA of libccd. Moving bodies are
-/// placed again in every query. Others are placed once, outside the measured time.
-enum class Motion { None, Moves };
+/// Meshes of 160, 960 and 3840 triangles: as trimeshes of ODE, and as convex hulls with GJK and EPA of libccd.
 Methods literature_mesh_methods(Motion motion = Motion::None);
 
 /// The unit of cost: evaluates the gap function up to this order at Pair::normals.

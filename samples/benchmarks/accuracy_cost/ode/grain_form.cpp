@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "methods/method.hpp"
-#include "simulation/world.hpp"
 #include "supernormal/supernormal.h"
+#include "world/world.hpp"
 
 namespace accuracy_cost {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "model/grain.hpp"
 #include "ode_geom.hpp"
-#include "scene/grain.hpp"
 
 namespace accuracy_cost {
 

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/stopwatch.hpp"
 #include "grain_form.hpp"
-#include "simulation/contact_joints.hpp"
-#include "simulation/placement.hpp"
-#include "simulation/stopwatch.hpp"
-#include "simulation/world.hpp"
 #include "supernormal/supernormal.h"
+#include "world/contact_joints.hpp"
+#include "world/placement.hpp"
+#include "world/world.hpp"
 
 namespace accuracy_cost {
 

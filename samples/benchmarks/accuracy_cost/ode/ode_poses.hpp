@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "base/random.hpp"
 #include "ode_bodies.hpp"
-#include "simulation/random.hpp"
 #include "supernormal/proximity/pose.hpp"
 
 namespace accuracy_cost {

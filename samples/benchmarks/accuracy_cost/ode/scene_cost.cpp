@@ -5,13 +5,13 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/random.hpp"
 #include "grain_world.hpp"
-#include "measure/bed.hpp"
-#include "measure/energy.hpp"
-#include "measure/overlap.hpp"
+#include "observe/bed.hpp"
+#include "observe/energy.hpp"
+#include "observe/overlap.hpp"
 #include "report/text.hpp"
 #include "rocking.hpp"
-#include "simulation/random.hpp"
 
 namespace accuracy_cost {
 namespace {

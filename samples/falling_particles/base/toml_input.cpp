@@ -1,0 +1,264 @@
+#include "toml_input.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "input_error.hpp"
+#include "nearest_word.hpp"
+#include "read_file.hpp"
+#include "toml_depth.hpp"
+#include "toml_override.hpp"
+
+namespace falling_particles {
+
+struct TomlTable::Node {
+  std::shared_ptr<const toml::table> root;  // keeps `table`, a part of it, alive
+  const toml::table* table;
+  std::string file;
+  std::string name;  // "" at the top
+
+  Node child(const toml::table& part, std::string part_name) const { return {root, &part, file, std::move(part_name)}; }
+};
+
+namespace {
+
+/// `place`: in the file, or in an option that set a value.
+[[noreturn]] void refuse(const std::string& file, const toml::source_region& place, const std::string& text) {
+  if (place.path && *place.path != file) throw InputError(*place.path + ": " + text);
+  throw InputError(file, std::max(place.begin.line, 1U), text);
+}
+
+std::string in_quotes(std::string_view text) { return '"' + std::string(text) + '"'; }
+
+std::string describe(const toml::node& node) {
+  if (const auto number = node.value_exact<double>()) return shortest(*number);
+  if (const auto number = node.value_exact<std::int64_t>()) return std::to_string(*number);
+  if (const auto text = node.value_exact<std::string>()) return "the string " + in_quotes(*text);
+  if (const auto truth = node.value_exact<bool>()) return *truth ? "true" : "false";
+  if (node.is_table()) return "a table";
+  if (const auto* array = node.as_array()) return "an array of " + std::to_string(array->size());
+  return "a date or time";
+}
+
+std::optional<double> as_number(const toml::node& node) {
+  return node.is_number() ? node.value<double>() : std::nullopt;  // value() alone would also convert other types
+}
+
+}  // namespace
+
+TomlTable::TomlTable(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
+
+std::string TomlTable::full_name(std::string_view key) const {
+  return node_->name.empty() ? std::string(key) : node_->name + "." + std::string(key);
+}
+
+bool TomlTable::has(std::string_view key) const { return node_->table->contains(key); }
+
+void TomlTable::fail(std::string_view key, const std::string& text) const {
+  const toml::node* value = node_->table->get(key);
+  refuse(node_->file, value != nullptr ? value->source() : node_->table->source(), text);
+}
+
+void TomlTable::fail_missing(std::string_view key, const std::string& allowed) const {
+  fail(key, full_name(key) + " is missing; allowed: " + allowed);
+}
+
+void TomlTable::fail_value(std::string_view key, const std::string& allowed) const {
+  fail(key, full_name(key) + " is " + describe(*node_->table->get(key)) + "; allowed: " + allowed);
+}
+
+void TomlTable::refuse_unknown_keys(const std::vector<std::string>& keys) const {
+  for (const auto& [key, value] : *node_->table) {
+    if (std::ranges::find(keys, key.str()) != keys.end()) continue;
+    const std::string where = node_->name.empty() ? "at the top of the file" : "in [" + node_->name + "]";
+    refuse(node_->file, key.source(),
+           "unknown key " + in_quotes(key.str()) + " " + where + did_you_mean(key.str(), keys) + "; allowed: " + join(keys));
+  }
+}
+
+std::optional<std::string> TomlTable::find_text(std::string_view key) const {
+  return has(key) ? std::optional(text(key)) : std::nullopt;
+}
+
+std::string TomlTable::text(std::string_view key) const {
+  const std::string allowed = "a string, not empty";
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const auto text = value->value_exact<std::string>();
+  if (!text || text->empty()) fail_value(key, allowed);
+  return *text;
+}
+
+std::string TomlTable::choice(std::string_view key, const std::vector<std::string>& allowed) const {
+  if (!has(key)) fail_missing(key, join(allowed));
+  const std::string word = text(key);
+  if (std::ranges::find(allowed, word) != allowed.end()) return word;
+  fail(key, full_name(key) + " is " + in_quotes(word) + did_you_mean(word, allowed) + "; allowed: " + join(allowed));
+}
+
+std::vector<std::string> TomlTable::choices(std::string_view key, const std::vector<std::string>& allowed) const {
+  const std::string all = "an array of different words of: " + join(allowed);
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, all);
+  const toml::array* array = value->as_array();
+  if (array == nullptr) fail_value(key, all);
+  std::vector<std::string> result;
+  for (const toml::node& element : *array) {
+    const auto word = element.value_exact<std::string>();
+    const bool is_allowed = word && std::ranges::find(allowed, *word) != allowed.end();
+    if (!is_allowed || std::ranges::find(result, *word) != result.end()) {
+      refuse(node_->file, element.source(),
+             full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) +
+                 (word ? did_you_mean(*word, allowed) : "") + "; allowed: " + all);
+    }
+    result.push_back(*word);
+  }
+  return result;
+}
+
+double TomlTable::number(std::string_view key, const Interval& allowed) const {
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed.describe());
+  const auto number = as_number(*value);
+  if (!number || !allowed.contains(*number)) fail_value(key, allowed.describe());
+  return *number;
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count, const Interval& allowed) const {
+  const std::string all = "an array of " + std::to_string(count) + ", each " + allowed.describe();
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, all);
+  const toml::array* array = value->as_array();
+  if (array == nullptr || array->size() != count) fail_value(key, all);
+  std::vector<double> result;
+  for (const toml::node& element : *array) {
+    const auto number = as_number(element);
+    if (!number || !allowed.contains(*number)) {
+      refuse(node_->file, element.source(),
+             full_name(key) + "[" + std::to_string(result.size()) + "] is " + describe(element) + "; allowed: " + all);
+    }
+    result.push_back(*number);
+  }
+  return result;
+}
+
+std::size_t TomlTable::array_size(std::string_view key) const {
+  const std::string allowed = "an array";
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const toml::array* array = value->as_array();
+  if (array == nullptr) fail_value(key, allowed);
+  return array->size();
+}
+
+std::int64_t TomlTable::integer(std::string_view key, std::int64_t lowest, std::int64_t highest) const {
+  const std::string allowed = "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const auto number = value->value_exact<std::int64_t>();
+  if (!number || *number < lowest || *number > highest) fail_value(key, allowed);
+  return *number;
+}
+
+bool TomlTable::boolean(std::string_view key) const {
+  const std::string allowed = "true or false";
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const auto truth = value->value_exact<bool>();
+  if (!truth) fail_value(key, allowed);
+  return *truth;
+}
+
+TomlTable TomlTable::table(std::string_view key, std::vector<std::string> keys) const {
+  TomlTable result = part(key, "a table with " + join(keys));
+  result.refuse_unknown_keys(keys);
+  return result;
+}
+
+TomlTable TomlTable::table(std::string_view key) const { return part(key, "a table"); }
+
+TomlTable TomlTable::part(std::string_view key, const std::string& allowed) const {
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const toml::table* table = value->as_table();
+  if (table == nullptr) fail_value(key, allowed);
+  return TomlTable(std::make_shared<const Node>(node_->child(*table, full_name(key))));
+}
+
+std::optional<TomlTable> TomlTable::find_table(std::string_view key, std::vector<std::string> keys) const {
+  return has(key) ? std::optional(table(key, std::move(keys))) : std::nullopt;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector<std::string>& keys) const {
+  std::vector<TomlTable> result = parts(key, "one or more [[" + full_name(key) + "]] with " + join(keys));
+  for (const TomlTable& table : result) table.refuse_unknown_keys(keys);
+  return result;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+  return parts(key, "one or more [[" + full_name(key) + "]]");
+}
+
+std::vector<TomlTable> TomlTable::parts(std::string_view key, const std::string& allowed) const {
+  const toml::node* value = node_->table->get(key);
+  if (value == nullptr) fail_missing(key, allowed);
+  const toml::array* array = value->as_array();
+  if (array == nullptr || array->empty()) fail_value(key, allowed);
+  std::vector<TomlTable> result;
+  for (const toml::node& element : *array) {
+    const toml::table* part = element.as_table();
+    if (part == nullptr)
+      refuse(node_->file, element.source(), full_name(key) + " holds " + describe(element) + "; allowed: " + allowed);
+    result.push_back(TomlTable(std::make_shared<const Node>(node_->child(*part, full_name(key)))));
+  }
+  return result;
+}
+
+std::vector<std::string> TomlTable::names() const {
+  std::vector<std::pair<unsigned, std::string>> by_line;
+  for (const auto& [key, value] : *node_->table) by_line.emplace_back(key.source().begin.line, key.str());
+  std::ranges::sort(by_line);
+  std::vector<std::string> result;
+  result.reserve(by_line.size());
+  for (auto& [line, name] : by_line) result.push_back(std::move(name));
+  return result;
+}
+
+TomlFile::TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments) {
+  if (const std::string other = what_is_no_file(path); !other.empty()) {
+    throw InputError("cannot read " + what + " " + in_quotes(path) + ": it is " + other + "; allowed: a file");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError("cannot read " + what + " " + in_quotes(path) + ": " + std::strerror(errno));
+  std::ostringstream content;
+  content << stream.rdbuf();
+  if (const std::optional<unsigned> line = find_deep_toml(content.str())) {
+    throw InputError(path, *line,
+                     "keys, arrays or tables are nested in more than " + std::to_string(kMostTomlLevels) +
+                         " levels; allowed: up to " + std::to_string(kMostTomlLevels));
+  }
+  try {
+    auto root = std::make_shared<toml::table>(toml::parse(content.str(), path));
+    set_values(*root, assignments);
+    const toml::table* top = root.get();
+    node_ = std::make_shared<const TomlTable::Node>(TomlTable::Node{std::move(root), top, path, ""});
+  } catch (const toml::parse_error& error) {
+    throw InputError(path, error.source().begin.line, std::string(error.description()) + " (allowed: valid TOML 1.0)");
+  }
+}
+
+TomlTable TomlFile::root(const std::vector<std::string>& keys) const {
+  TomlTable result = root();
+  result.refuse_unknown_keys(keys);
+  return result;
+}
+
+TomlTable TomlFile::root() const { return TomlTable(node_); }
+
+}  // namespace falling_particles

@@ -1,0 +1,125 @@
+#include "list_sections.hpp"
+
+namespace falling_particles {
+
+std::string list_sections() {
+  return R"(at the top of the file
+  seed             a whole number from 0; of all random numbers
+  catalogue        the file with the grains, its path relative to the scene file
+[time]
+  duration         s, in (0, 3600]
+  step             s, above 0, up to duration
+  frame            s, from step to duration; between two lines of the tables
+[solver]
+  iterations       a whole number from 1 to 100000; of quickstep
+  erp              in [0, 1]; the part of an overlap that a step corrects
+  cfm              s/kg, in [0, 1]; the softness of a contact
+[drop]
+  height           m, in [0, 1000]; of the lowest grains above the floor at the start
+  gap              in [0, 10]; between grains at the start, relative to their size
+  total            a whole number from 1 to 1000000; of all grains, where they have fractions; without it, they have counts
+[[grain]]
+  name             of the catalogue
+  count            a whole number from 1 to 1000000, from 0 in scenes with feeders
+  fraction         in (0, 1], of drop.total; in place of count, for all grains
+  size             a table, below; without it, all have the size of the catalogue
+[grain.size] distribution = "uniform"
+  by               "number" or "mass", of which it is the distribution; "number" without it
+  unit             "m" or "catalogue", relative to the size of the catalogue; "m" without it
+  smallest         m, in (0, 2], or in (0, 100] of the catalogue's size
+  largest          above smallest, up to 1000 times that
+[grain.size] distribution = "normal"
+  by, unit, smallest, largest  as above
+  mean, deviation  m, in (0, 2], or in (0, 100] of the catalogue's size
+[grain.size] distribution = "lognormal"
+  by, unit, smallest, largest  as above
+  median           m, in (0, 2], or in (0, 100] of the catalogue's size
+  geometric_deviation  in (1, 100]
+[grain.size] distribution = "sieve"
+  by, unit         as above; "mass" without by
+  openings         2 to 200 ascending numbers, m, in (0, 2], or in (0, 100] of the catalogue's size
+  passing          as many, in [0, 1]; from 0 to 1
+[container] kind = "box"
+  width            m, two numbers in (0, 1000]; along x and y
+[container] kind = "hopper"
+  outlet           m, in (0, 1000]; its diameter
+  diameter         m, above outlet, up to 1000
+  wall_angle       degrees from the vertical, in [1, 89]
+  cylinder_height  m, in (0, 1000]
+  segments         a whole number from 3 to 10000; of its circumference
+  clearance        m, in (0, 1000]; from the tray to the outlet
+  tray_width       m, from the diameter around the segments to 2000
+  opens_at         s, above 0, before time.duration
+  dish             a table, below; without it, there is none
+[container.dish]
+  diameter         m, above 0, as wide as its rim leaves room in the tray
+  height           m, above 0, below the outlet
+  rim              m, above 0, below the outlet
+[container] kind = "terrain"
+  width            m, two numbers in (0, 1000]; along x and y
+  amplitude        m, in [0, 1000]; of its hills
+  wavelength       m, in (0, 1000]
+  ridge_height     m, in [0, 1000]
+  samples          a whole number from 2 to 4096; along each axis
+  seed             a whole number from 0; of the hills
+[container] kind = "periodic"
+  side             m, in (0, 1000]; at least two diameters of the largest grain
+[container] kind = "none"
+  start            a table: corner, m, three numbers in [-1000, 1000], and size, m, three in (0, 1000]; where grains start
+  bounds           the same; grains beyond it have leaked
+[container] kind = "drum"
+  diameter         m, in (0, 1000]
+  length           m, in (0, 1000]
+  segments         a whole number from 8 to 10000; of its circumference
+  rpm              revolutions a minute; up to a tenth of one in a step
+  smooth           true or false; whether its flat sides stand and only their surface moves; false without it
+  turns_at         s, from 0, before time.duration; 0 without it
+[container] kind = "tray"
+  width            m, two numbers in (0, 1000]; along x and y
+  wall_height      m, in (0, 1000]
+  thickness        m, in (0, 1000]; of its floor
+  direction        three numbers, not all 0; along which it shakes
+  amplitude        m, in (0, 1000]
+  frequency        Hz, at least ten steps a period
+  phase            degrees, in [-360, 360]; 0 without it
+  shakes_at        s, from 0, before time.duration; 0 without it
+[container] kind = "shear_cell"
+  width            m, two numbers in (0, 1000]; along x and y
+  height           m, in (0, 1000]
+  cut              m, above 0, below height; between its halves
+  lid              m, above cut, up to height; where the lid is at the start
+  thickness        m, in (0, 1000]; of its walls
+  speed            m/s, of its lower half, which moves by thickness at most
+  pressure         Pa, in [0, 1000000000]; under the lid
+  lid_mass         kg, in (0, 1000000]
+  presses_at       s, from 0, before time.duration; 0 without it
+  shears_at        s, from 0, before time.duration; 0 without it
+[container] kind = "conveyor"
+  length           m, in (0, 1000]
+  width            m, in (0, 1000]
+  height           m, in (0, 1000]; of the belt's top above the floor
+  thickness        m, above 0, up to height; of the belt with its rollers
+  wall_height      m, in (0, 1000]
+  speed            m/s, above 0; up to a tenth of a turn of a roller in a step
+  drop_length      m, above half of thickness, up to 1000; beyond the last roller
+  starts_at        s, from 0, before time.duration; 0 without it
+[periodic]
+  x, y             m, two numbers in [-1000, 1000]; the ends between which the scene repeats; one or both
+[compression]
+  overlap          in (0, 0.1]; of the grains that are pressed, relative to their distance
+  final_overlap    above 0, up to overlap
+  damping          in [0, 1]; the part of all velocities that a step takes away
+[query]
+  solver           "hybrid", "newton" or "fixed_point"; of two smooth bodies; "hybrid" without it
+  tolerance        in [1e-15, 1]; of the gap, relative to the smallest half-extent; 1e-9 without it
+  max_evaluations  a whole number from 1 to 1000000; of a query; 1000 without it
+  warm_start       true or false; whether a pair starts from its last normal; true without it
+[broad_phase]
+  axis             "x", "y" or "z"; as the grains lie without it
+[output]
+  pictures         an array of "page", "glb", "lammps", "vtk", "povray", "plots"; ["page", "glb", "plots"] without it
+  forces           true or false; whether pictures show forces; false without it
+)";
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,172 @@
+#include "load_container.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "load_moving_container.hpp"
+#include "model/lattice.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr std::int64_t kMostSegments = 10'000;
+constexpr std::int64_t kMostSamples = 4096;
+
+Box read_box(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "width"});
+  return {read_width(table)};
+}
+
+std::optional<Dish> read_dish(const TomlTable& container, const Hopper& hopper) {
+  const auto table = container.find_table("dish", {"diameter", "height", "rim"});
+  if (!table) return std::nullopt;
+  Dish dish{};
+  dish.height = table->number("height", {0, hopper.clearance, false, false, "m (below the outlet)"});
+  dish.rim = table->number("rim", {0, hopper.clearance - dish.height, false, false, "m (below the outlet)"});
+  const double widest = hopper.tray_width * std::cos(std::numbers::pi / hopper.segments) - 2 * dish.rim_width();
+  dish.diameter = table->number("diameter", {0, widest, false, false, "m (with its rim within the tray)"});
+  return dish;
+}
+
+Hopper read_hopper(const TomlTable& table, const Time& time) {
+  table.refuse_unknown_keys(
+      {"kind", "outlet", "wall_angle", "diameter", "cylinder_height", "segments", "clearance", "tray_width", "opens_at", "dish"});
+  Hopper hopper{};
+  hopper.outlet = table.number("outlet", Interval::positive(kLargestLength, "m"));
+  hopper.diameter = table.number("diameter", {hopper.outlet, kLargestLength, false, true, "m (above container.outlet)"});
+  hopper.wall_angle = table.number("wall_angle", Interval::closed(1, 89, "degrees from the vertical"));
+  hopper.cylinder_height = table.number("cylinder_height", Interval::positive(kLargestLength, "m"));
+  hopper.segments = static_cast<int>(table.integer("segments", 3, kMostSegments));
+  hopper.clearance = table.number("clearance", Interval::positive(kLargestLength, "m"));
+  const double outer = hopper.diameter / std::cos(std::numbers::pi / hopper.segments);
+  hopper.tray_width =
+      table.number("tray_width", Interval::closed(outer, 2 * kLargestLength, "m (the hopper hangs between its walls)"));
+  hopper.opens_at = table.number("opens_at", {0, time.duration, false, false, "s (before time.duration)"});
+  hopper.dish = read_dish(table, hopper);
+  return hopper;
+}
+
+Terrain read_terrain(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "width", "amplitude", "wavelength", "ridge_height", "samples", "seed"});
+  TerrainParameters parameters{};
+  parameters.width = read_width(table);
+  parameters.amplitude = table.number("amplitude", Interval::closed(0, kLargestLength, "m"));
+  parameters.wavelength = table.number("wavelength", Interval::positive(kLargestLength, "m"));
+  parameters.ridge_height = table.number("ridge_height", Interval::closed(0, kLargestLength, "m"));
+  parameters.samples = static_cast<int>(table.integer("samples", 2, kMostSamples));
+  parameters.seed = static_cast<std::uint64_t>(table.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  return Terrain(parameters);
+}
+
+Periodic read_periodic(const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "side"});
+  return {table.number("side", Interval::positive(kLargestLength, "m"))};
+}
+
+Region read_region(const TomlTable& table, const char* key) {
+  const TomlTable region = table.table(key, {"corner", "size"});
+  const std::vector<double> corner = region.numbers("corner", 3, Interval::closed(-kLargestLength, kLargestLength, "m"));
+  const std::vector<double> size = region.numbers("size", 3, Interval::positive(kLargestLength, "m"));
+  return {{corner[0], corner[1], corner[2]}, {size[0], size[1], size[2]}};
+}
+
+Open read_open(const TomlTable& root, const TomlTable& table) {
+  table.refuse_unknown_keys({"kind", "start", "bounds"});
+  if (!root.has("part"))
+    table.fail("kind", "container.kind is \"none\" in a scene without parts; allowed: with one or more [[part]]");
+  Open open{read_region(table, "start"), read_region(table, "bounds")};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double end = open.start.corner[i] + open.start.size[i];
+    if (open.start.corner[i] >= open.bounds.corner[i] && end <= open.bounds.corner[i] + open.bounds.size[i]) continue;
+    table.fail("start", std::string("container.start reaches from ") + shortest(open.start.corner[i]) + " to " + shortest(end) +
+                            " m along " + "xyz"[i] + "; allowed: within container.bounds");
+  }
+  return open;
+}
+
+/// The lattice needs room for at least one cell, whatever the attitude of the largest grain.
+void check_width(const TomlTable& table, const Scene& scene) {
+  const Rectangle plan = plan_of(scene.container);
+  const double narrowest = std::min(plan.width[0], plan.width[1]);
+  const double cell = scene.smallest_cell();
+  if (narrowest >= cell) return;
+  const char* key = "width";
+  if (std::holds_alternative<Open>(scene.container)) key = "start";
+  if (std::holds_alternative<Drum>(scene.container)) key = plan.width[0] < plan.width[1] ? "diameter" : "length";
+  table.fail(key, "container." + std::string(key) + " is " + shortest(narrowest) + " at its narrowest; allowed: at least " +
+                      shortest(cell) + " m, so that the largest grain fits in any attitude");
+}
+
+/// Where grains start below a ceiling, there may be too many.
+void check_ceiling(const TomlTable& table, const Scene& scene) {
+  if (std::isinf(ceiling_of(scene.container))) return;
+  Lattice lattice(scene);
+  int room = 0;
+  try {
+    for (const GrainCount& kind : scene.grains) {
+      const double radius = kind.grain.bounding_radius();
+      for (int i = 0; i < kind.count; ++i, ++room) lattice.next(kind.scale(static_cast<std::size_t>(i)) * radius);
+    }
+  } catch (const NoRoom&) {
+    table.fail("kind", "the scene has " + std::to_string(scene.bodies()) + " grains; allowed: up to " + std::to_string(room) +
+                           ", which find room in the container at the start");
+  }
+}
+
+void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& periodic) {
+  const double least = 4 * scene.largest_bounding_radius();
+  if (periodic.side >= least) return;
+  table.fail("side", "container.side is " + shortest(periodic.side) + "; allowed: at least " + shortest(least) +
+                         " m, so that no grain meets itself");
+}
+
+/// A lattice of three by three cells has one that lies within the circle around them, one of two by two has none.
+void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopper) {
+  const double narrowest = 3 * scene.smallest_cell();
+  if (hopper.diameter < narrowest) {
+    table.fail("diameter", "container.diameter is " + shortest(hopper.diameter) + "; allowed: at least " + shortest(narrowest) +
+                               " m, so that the lattice of the grains' starts has a cell in it");
+  }
+  const double missing = filled_lattice(scene).top() - hopper.top();
+  if (missing <= 0) return;
+  table.fail("cylinder_height", "container.cylinder_height is " + shortest(hopper.cylinder_height) + "; allowed: at least " +
+                                    shortest(hopper.cylinder_height + missing) + " m, so that all grains start within the hopper");
+}
+
+}  // namespace
+
+std::array<double, 2> read_width(const TomlTable& table) {
+  const std::vector<double> width = table.numbers("width", 2, Interval::positive(kLargestLength, "m"));
+  return {width[0], width[1]};
+}
+
+Container read_container(const TomlTable& root, const Time& time) {
+  const TomlTable table = root.table("container");
+  const std::string kind =
+      table.choice("kind", {"box", "hopper", "terrain", "periodic", "none", "drum", "tray", "shear_cell", "conveyor"});
+  if (kind == "hopper") return read_hopper(table, time);
+  if (kind == "terrain") return read_terrain(table);
+  if (kind == "periodic") return read_periodic(table);
+  if (kind == "none") return read_open(root, table);
+  if (kind == "drum") return read_drum(table, time);
+  if (kind == "tray") return read_tray(table, time);
+  if (kind == "shear_cell") return read_shear_cell(table, time);
+  if (kind == "conveyor") return read_conveyor_belt(table, time);
+  return read_box(table);
+}
+
+void check_fit(const TomlTable& root, const Scene& scene) {
+  const TomlTable table = root.table("container");
+  if (const Hopper* hopper = std::get_if<Hopper>(&scene.container)) {
+    check_hopper(table, scene, *hopper);
+  } else if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) {
+    check_periodic(table, scene, *periodic);
+  } else {
+    check_width(table, scene);
+    check_ceiling(table, scene);
+  }
+}
+
+}  // namespace falling_particles

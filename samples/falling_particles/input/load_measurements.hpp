@@ -1,0 +1,15 @@
+// The sections [[measurement]] of a scene file.
+#pragma once
+
+#include <vector>
+
+#include "base/toml_input.hpp"
+#include "model/request.hpp"
+#include "model/scene.hpp"
+
+namespace falling_particles {
+
+/// The scene's container, grains and time have been read. Throws InputError.
+std::vector<MeasurementRequest> load_measurements(const TomlTable& root, const Scene& scene);
+
+}  // namespace falling_particles

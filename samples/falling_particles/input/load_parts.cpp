@@ -1,0 +1,240 @@
+#include "load_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "load_mesh.hpp"
+#include "load_motion.hpp"
+#include "model/container_parts.hpp"
+#include "model/part_material.hpp"
+#include "model/two_sided_mesh.hpp"
+#include "supernormal/shapes/superovoid.hpp"
+
+namespace falling_particles {
+namespace {
+
+const std::vector<std::string> kShapes = {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"};
+
+/// The keys that describe a shape.
+std::vector<std::string> keys_of_shape(const std::string& shape) {
+  if (shape == "box") return {"size"};
+  if (shape == "cylinder") return {"radius", "length"};
+  if (shape == "mesh") return {"file", "unit", "two_sided"};
+  if (shape == "ellipsoid") return {"half_axes"};
+  if (shape == "superellipsoid") return {"half_axes", "delta", "epsilon"};
+  if (shape == "superovoid") return {"half_axes", "delta", "epsilon", "taper"};
+  return {};
+}
+
+std::vector<std::string> with_common_keys(std::vector<std::string> keys) {
+  for (const char* key : {"name", "shape", "position", "axis", "angle", "friction", "restitution", "motion", "drive"})
+    keys.emplace_back(key);
+  return keys;
+}
+
+std::vector<std::string> all_keys() {
+  std::vector<std::string> keys;
+  for (const std::string& shape : kShapes) {
+    for (std::string& key : keys_of_shape(shape)) {
+      if (std::ranges::find(keys, key) == keys.end()) keys.push_back(std::move(key));
+    }
+  }
+  return with_common_keys(std::move(keys));
+}
+
+Vector3 read_sizes(const TomlTable& table, const char* key) {
+  return read_vector(table, key, Interval::positive(kLargestLength, "m"));
+}
+
+SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
+  SmoothShape body{read_sizes(table, "half_axes")};
+  if (shape == "ellipsoid") return body;
+  body.delta = table.number("delta", Interval::closed(1.01, 1000, ""));
+  body.epsilon = table.number("epsilon", Interval::closed(1.01, 1000, ""));
+  if (shape == "superellipsoid") return body;
+  const std::vector<double> taper = table.numbers("taper", 2, Interval::closed(-1, 1, ""));
+  body.taper_x = taper[0];
+  body.taper_y = taper[1];
+  try {
+    const supernormal::Superovoid checked(body.half_axes, body.delta, body.epsilon, body.taper_x, body.taper_y);
+  } catch (const std::invalid_argument& error) {
+    table.fail("taper", table.full_name("taper") + ": " + error.what());
+  }
+  return body;
+}
+
+/// Triangles that are there with their corners in both orders. As they are, each pushes what is behind it out in front: grains sink
+/// in from both sides until they are halfway through.
+std::size_t count_two_sided(const Mesh& mesh) {
+  const auto from_lowest = [](std::array<unsigned int, 3> corners) {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return corners;
+  };
+  std::set<std::array<unsigned int, 3>> seen;
+  for (const auto& triangle : mesh.triangles) seen.insert(from_lowest(triangle));
+  return static_cast<std::size_t>(std::ranges::count_if(seen, [&](const auto& t) {
+    return t[1] < t[2] && seen.contains({t[0], t[2], t[1]});
+  }));
+}
+
+MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
+  constexpr std::array<std::pair<const char*, double>, 4> kUnits = {{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}}};
+  const std::string unit = table.choice("unit", {"m", "cm", "mm", "inch"});
+  const std::string name = table.text("file");
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".stl" && extension != ".obj") {
+    table.fail("file", table.full_name("file") + " is \"" + name +
+                           "\"; allowed: an .stl or .obj file, its path relative to the scene file");
+  }
+  const auto* const found = std::ranges::find(kUnits, unit, [](const auto& entry) { return std::string(entry.first); });
+  MeshShape mesh;
+  mesh.two_sided = table.has("two_sided") && table.boolean("two_sided");
+  try {
+    static_cast<Mesh&>(mesh) = load_mesh((std::filesystem::path(scene_path).parent_path() / name).string(), found->second);
+    if (mesh.two_sided) mesh.triangles = sheets_of(mesh).triangles;
+  } catch (const std::runtime_error& error) {
+    table.fail("file", table.full_name("file") + ": " + error.what());
+  }
+  if (bounding_radius(mesh) > kLargestLength) {
+    table.fail("unit", table.full_name("unit") + " is \"" + unit + "\", with which the mesh reaches " +
+                           shortest(bounding_radius(mesh)) + " m from its origin; allowed: up to " + shortest(kLargestLength) +
+                           " m");
+  }
+  if (const std::size_t count = count_two_sided(mesh); count > 0) {
+    table.fail("file", table.full_name("file") + ": \"" + name + "\" has " + std::to_string(count) +
+                           " triangles with their corners in both orders, between which grains would sink; allowed: each triangle "
+                           "once, solid behind, or " +
+                           table.full_name("two_sided") + " = true, which holds grains on both sides");
+  }
+  return mesh;
+}
+
+PartShape read_shape(const TomlTable& table, const std::string& scene_path) {
+  const std::string shape = table.choice("shape", kShapes);
+  table.refuse_unknown_keys(with_common_keys(keys_of_shape(shape)));
+  if (shape == "plane") return PlaneShape{};
+  if (shape == "box") return BoxShape{read_sizes(table, "size")};
+  if (shape == "cylinder") {
+    return CylinderShape{table.number("radius", Interval::positive(kLargestLength, "m")),
+                         table.number("length", Interval::positive(kLargestLength, "m"))};
+  }
+  if (shape == "mesh") return read_mesh(table, scene_path);
+  return read_smooth(table, shape);
+}
+
+PartPose read_pose(const TomlTable& table) {
+  PartPose pose;
+  if (table.has("position")) pose.position = read_vector(table, "position", Interval::closed(-kLargestLength, kLargestLength, "m"));
+  if (!table.has("axis") && !table.has("angle")) return pose;
+  const double angle = table.number("angle", Interval::closed(-360, 360, "degrees about part.axis"));
+  pose.rotation = Eigen::AngleAxisd(angle * std::numbers::pi / 180, read_direction(table, "axis"));
+  return pose;
+}
+
+/// A name stands in a line of parts.csv.
+std::string read_name(const TomlTable& table, const std::vector<Part>& parts) {
+  const std::string name = table.text("name");
+  const auto is_allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+  if (!std::ranges::all_of(name, is_allowed)) {
+    table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: letters, digits, _, - and .");
+  }
+  if (std::ranges::find(parts, name, &Part::name) != parts.end()) {
+    table.fail("name", table.full_name("name") + " is \"" + name + "\", which another part has; allowed: a name of its own");
+  }
+  return name;
+}
+
+/// m^2, the area that a part shows along the axis of its drive, which turns with the part; 0 where it must be said.
+double plan_area(const PartShape& shape, const Vector3& axis) {
+  if (const auto* box = std::get_if<BoxShape>(&shape)) {
+    const Vector3& s = box->size;
+    return Vector3(s.y() * s.z(), s.z() * s.x(), s.x() * s.y()).dot(axis.cwiseAbs());
+  }
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+    const double across = std::hypot(axis.x(), axis.y());
+    return std::numbers::pi * cylinder->radius * cylinder->radius * std::abs(axis.z()) +
+           2 * cylinder->radius * cylinder->length * across;
+  }
+  return 0;
+}
+
+void read_pressure(const TomlTable& table, const Part& part, Drive& drive) {
+  if (table.has("force") == table.has("pressure")) {
+    table.fail(table.has("force") ? "force" : "", table.full_name("force") + " and " + table.full_name("pressure") +
+                                                      (table.has("force") ? " are both given" : " are missing") +
+                                                      "; allowed: one of them");
+  }
+  if (table.has("force")) {
+    drive.force = table.number("force", Interval::closed(-1e9, 1e9, "N, along part.drive.axis"));
+    if (table.has("area")) table.fail("area", table.full_name("area") + " is given besides force; allowed: with pressure");
+    return;
+  }
+  double area = plan_area(part.shape, part.start.rotation.conjugate() * drive.axis);
+  if (area == 0 || table.has("area")) area = table.number("area", Interval::positive(1e6, "m^2, on which the pressure acts"));
+  drive.force = area * table.number("pressure", Interval::closed(-1e9, 1e9, "Pa, along part.drive.axis"));
+}
+
+std::optional<Drive> read_drive(const TomlTable& part_table, const Part& part) {
+  const auto table =
+      part_table.find_table("drive", {"axis", "force", "pressure", "area", "mass", "damping", "from", "until", "travel"});
+  if (!table) return std::nullopt;
+  for (const PartMotion& motion : part.motions) {
+    if (std::holds_alternative<Conveyor>(motion.kind)) {
+      part_table.fail("drive", "part.drive besides a motion of kind \"conveyor\"; allowed: with the other kinds");
+    }
+  }
+  Drive drive{};
+  drive.axis = read_direction(*table, "axis");
+  read_pressure(*table, part, drive);
+  // ODE squares moments of inertia, a thousand times mass times radius squared: far below, they are no numbers.
+  drive.mass = table->number("mass", Interval::closed(1e-12, 1e6, "kg"));
+  if (table->has("damping")) drive.damping = table->number("damping", Interval::closed(0, 1e9, "N s/m"));
+  const auto [from, until] = read_times(*table);
+  drive.from = from;
+  drive.until = until;
+  if (table->has("travel")) {
+    const std::vector<double> travel = table->numbers("travel", 2, Interval::closed(-kLargestLength, kLargestLength, "m"));
+    if (travel[0] > 0 || travel[1] < 0 || travel[0] == travel[1]) {
+      table->fail("travel", table->full_name("travel") + " is [" + shortest(travel[0]) + ", " + shortest(travel[1]) +
+                                "]; allowed: from 0 or less to 0 or more, m along part.drive.axis");
+    }
+    drive.travel = {travel[0], travel[1]};
+  }
+  return drive;
+}
+
+Part read_part(const TomlTable& table, const std::vector<Part>& parts, const Time& time, const std::string& scene_path) {
+  Part part{read_name(table, parts), read_shape(table, scene_path)};
+  part.start = read_pose(table);
+  if (table.has("motion")) part.motions = read_motions(table, time);
+  part.drive = read_drive(table, part);
+  if (table.has("friction")) part.friction = table.number("friction", Interval::positive(100, ""));
+  if (table.has("restitution")) part.restitution = table.number("restitution", Interval::positive(1, ""));
+  return part;
+}
+
+}  // namespace
+
+std::vector<Part> load_parts(const TomlTable& root, const Scene& scene, const std::string& scene_path) {
+  std::vector<Part> parts = parts_in(scene.container);
+  if (!root.has("part")) return parts;
+  if (std::holds_alternative<Periodic>(scene.container)) {
+    root.fail("part", "part in a periodic container; allowed: in any other container");
+  }
+  for (const TomlTable& table : root.tables("part", all_keys())) parts.push_back(read_part(table, parts, scene.time, scene_path));
+  const auto own = std::ranges::count_if(parts, [](const Part& part) { return part.friction || part.restitution; });
+  if (own > kMostPartMaterials) {
+    root.fail("part", "the scene has " + std::to_string(own) + " parts with friction or restitution of their own; allowed: up to " +
+                          std::to_string(kMostPartMaterials));
+  }
+  return parts;
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,17 @@
+// Reads the [[part]] sections of a scene file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/toml_input.hpp"
+#include "model/part.hpp"
+#include "model/scene.hpp"
+
+namespace falling_particles {
+
+/// The parts of the container, then those of the [[part]] sections; mesh files are relative to the scene's folder. Throws
+/// InputError.
+std::vector<Part> load_parts(const TomlTable& root, const Scene& scene, const std::string& scene_path);
+
+}  // namespace falling_particles

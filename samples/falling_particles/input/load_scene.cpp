@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "base/input_error.hpp"
+#include "base/nearest_word.hpp"
+#include "base/read_file.hpp"
+#include "base/toml_input.hpp"
+#include "catalogue.hpp"
+#include "load_container.hpp"
+#include "load_effects.hpp"
+#include "load_measurements.hpp"
+#include "load_parts.hpp"
+#include "load_periodic.hpp"
+#include "load_population.hpp"
+#include "load_sizes.hpp"
+#include "memory.hpp"
+#include "model/part_material.hpp"
+#include "model/picture_names.hpp"
+#include "model/scene.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr std::int64_t kMostBodies = 1'000'000;
+constexpr std::int64_t kMostSteps = 1'000'000'000;
+
+/// Reads the catalogue that the scene names, relative to the scene's folder.
+std::vector<CatalogueEntry> read_catalogue(const TomlTable& root, const std::string& scene_path) {
+  const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
+  const std::string allowed = "; allowed: a grain catalogue, its path relative to the scene file";
+  if (const std::string other = what_is_no_file(path); !other.empty()) {
+    root.fail("catalogue", "catalogue: \"" + path.string() + "\" is " + other + allowed);
+  }
+  if (!std::filesystem::is_regular_file(path)) {
+    root.fail("catalogue", "catalogue: there is no file \"" + path.string() + "\"" + allowed);
+  }
+  return open_catalogue(path.string());
+}
+
+const CatalogueEntry& find_grain(const std::vector<CatalogueEntry>& catalogue, const TomlTable& entry) {
+  const std::string name = entry.text("name");
+  const auto found = std::ranges::find(catalogue, name, &CatalogueEntry::name);
+  if (found != catalogue.end()) return *found;
+  std::vector<std::string> names;
+  names.reserve(catalogue.size());
+  for (const CatalogueEntry& grain : catalogue) names.push_back(grain.name);
+  entry.fail("name", "unknown grain \"" + name + "\"" + did_you_mean(name, names) + "; allowed (the catalogue's): " + join(names));
+}
+
+/// Whole numbers in the ratio of `fractions` that sum to `total`: all are rounded down, then the largest remainders up.
+std::vector<int> apportion(const std::vector<double>& fractions, int total) {
+  std::vector<int> counts;
+  std::vector<std::pair<double, std::size_t>> remainders;
+  int given = 0;
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    const double exact = fractions[i] * total;
+    counts.push_back(static_cast<int>(exact));
+    remainders.emplace_back(static_cast<double>(counts.back()) - exact, i);
+    given += counts.back();
+  }
+  std::ranges::sort(remainders);
+  for (std::size_t k = 0; given < total; ++k, ++given) ++counts[remainders[k % remainders.size()].second];
+  return counts;
+}
+
+std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const TomlTable& drop) {
+  if (!drop.has("total")) drop.fail("total", "drop.total is missing; needed where grains are given by fraction");
+  const int total = static_cast<int>(drop.integer("total", 1, kMostBodies));
+  std::vector<double> fractions;
+  double sum = 0;
+  for (const TomlTable& entry : entries) {
+    fractions.push_back(entry.number("fraction", Interval::positive(1, "")));
+    sum += fractions.back();
+  }
+  // Fractions may be rounded as people type them: 0.333 three times is one.
+  if (std::abs(sum - 1) > 0.005) {
+    entries.front().fail("fraction", "the fractions of the grains sum to " + shortest(sum) + "; allowed: a sum of 1");
+  }
+  for (double& fraction : fractions) fraction /= sum;
+  return apportion(fractions, total);
+}
+
+/// `least`: 0 where feeders bring grains.
+std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTable& drop, int least) {
+  if (drop.has("total")) drop.fail("total", "drop.total is given besides counts; allowed: with fractions only");
+  std::vector<int> counts;
+  counts.reserve(entries.size());
+  for (const TomlTable& entry : entries) counts.push_back(static_cast<int>(entry.integer("count", least, kMostBodies)));
+  return counts;
+}
+
+std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop, const std::string& scene_path,
+                                    std::uint64_t seed) {
+  const std::vector<CatalogueEntry> catalogue = read_catalogue(root, scene_path);
+  const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction", "size"});
+  const bool by_fraction = entries.front().has("fraction");
+  std::vector<GrainCount> grains;
+  std::set<std::string> seen;
+  for (const TomlTable& entry : entries) {
+    const CatalogueEntry& found = find_grain(catalogue, entry);
+    if (!seen.insert(found.name).second) {
+      entry.fail("name", "grain \"" + found.name + "\" is listed twice; allowed: once, with the sum");
+    }
+    grains.push_back({found.make(), 0});
+    const char* other = by_fraction ? "count" : "fraction";
+    if (entry.has(other)) {
+      entry.fail(other, entry.full_name(other) + " is mixed with " + (by_fraction ? "fraction" : "count") +
+                            "; allowed: count for all grains or fraction for all grains");
+    }
+  }
+  const std::vector<int> counts =
+      by_fraction ? read_fractions(entries, drop) : read_counts(entries, drop, root.has("feeder") ? 0 : 1);
+  std::int64_t sum = 0;
+  for (const int count : counts) sum += count;
+  if (sum > kMostBodies)
+    root.fail("grain", "the scene has " + std::to_string(sum) + " grains; allowed: up to " + std::to_string(kMostBodies));
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    GrainCount& kind = grains[i];
+    kind.count = counts[i];
+    kind.is_fed = root.has("feeder");
+    kind.size = load_sizes(entries[i], kind.grain.sieve_size());
+    if (kind.size) kind.scales = draw_sizes(*kind.size, kind.count, seed_of_sizes(seed, i));
+  }
+  return grains;
+}
+
+/// Grains that a scene may have at once. How many its sinks leave cannot be told.
+int most_at_once(const Scene& scene) { return static_cast<int>(scene.bodies() + (scene.sinks.empty() ? most_fed(scene) : 0)); }
+
+void check_memory(const TomlTable& root, int grains) {
+  constexpr double kGigabyte = 1e9;
+  const double needed = memory_needed(grains);
+  const double available = memory_of_machine();
+  if (needed <= available) return;
+  const auto in_gigabytes = [](double bytes) { return shortest(std::round(bytes / kGigabyte * 10) / 10) + " GB"; };
+  root.fail("grain", "the scene has " + std::to_string(grains) + " grains, a bed of which takes " + in_gigabytes(needed) +
+                         " of memory; allowed with " + in_gigabytes(available) + ": up to " +
+                         std::to_string(most_grains(available)) + " grains");
+}
+
+Time read_time(const TomlTable& table) {
+  Time time{};
+  time.duration = table.number("duration", Interval::positive(3600, "s"));
+  time.step = table.number("step", Interval::positive(time.duration, "s (up to time.duration)"));
+  time.frame = table.number("frame", Interval::closed(time.step, time.duration, "s (from time.step to time.duration)"));
+  if (time.duration / time.step > static_cast<double>(kMostSteps)) {
+    table.fail("step", "time.duration / time.step is above " + std::to_string(kMostSteps) + " steps; allowed: a larger step");
+  }
+  return time;
+}
+
+Solver read_solver(const TomlTable& table) {
+  return {static_cast<int>(table.integer("iterations", 1, 100000)), table.number("erp", Interval::closed(0, 1, "")),
+          table.number("cfm", Interval::closed(0, 1, "s/kg"))};
+}
+
+/// Grains in a periodic container do not drop: they start anywhere. Where feeders bring all grains, none drops.
+TomlTable read_drop(const TomlTable& root, Scene& scene) {
+  if (root.has("feeder") && !root.has("drop")) return root;
+  if (std::holds_alternative<Periodic>(scene.container)) {
+    if (root.has("drop")) return root.table("drop", {"total"});
+    return root;
+  }
+  const TomlTable drop = root.table("drop", {"height", "gap", "total"});
+  scene.drop = {drop.number("height", Interval::closed(0, 1000, "m")), drop.number("gap", Interval::closed(0, 10, ""))};
+  return drop;
+}
+
+std::optional<Compression> read_compression(const TomlTable& root, const Scene& scene) {
+  const auto table = root.find_table("compression", {"overlap", "final_overlap", "damping"});
+  if (!table) return std::nullopt;
+  if (scene.looks_ahead()) {
+    root.fail("speculative_contacts",
+              "speculative_contacts in a compression, which works by the overlaps that they prevent; allowed: one of both");
+  }
+  if (!std::holds_alternative<Periodic>(scene.container)) {
+    root.fail("compression", std::string("compression in a ") + kind_of(scene.container) + "; allowed: in a periodic container");
+  }
+  Compression compression{};
+  compression.overlap = table->number("overlap", Interval::positive(0.1, "(relative to the distance of two grains)"));
+  compression.final_overlap =
+      table->number("final_overlap", Interval::positive(compression.overlap, "(up to compression.overlap)"));
+  compression.damping = table->number("damping", Interval::closed(0, 1, "(of the velocities, a step)"));
+  return compression;
+}
+
+std::optional<Axis> read_sweep_axis(const TomlTable& root) {
+  const auto table = root.find_table("broad_phase", {"axis"});
+  if (!table) return std::nullopt;
+  const std::string word = table->choice("axis", {name_of(Axis::X), name_of(Axis::Y), name_of(Axis::Z)});
+  for (const Axis axis : {Axis::X, Axis::Y}) {
+    if (word == name_of(axis)) return axis;
+  }
+  return Axis::Z;
+}
+
+void read_output(const TomlTable& root, Scene& scene) {
+  scene.pictures = default_pictures();
+  const auto table = root.find_table("output", {"pictures", "forces"});
+  if (!table) return;
+  if (table->has("forces")) scene.forces = table->boolean("forces");
+  if (!table->has("pictures")) return;
+  std::vector<std::string> names;
+  for (const std::string_view name : kPictureNames) names.emplace_back(name);
+  scene.pictures = table->choices("pictures", names);
+}
+
+/// The scene file and those that it names, relative to its folder; all have been read.
+std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files = {path, path.parent_path() / root.text("catalogue")};
+  if (!root.has("part")) return files;
+  for (const TomlTable& part : root.tables("part")) {
+    if (const std::optional<std::string> mesh = part.find_text("file")) files.push_back(path.parent_path() / *mesh);
+  }
+  return files;
+}
+
+/// The names of the sections at the top of the file.
+std::vector<std::string> sections() {
+  std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
+                                    "solver", "compression", "broad_phase", "output", "part",  "measurement",
+                                    "feeder", "sink",        "periodic",    "query"};
+  for (std::string& name : effect_sections()) names.push_back(std::move(name));
+  return names;
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  const TomlTable root = TomlFile(path, "scene file", overrides).root(sections());
+  Scene scene{};
+  scene.name = std::filesystem::path(path).stem().string();
+  scene.overrides = overrides;
+  scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
+  scene.container = read_container(root, scene.time);
+  scene.parts = load_parts(root, scene, path);
+  const TomlTable drop = read_drop(root, scene);
+  scene.grains = read_grains(root, drop, path, scene.seed);
+  if (root.has("feeder") && scene.bodies() > 0) root.table("drop");  // says that it is missing
+  load_periodic(root, scene);
+  scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
+  scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
+  add_part_effects(scene.parts, scene.effects);
+  scene.compression = read_compression(root, scene);
+  scene.sinks = load_sinks(root, scene);
+  scene.feeders = load_feeders(root, scene);
+  scene.measurements = load_measurements(root, scene);
+  scene.sweep_axis = read_sweep_axis(root);
+  scene.query = load_query(root);
+  read_output(root, scene);
+  check_memory(root, most_at_once(scene));
+  check_fit(root, scene);
+  scene.files = files_of(root, path);
+  return scene;
+}
+
+}  // namespace falling_particles

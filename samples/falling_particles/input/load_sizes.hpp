@@ -1,0 +1,15 @@
+// Sizes of grains from a scene file.
+#pragma once
+
+#include <optional>
+
+#include "base/toml_input.hpp"
+#include "model/size_distribution.hpp"
+
+namespace falling_particles {
+
+/// Reads `size` of a [[grain]], if it has one. Throws InputError. The distribution is that of the factor on all lengths of the
+/// grain, whose sieve size in the catalogue is `sieve_size` (m).
+std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_size);
+
+}  // namespace falling_particles

@@ -1,0 +1,55 @@
+// A hopper with an outlet over a tray, and an optional dish on which the grains form a heap.
+#pragma once
+
+#include <optional>
+
+#include "geometry.hpp"
+
+namespace falling_particles {
+
+/// A round, flat dish with a low rim, solid down to the floor: grains that are poured on it form a heap, and those that find no
+/// room there fall off.
+struct Dish {
+  double diameter;  ///< m, within the rim
+  double height;    ///< m, of its bottom above the floor of the tray
+  double rim;       ///< m, height of the rim above the bottom
+
+  double rim_width() const { return 2 * rim; }                        ///< m
+  double outer_radius() const { return diameter / 2 + rim_width(); }  ///< m
+};
+
+/// A cone with an outlet, a cylinder on top of it, both with `segments` flat sides around the z-axis, and a tray below: a floor at
+/// z = 0 and four walls. Radii are those of the inscribed circles (to the flat sides). A lid, the plane z = clearance, closes the
+/// outlet until `opens_at`.
+struct Hopper {
+  double outlet;           ///< m, diameter
+  double wall_angle;       ///< degrees, of the cone from the vertical
+  double diameter;         ///< m, of the cylinder
+  double cylinder_height;  ///< m
+  int segments;
+  double clearance;               ///< m, of the outlet above the floor of the tray
+  double tray_width;              ///< m, the tray is square
+  double opens_at;                ///< s
+  std::optional<Dish> dish = {};  ///< below the outlet, around the z-axis
+
+  double cone_height() const;                                  ///< m
+  double top() const;                                          ///< m, z of the upper rim
+  double radius_at(double z) const;                            ///< m, from the outlet upwards; above the rim it is the cylinder's
+  bool is_within(double x, double y, double radius) const;     ///< whether it is in the regular polygon with that inscribed circle
+  bool is_in_tray(const Point& p) const;                       ///< below the outlet
+  bool has_room(const Point& lower, const Point& size) const;  ///< for the box from `lower` on and for what is above it
+  double mean_height(double level) const;                      ///< m, of the volume between outlet and z = level, above the outlet
+
+  Rectangle plan() const { return {{-diameter / 2, -diameter / 2}, {diameter, diameter}}; }
+  double lowest() const { return clearance; }
+  /// Whether the point is in the hopper, above it within the cylinder's continuation, or in the tray.
+  bool contains(const Point& p) const;
+};
+
+/// The mesh of the cone and the cylinder, closed but for outlet and top; bodies are inside.
+Mesh make_mesh(const Hopper& hopper);
+
+/// The mesh of the dish's surface, with as many sides; bodies are above and around.
+Mesh make_mesh(const Dish& dish, int segments);
+
+}  // namespace falling_particles

@@ -1,0 +1,141 @@
+#include "motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace falling_particles {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kSecondsPerMinute = 60;
+
+/// Whole turns are left out before they cost digits.
+Eigen::Quaterniond turned(const Rotation& rotation, double seconds) {
+  const double turns = rotation.rpm * seconds / kSecondsPerMinute;
+  return Eigen::Quaterniond(Eigen::AngleAxisd(kTurn * (turns - std::floor(turns)), rotation.axis));
+}
+
+Eigen::Matrix3d cross_matrix(const Vector3& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+/// The matrix of the rotation less the identity, with the digits of small angles.
+Eigen::Matrix3d less_identity(const Eigen::Quaterniond& rotation) {
+  const Eigen::Matrix3d cross = cross_matrix(rotation.vec());
+  return 2 * rotation.w() * cross + 2 * cross * cross;
+}
+
+/// Where a step takes the surface of a part relative to the part: a lever from the part's position becomes rotation lever + shift.
+struct SurfaceStep {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Vector3 shift = Vector3::Zero();  // m
+};
+
+SurfaceStep surface_step(const PartPose& start, const Eigen::Quaterniond& turned_by, std::span<const PartMotion> motions,
+                         double from, double until) {
+  SurfaceStep step;
+  for (const PartMotion& motion : motions) {
+    const auto* conveyor = std::get_if<Conveyor>(&motion.kind);
+    if (conveyor == nullptr) continue;
+    const double seconds = motion.elapsed(until) - motion.elapsed(from);
+    step.shift += seconds * (turned_by * conveyor->velocity);
+    const double angle = kTurn / kSecondsPerMinute * conveyor->turn.rpm * seconds;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, turned_by * conveyor->turn.axis));
+    const Vector3 axis_point = turned_by * (conveyor->turn.point - start.position);
+    step.shift = axis_point + turn * (step.shift - axis_point);
+    step.rotation = turn * step.rotation;
+  }
+  return step;
+}
+
+Vector3 displacement(const PartMotion& motion, double seconds) {
+  if (const auto* translation = std::get_if<Translation>(&motion.kind)) return seconds * translation->velocity;
+  if (const auto* vibration = std::get_if<Vibration>(&motion.kind)) {
+    const double cycles = vibration->frequency * seconds;
+    const double angle = kTurn * (cycles - std::floor(cycles));
+    return (std::sin(angle + vibration->phase) - std::sin(vibration->phase)) * vibration->amplitude;
+  }
+  return Vector3::Zero();
+}
+
+}  // namespace
+
+double PartMotion::elapsed(double time) const { return std::max(0.0, std::min(time, until) - from); }
+
+PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, double time) {
+  PartPose pose = start;
+  Vector3 moved = Vector3::Zero();
+  for (std::size_t k = motions.size(); k-- > 0;) {
+    const PartMotion& motion = motions[k];
+    const double seconds = motion.elapsed(time);
+    if (const auto* rotation = std::get_if<Rotation>(&motion.kind)) {
+      const Eigen::Quaterniond turn = turned(*rotation, seconds);
+      pose.position = rotation->point + turn * (pose.position - rotation->point);
+      pose.rotation = turn * pose.rotation;
+    } else {
+      moved += displacement(motion, seconds);
+    }
+  }
+  pose.position += moved;
+  pose.rotation.normalize();
+  return pose;
+}
+
+PartVelocity mean_velocity(const PartPose& from, const PartPose& to, double duration) {
+  const Eigen::Quaterniond turn = to.rotation * from.rotation.conjugate();
+  // Twice the arctangent keeps the digits of small turns, which the arccosine of w would lose.
+  const double sine = turn.vec().norm();
+  const double angle = 2 * std::atan2(sine, std::abs(turn.w()));
+  const double sign = turn.w() < 0 ? -1 : 1;
+  PartVelocity velocity{(to.position - from.position) / duration, Vector3::Zero()};
+  if (sine > 0) velocity.angular = sign * angle / (sine * duration) * turn.vec();
+  return velocity;
+}
+
+PartVelocity conveyor_velocity(const PartPose& start, const PartPose& now, std::span<const PartMotion> motions, double from,
+                               double until) {
+  PartVelocity sum;
+  const Eigen::Quaterniond turned_by = now.rotation * start.rotation.conjugate();
+  for (const PartMotion& motion : motions) {
+    const auto* conveyor = std::get_if<Conveyor>(&motion.kind);
+    if (conveyor == nullptr) continue;
+    const double share = (motion.elapsed(until) - motion.elapsed(from)) / (until - from);
+    sum.linear += share * (turned_by * conveyor->velocity);
+    if (conveyor->turn.rpm == 0) continue;
+    const Vector3 spin = share * kTurn / kSecondsPerMinute * conveyor->turn.rpm * (turned_by * conveyor->turn.axis);
+    sum.angular += spin;
+    sum.linear += spin.cross(turned_by * (start.position - conveyor->turn.point));
+  }
+  return sum;
+}
+
+ChordExcess::ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const PartVelocity& rigid, double duration)
+    : turn_(rotation.toRotationMatrix()),
+      chord_(less_identity(rotation) / duration),
+      chord_at_part_(shift / duration),
+      rigid_(rigid),
+      duration_(duration) {}
+
+Vector3 ChordExcess::at(const Vector3& lever, const Vector3& velocity) const {
+  const Vector3 chord = chord_at_part_ + chord_ * lever;
+  const Vector3 excess = (chord_at_part_ - rigid_.linear) + (chord_ * lever - rigid_.angular.cross(lever));
+  // What rides along has, at the end of the step, its velocity turned with the surface: that of the chord.
+  return excess + duration_ / 2 * rigid_.angular.cross(turn_ * velocity - chord);
+}
+
+std::optional<ChordExcess> chord_excess(const PartPose& start, const PartPose& now, const PartPose& next,
+                                        std::span<const PartMotion> motions, double from, double until) {
+  const double duration = until - from;
+  const PartVelocity part = mean_velocity(now, next, duration);
+  const PartVelocity conveyor = conveyor_velocity(start, now, motions, from, until);
+  if (part.angular.isZero(0) && conveyor.angular.isZero(0)) return std::nullopt;
+  const Eigen::Quaterniond turn = next.rotation * now.rotation.conjugate();
+  const SurfaceStep surface = surface_step(start, now.rotation * start.rotation.conjugate(), motions, from, until);
+  return ChordExcess(turn * surface.rotation, next.position - now.position + turn * surface.shift,
+                     {part.linear + conveyor.linear, part.angular + conveyor.angular}, duration);
+}
+
+}  // namespace falling_particles

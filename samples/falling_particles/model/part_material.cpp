@@ -1,0 +1,57 @@
+#include "part_material.hpp"
+
+#include <optional>
+
+#include "material.hpp"
+
+namespace falling_particles {
+namespace {
+
+namespace fx = supernormal::effects;
+
+bool has_own_material(const Part& part) { return part.friction.has_value() || part.restitution.has_value(); }
+
+/// The effect that the scene lists for grains on walls.
+template <typename E>
+std::optional<E> of_walls(const std::vector<fx::Effect>& effects) {
+  for (const fx::Effect& effect : effects) {
+    const E* found = std::get_if<E>(&effect);
+    if (found != nullptr && found->on == kGrainOnWall) return *found;
+  }
+  return std::nullopt;
+}
+
+/// The threshold of the restitution that the scene lists, which all contacts share.
+double threshold_of(const std::vector<fx::Effect>& effects) {
+  for (const fx::Effect& effect : effects) {
+    if (const auto* found = std::get_if<fx::Restitution>(&effect)) return found->threshold;
+  }
+  return 0;
+}
+
+}  // namespace
+
+fx::Material material_of_part(const std::vector<Part>& parts, std::size_t index) {
+  if (!has_own_material(parts[index])) return kWallMaterial;
+  fx::Material material = kWallMaterial;
+  for (std::size_t i = 0; i <= index; ++i) material += has_own_material(parts[i]) ? 1 : 0;
+  return material;
+}
+
+void add_part_effects(const std::vector<Part>& parts, std::vector<fx::Effect>& effects) {
+  const std::optional<fx::Friction> friction = of_walls<fx::Friction>(effects);
+  const std::optional<fx::Restitution> restitution = of_walls<fx::Restitution>(effects);
+  const double threshold = threshold_of(effects);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!has_own_material(parts[i])) continue;
+    const auto on = fx::MaterialSelector::between(kGrainMaterial, material_of_part(parts, i));
+    if (parts[i].friction || friction)
+      effects.emplace_back(fx::Friction{parts[i].friction.value_or(friction ? friction->coefficient : 0), on});
+    if (parts[i].restitution || restitution) {
+      effects.emplace_back(
+          fx::Restitution{parts[i].restitution.value_or(restitution ? restitution->coefficient : 0), threshold, on});
+    }
+  }
+}
+
+}  // namespace falling_particles

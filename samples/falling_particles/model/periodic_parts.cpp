@@ -1,0 +1,180 @@
+#include "periodic_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/interval.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr double kAlong = 1e-9;     // of a unit vector: what is along an axis, or across it
+constexpr double kRounding = 1e-9;  // m
+
+bool is_along(const Vector3& direction, std::size_t axis) {
+  return std::abs(direction[static_cast<Eigen::Index>(axis)]) > 1 - kAlong;
+}
+bool is_across(const Vector3& direction, std::size_t axis) { return std::abs(direction[static_cast<Eigen::Index>(axis)]) < kAlong; }
+
+/// The ends of a part along an axis at the start, m; a plane has none unless it is across the axis.
+struct Ends {
+  double lower, upper;
+};
+
+Ends around(double centre, double half) { return {centre - half, centre + half}; }
+
+Ends ends_of(const Part& part, std::size_t axis) {
+  const auto i = static_cast<Eigen::Index>(axis);
+  const double centre = part.start.position[i];
+  const Eigen::Matrix3d turn = part.start.rotation.toRotationMatrix();
+  if (std::holds_alternative<PlaneShape>(part.shape)) return is_along(turn.col(2), axis) ? around(centre, 0) : around(0, INFINITY);
+  if (const auto* box = std::get_if<BoxShape>(&part.shape)) {
+    return around(centre, turn.row(i).cwiseAbs().dot(box->size.transpose()) / 2);
+  }
+  if (const auto* cylinder = std::get_if<CylinderShape>(&part.shape)) {
+    const double along = std::abs(turn(i, 2));
+    const double across = std::sqrt(std::max(0.0, 1 - along * along));
+    return around(centre, along * cylinder->length / 2 + across * cylinder->radius);
+  }
+  if (const auto* mesh = std::get_if<MeshShape>(&part.shape)) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Ends ends{kInfinity, -kInfinity};
+    for (const auto& [x, y, z] : mesh->vertices) {
+      const double place = part.start(Vector3(x, y, z))[i];
+      ends = {std::min(ends.lower, place), std::max(ends.upper, place)};
+    }
+    return ends;
+  }
+  return around(centre, bounding_radius(part.shape));
+}
+
+/// The part's own axis that lies along an axis of the world, if there is one.
+std::optional<Eigen::Index> own_axis(const Part& part, std::size_t axis) {
+  const Eigen::Matrix3d turn = part.start.rotation.toRotationMatrix();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    if (is_along(turn.col(k), axis)) return k;
+  }
+  return std::nullopt;
+}
+
+/// Moves the ends of a part outwards.
+void lengthen(Part& part, std::size_t axis, const Ends& to) {
+  const auto i = static_cast<Eigen::Index>(axis);
+  if (auto* mesh = std::get_if<MeshShape>(&part.shape)) {
+    const double middle = (to.lower + to.upper) / 2;
+    for (std::array<float, 3>& vertex : mesh->vertices) {
+      Vector3 place = part.start(Vector3(vertex[0], vertex[1], vertex[2]));
+      place[i] = place[i] < middle ? to.lower : to.upper;
+      const Vector3 own = part.start.rotation.conjugate() * (place - part.start.position);
+      vertex = {static_cast<float>(own.x()), static_cast<float>(own.y()), static_cast<float>(own.z())};
+    }
+    return;
+  }
+  const std::optional<Eigen::Index> own = own_axis(part, axis);
+  if (!own) return;
+  if (auto* box = std::get_if<BoxShape>(&part.shape)) {
+    box->size[*own] = to.upper - to.lower;
+  } else if (auto* cylinder = std::get_if<CylinderShape>(&part.shape)) {
+    cylinder->length = to.upper - to.lower;
+  }
+  part.start.position[i] = (to.lower + to.upper) / 2;
+}
+
+/// Whether a mesh is a prism along the axis: its vertices are at its two ends, the same across the axis at each.
+bool is_prism(const Part& part, const MeshShape& mesh, std::size_t axis) {
+  const Ends ends = ends_of(part, axis);
+  const double tolerance = 1e-5 * (ends.upper - ends.lower);  // vertices are floats
+  const auto i = static_cast<Eigen::Index>(axis);
+  std::array<std::vector<Vector3>, 2> sections;
+  for (const auto& [x, y, z] : mesh.vertices) {
+    Vector3 place = part.start(Vector3(x, y, z));
+    const bool is_low = place[i] - ends.lower < tolerance;
+    if (!is_low && ends.upper - place[i] > tolerance) return false;
+    place[i] = 0;
+    sections[is_low ? 0 : 1].push_back(place);
+  }
+  const auto is_in = [tolerance](const std::vector<Vector3>& section) {
+    return [&section, tolerance](const Vector3& point) {
+      return std::ranges::any_of(section, [&](const Vector3& other) { return (point - other).norm() < tolerance; });
+    };
+  };
+  return std::ranges::all_of(sections[0], is_in(sections[1])) && std::ranges::all_of(sections[1], is_in(sections[0]));
+}
+
+std::optional<std::string> find_end_of_shape(const Part& part, std::size_t axis) {
+  const Eigen::Matrix3d turn = part.start.rotation.toRotationMatrix();
+  if (std::holds_alternative<PlaneShape>(part.shape)) {
+    return is_across(turn.col(2), axis) ? std::nullopt : std::optional<std::string>("the plane is not parallel to the axis");
+  }
+  if (std::holds_alternative<BoxShape>(part.shape)) {
+    return own_axis(part, axis) ? std::nullopt : std::optional<std::string>("no edge of the box is along the axis");
+  }
+  if (std::holds_alternative<CylinderShape>(part.shape)) {
+    return is_along(turn.col(2), axis) ? std::nullopt : std::optional<std::string>("the cylinder is not along the axis");
+  }
+  if (const auto* mesh = std::get_if<MeshShape>(&part.shape)) {
+    return is_prism(part, *mesh, axis) ? std::nullopt : std::optional<std::string>("the mesh is no prism along the axis");
+  }
+  return "a smooth body ends";
+}
+
+/// The way (m) that a vibration takes along the axis is added to `way`.
+std::optional<std::string> find_end_of_motion(const Part& part, const PartMotion& motion, std::size_t axis, double& way) {
+  const bool is_plane = std::holds_alternative<PlaneShape>(part.shape);
+  const auto turns_across = [axis](const Rotation& turn) { return turn.rpm != 0 && !is_along(turn.axis, axis); };
+  if (const auto* translation = std::get_if<Translation>(&motion.kind)) {
+    if (is_plane || is_across(translation->velocity, axis)) return std::nullopt;
+    return "its velocity takes it along the axis (a surface that moves is of kind \"conveyor\")";
+  }
+  if (const auto* vibration = std::get_if<Vibration>(&motion.kind)) {
+    way += 2 * std::abs(vibration->amplitude[static_cast<Eigen::Index>(axis)]);
+    return std::nullopt;
+  }
+  const auto* rotation = std::get_if<Rotation>(&motion.kind);
+  if (turns_across(rotation != nullptr ? *rotation : std::get<Conveyor>(motion.kind).turn))
+    return "it does not turn about the axis";
+  return std::nullopt;
+}
+
+}  // namespace
+
+void open_container(const PeriodicAxes& axes, double reach, std::size_t of_container, std::vector<Part>& parts) {
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    if (!axes[axis]) continue;
+    const Period& period = *axes[axis];
+    const auto closes = [&](const Part& part) {
+      const Ends ends = ends_of(part, axis);
+      return ends.upper < period.lower + kRounding || ends.lower > period.upper() - kRounding;
+    };
+    const auto end = parts.begin() + static_cast<std::ptrdiff_t>(of_container);
+    const auto kept = std::remove_if(parts.begin(), end, closes);
+    of_container = static_cast<std::size_t>(kept - parts.begin());
+    parts.erase(kept, end);
+    for (std::size_t i = 0; i < of_container; ++i) {
+      double way = reach;
+      for (const PartMotion& motion : parts[i].motions) find_end_of_motion(parts[i], motion, axis, way);
+      const Ends ends = ends_of(parts[i], axis);
+      if (std::isfinite(ends.lower)) {
+        lengthen(parts[i], axis, {std::min(ends.lower, period.lower - way), std::max(ends.upper, period.upper() + way)});
+      }
+    }
+  }
+}
+
+std::optional<std::string> find_end(const Part& part, std::size_t axis, const Period& period, double reach) {
+  if (std::optional<std::string> end = find_end_of_shape(part, axis)) return end;
+  double way = reach;
+  for (const PartMotion& motion : part.motions) {
+    if (std::optional<std::string> end = find_end_of_motion(part, motion, axis, way)) return end;
+  }
+  if (part.drive && !is_across(part.drive->axis, axis)) return "its drive takes it along the axis";
+  const Ends ends = ends_of(part, axis);
+  const Ends needed{period.lower - way, period.upper() + way};
+  if (ends.lower <= needed.lower + kRounding && ends.upper >= needed.upper - kRounding) return std::nullopt;
+  return "it reaches from " + shortest(ends.lower) + " to " + shortest(ends.upper) + " m and must from " + shortest(needed.lower) +
+         " to " + shortest(needed.upper) + " m, where the images of grains meet it";
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,59 @@
+// A line a contact.
+
+#include "kinds.hpp"
+#include "region.hpp"
+#include "surfaces.hpp"
+
+namespace falling_particles {
+namespace {
+
+class ContactForces final : public Measurement {
+ public:
+  ContactForces(const SamplingRegion& region, std::vector<NamedSurface> surfaces)
+      : region_(region), surfaces_(std::move(surfaces)) {}
+
+  std::string columns() const override {
+    return "time_s,grain1,kind1,grain2,kind2,x_m,y_m,z_m,normal_x,normal_y,normal_z,overlap_m,normal_force_N,"
+           "tangential_x_N,tangential_y_N,tangential_z_N,points";
+  }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    const Bounds bounds = region_.bounds(sample.world);
+    const Body* bodies = sample.world.bodies().data();
+    for (const PairContact& contact : sample.contacts) {
+      if (!bounds.contains(contact.position)) continue;
+      table.add(sample.time).add(static_cast<std::size_t>(contact.body1 - bodies)).add(contact.body1->grain->name);
+      if (contact.body2 != nullptr) {
+        table.add(static_cast<std::size_t>(contact.body2 - bodies)).add(contact.body2->grain->name);
+      } else {
+        table.blank().add(surface_name(surfaces_, contact.geom2));
+      }
+      const double normal_force = contact.normal_force();
+      const Vector3 tangential = contact.force - normal_force * contact.normal;
+      table.add(contact.position).add(contact.normal).add(contact.overlap).add(normal_force).add(tangential);
+      table.add(static_cast<std::size_t>(contact.points)).end_line();
+    }
+  }
+
+ private:
+  SamplingRegion region_;
+  std::vector<NamedSurface> surfaces_;
+};
+
+}  // namespace
+
+MeasurementKind contact_forces_kind() {
+  return {"contact_forces",
+          "every contact with its forces, a line each",
+          {{"lower, upper", "m, corners of a box that holds the contacts; without them everywhere"}},
+          "time, the two grains and their kinds (of a wall its name), position, normal towards grain 1, overlap, normal force, "
+          "tangential force on grain 1, points",
+          "feedback of ODE's contact joints",
+          true,
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+            return [region = SamplingRegion(table, scene, SamplingRegion::Without::Everywhere), names = surface_names(scene)](
+                       const World& world) { return std::make_unique<ContactForces>(region, surfaces_of(world, names)); };
+          }};
+}
+
+}  // namespace falling_particles

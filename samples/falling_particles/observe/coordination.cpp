@@ -1,0 +1,136 @@
+// Contacts per grain.
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "kinds.hpp"
+#include "region.hpp"
+
+namespace falling_particles {
+namespace {
+
+constexpr std::size_t kMostCounted = 16;  // grains with as many contacts or more share a column
+
+/// The grains that touch each grain, by force-bearing contacts; its own index stands for a wall.
+using Neighbours = std::vector<std::vector<std::size_t>>;
+
+Neighbours neighbours_of(const Sample& sample, bool counts_walls) {
+  const std::vector<Body>& bodies = sample.world.bodies();
+  Neighbours neighbours(bodies.size());
+  for (const PairContact& contact : sample.contacts) {
+    if (!contact.bears_force()) continue;
+    const auto one = static_cast<std::size_t>(contact.body1 - bodies.data());
+    if (contact.body2 == nullptr) {
+      if (counts_walls) neighbours[one].push_back(one);
+      continue;
+    }
+    const auto two = static_cast<std::size_t>(contact.body2 - bodies.data());
+    neighbours[one].push_back(two);
+    neighbours[two].push_back(one);
+  }
+  return neighbours;
+}
+
+/// Takes grains with fewer contacts away until all that are left have as many, without those that are gone. Returns who is gone;
+/// `contacts` becomes the number that is left to each grain.
+std::vector<bool> find_rattlers(const Neighbours& neighbours, std::size_t least, std::vector<std::size_t>& contacts) {
+  std::vector<bool> is_rattler(neighbours.size(), false);
+  std::vector<std::size_t> waiting;
+  const auto take = [&](std::size_t grain) {
+    if (is_rattler[grain] || contacts[grain] >= least) return;
+    is_rattler[grain] = true;
+    waiting.push_back(grain);
+  };
+  for (std::size_t grain = 0; grain < neighbours.size(); ++grain) take(grain);
+  while (!waiting.empty()) {
+    const std::size_t gone = waiting.back();
+    waiting.pop_back();
+    for (const std::size_t other : neighbours[gone]) {
+      if (other == gone || is_rattler[other]) continue;
+      --contacts[other];
+      take(other);
+    }
+  }
+  return is_rattler;
+}
+
+class Coordination final : public Measurement {
+ public:
+  Coordination(const SamplingRegion& region, bool counts_walls, std::size_t least)
+      : region_(region), counts_walls_(counts_walls), least_(least) {}
+
+  std::string columns() const override {
+    std::string text = "time_s,grains,mean,rattlers,mean_without_rattlers";
+    for (std::size_t k = 0; k < kMostCounted; ++k) text += ",grains_with_" + std::to_string(k);
+    return text + ",grains_with_" + std::to_string(kMostCounted) + "_or_more";
+  }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    const Neighbours neighbours = neighbours_of(sample, counts_walls_);
+    std::vector<std::size_t> left;
+    left.reserve(neighbours.size());
+    for (const auto& of_grain : neighbours) left.push_back(of_grain.size());
+    const std::vector<bool> is_rattler = find_rattlers(neighbours, least_, left);
+    const Bounds bounds = region_.bounds(sample.world);
+    std::array<std::size_t, kMostCounted + 1> histogram{};
+    std::size_t grains = 0, contacts = 0, rattlers = 0, lasting = 0;
+    for (std::size_t grain = 0; grain < neighbours.size(); ++grain) {
+      const Body& body = sample.world.bodies()[grain];
+      if (!body.is_present() || !bounds.contains(place_of(body, sample.world))) continue;
+      ++grains;
+      contacts += neighbours[grain].size();
+      ++histogram[std::min(neighbours[grain].size(), kMostCounted)];
+      if (is_rattler[grain]) {
+        ++rattlers;
+      } else {
+        lasting += left[grain];
+      }
+    }
+    table.add(sample.time).add(grains);
+    add_mean(table, contacts, grains);
+    table.add(rattlers);
+    add_mean(table, lasting, grains - rattlers);
+    for (const std::size_t count : histogram) table.add(count);
+    table.end_line();
+  }
+
+ private:
+  static void add_mean(TableText& table, std::size_t sum, std::size_t count) {
+    if (count == 0) {
+      table.blank();
+    } else {
+      table.add(static_cast<double>(sum) / static_cast<double>(count));
+    }
+  }
+
+  SamplingRegion region_;
+  bool counts_walls_;
+  std::size_t least_;
+};
+
+}  // namespace
+
+MeasurementKind coordination_kind() {
+  constexpr std::int64_t kMostNeeded = 20;
+  constexpr std::size_t kIsostaticSpheres = 4;  // frictionless, in three dimensions
+  return {"coordination",
+          "the number of force-bearing contacts of a grain, and rattlers",
+          {{"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"},
+           {"walls", "true or false, whether contacts with walls count; true without it"},
+           {"least", "1 to 20, contacts without which a grain is a rattler; 4 without it (frictionless spheres)"}},
+          "time, grains, mean, rattlers, mean without rattlers, number of grains with 0, 1, ... contacts",
+          "O'Hern et al., Phys. Rev. E 68 (2003) 011306: rattlers are taken away until none is left",
+          true,
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+            const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
+            const bool walls = !table.has("walls") || table.boolean("walls");
+            const std::size_t least =
+                table.has("least") ? static_cast<std::size_t>(table.integer("least", 1, kMostNeeded)) : kIsostaticSpheres;
+            return [=](const World&) { return std::make_unique<Coordination>(region, walls, least); };
+          },
+          {"mean", "mean_without_rattlers"},
+          "contacts per grain"};
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,73 @@
+// The discharge of a hopper.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "base/random.hpp"
+#include "bed.hpp"
+#include "model/hopper.hpp"
+#include "world/world.hpp"
+
+namespace falling_particles {
+
+/// The part of the discharge that counts as steady, in shares of the charge: after the start, and while the outlet is well
+/// covered.
+constexpr double kSteadyFrom = 0.2;
+constexpr double kSteadyTo = 0.6;
+
+/// The charge of a hopper when its outlet opens.
+struct Charge {
+  double time;            ///< s
+  double mass;            ///< kg, of all grains
+  double grain_diameter;  ///< m, diameter of the sphere of the grains' mean volume
+  Bed bed;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(time, mass, grain_diameter, bed);
+  }
+};
+
+/// Opens the outlet of a hopper when its time has come, and counts the grains whose centre passes it.
+class Discharge {
+ public:
+  Discharge(World& world, const Hopper& hopper, Random& random);
+
+  void after_step(double time);
+
+  const std::optional<Charge>& charge() const { return charge_; }  ///< empty while the outlet is closed
+  std::size_t count() const { return passages_.size(); }
+  double mass() const { return passages_.empty() ? 0 : passages_.back().total_mass; }    ///< kg
+  double last_passage() const { return passages_.empty() ? 0 : passages_.back().time; }  ///< s
+
+  /// kg/s, the mean over the steady part; empty if less than that was discharged.
+  std::optional<double> mass_flow() const;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(charge_, has_passed_, passages_);
+  }
+
+ private:
+  struct Passage {
+    double time;
+    double total_mass;  // up to and including this grain
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(time, total_mass);
+    }
+  };
+  void open(double time);
+  const Passage* find_passage(double share) const;
+
+  World& world_;
+  const Hopper& hopper_;
+  Random& random_;
+  std::optional<Charge> charge_;
+  std::vector<bool> has_passed_;
+  std::vector<Passage> passages_;
+};
+
+}  // namespace falling_particles

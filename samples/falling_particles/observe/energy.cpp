@@ -1,0 +1,49 @@
+#include "energy.hpp"
+
+#include <algorithm>
+
+#include "world/body_energy.hpp"
+
+namespace falling_particles {
+Energy measure_energy(const World& world, const Scene& scene) {
+  Energy energy{0, 0};
+  const auto* const gravity = scene.gravity();
+  for (const Body& body : world.present()) {
+    energy.kinetic += kinetic_energy(body);
+    if (gravity == nullptr) continue;
+    const dReal* position = dBodyGetPosition(body.body);
+    for (int i = 0; i < 3; ++i) energy.potential -= body.mass.mass * gravity->acceleration[i] * position[i];
+  }
+  return energy;
+}
+
+double kinetic_height(const World& world, const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr) return 0;
+  double mass = 0;
+  for (const Body& body : world.present()) mass += body.mass.mass;
+  const double weight = mass * gravity->acceleration.norm();
+  return weight > 0 ? measure_energy(world, scene).kinetic / weight : 0;
+}
+
+double largest_kinetic_energy(const World& world) {
+  double largest = 0;
+  for (const Body& body : world.present()) largest = std::max(largest, kinetic_energy(body));
+  return largest;
+}
+
+EnergyWatch::EnergyWatch(const World& world, const Scene& scene)
+    : world_(world), scene_(scene), start_(measure_energy(world, scene).total()), least_(start_) {}
+
+void EnergyWatch::exchange(double energy) {
+  start_ += energy;
+  least_ += energy;
+}
+
+void EnergyWatch::after_step() {
+  const double now = measure_energy(world_, scene_).total();
+  gained_ = std::max(gained_, now - least_);
+  least_ = std::min(least_, now);
+}
+
+}  // namespace falling_particles

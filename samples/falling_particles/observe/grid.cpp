@@ -1,0 +1,141 @@
+// Fields on a grid of cells.
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "kinds.hpp"
+#include "region.hpp"
+
+namespace falling_particles {
+namespace {
+
+using Eigen::Matrix3d;
+
+/// The grains whose centres are in a cell.
+struct CellSums {
+  double mass = 0;                     // kg
+  double volume = 0;                   // m^3, of the grains
+  Vector3 place = Vector3::Zero();     // kg m, sum of m x
+  Vector3 velocity = Vector3::Zero();  // kg m/s, sum of m v
+  Matrix3d spread = Matrix3d::Zero();  // kg m^2, sum of m x x^T, then about the mean
+  Matrix3d shear = Matrix3d::Zero();   // kg m^2/s, sum of m x v^T, then about the means
+  double energy = 0;                   // kg m^2/s^2, sum of m v^2, then about the mean
+  std::size_t grains = 0;
+};
+
+/// What is left of the energy when the linear velocity field that fits best is taken off, in the directions in which the grains
+/// are spread at all; `unknowns`: of the field, per component of velocity.
+double energy_beside_field(const CellSums& sums, int& unknowns) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(sums.spread);
+  constexpr double kFlat = 1e-9;
+  double energy = sums.energy;
+  unknowns = 1;
+  for (int i = 0; i < 3; ++i) {
+    const double spread = solver.eigenvalues()[i];
+    if (spread <= kFlat * solver.eigenvalues()[2]) continue;
+    energy -= (sums.shear.transpose() * solver.eigenvectors().col(i)).squaredNorm() / spread;
+    ++unknowns;
+  }
+  return std::max(0.0, energy);
+}
+
+class Grid final : public Measurement {
+ public:
+  Grid(const SamplingRegion& region, const CellCounts& cells) : region_(region), cells_(cells) {}
+
+  std::string columns() const override {
+    return "time_s,cell_x,cell_y,cell_z,x_m,y_m,z_m,grains,density_kg/m3,volume_fraction,velocity_x_m/s,velocity_y_m/s,"
+           "velocity_z_m/s,granular_temperature_m2/s2,velocity_variance_m2/s2";
+  }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    const Bounds bounds = region_.bounds(sample.world);
+    std::vector<CellSums> all(number_of(cells_));
+    // Moments are taken about the means of the cells, so that nothing cancels: two passes.
+    for_each(
+        bounds, sample.world,
+        [&](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
+          sums.mass += body.mass.mass;
+          sums.volume += body.volume();
+          sums.place += body.mass.mass * place;
+          sums.velocity += body.mass.mass * velocity;
+          ++sums.grains;
+        },
+        all);
+    for_each(
+        bounds, sample.world,
+        [](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
+          const Vector3 x = place - sums.place / sums.mass;
+          const Vector3 v = velocity - sums.velocity / sums.mass;
+          sums.spread += body.mass.mass * x * x.transpose();
+          sums.shear += body.mass.mass * x * v.transpose();
+          sums.energy += body.mass.mass * v.squaredNorm();
+        },
+        all);
+    const Vector3 size =
+        (bounds.upper - bounds.lower)
+            .cwiseQuotient(Vector3(static_cast<double>(cells_[0]), static_cast<double>(cells_[1]), static_cast<double>(cells_[2])));
+    for (std::size_t index = 0; index < all.size(); ++index) {
+      const std::size_t i = index % cells_[0];
+      const std::size_t j = index / cells_[0] % cells_[1];
+      const std::size_t k = index / cells_[0] / cells_[1];
+      const Vector3 middle =
+          bounds.lower + size.cwiseProduct(Vector3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) +
+                                           Vector3::Constant(0.5));
+      table.add(sample.time).add(i).add(j).add(k).add(middle);
+      write(all[index], size.prod(), table);
+    }
+  }
+
+ private:
+  template <typename Visit>
+  void for_each(const Bounds& bounds, const World& world, Visit visit, std::vector<CellSums>& all) const {
+    for (const Body& body : world.present()) {
+      const Vector3 place = place_of(body, world);
+      const dReal* v = dBodyGetLinearVel(body.body);
+      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], body, place, Vector3(v[0], v[1], v[2]));
+    }
+  }
+
+  static void write(const CellSums& sums, double volume, TableText& table) {
+    table.add(sums.grains).add(sums.mass / volume).add(sums.volume / volume);
+    if (sums.grains == 0) {
+      constexpr int kOtherColumns = 5;
+      table.blank(kOtherColumns).end_line();
+      return;
+    }
+    table.add(Vector3(sums.velocity / sums.mass));
+    int unknowns = 0;
+    const double energy = energy_beside_field(sums, unknowns);
+    const auto grains = static_cast<double>(sums.grains);
+    if (grains > unknowns) {
+      table.add(energy / sums.mass / 3 * grains / (grains - unknowns));
+    } else {
+      table.blank();
+    }
+    table.add(sums.energy / sums.mass / 3).end_line();
+  }
+
+  SamplingRegion region_;
+  CellCounts cells_;
+};
+
+}  // namespace
+
+MeasurementKind grid_kind() {
+  return {
+      "grid",
+      "velocity, density, volume fraction and granular temperature in the cells of a grid; a grain counts where its centre is",
+      {{"lower, upper", "m, corners of the grid; without them all of a periodic cell"},
+       {"cells", "three whole numbers from 1 to 1000, along x, y and z; up to 1e6 cells"}},
+      "time, cell, its middle, grains, density, volume fraction, mean velocity by mass, granular temperature, velocity variance",
+      "granular temperature beside the cell's own velocity gradient: Glasser and Goldhirsch, Phys. Fluids 13 (2001) 407",
+      false,
+      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+        const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
+        const CellCounts cells = read_cells(table);
+        return [=](const World&) { return std::make_unique<Grid>(region, cells); };
+      }};
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,90 @@
+// How far the axes of a kind of grains are aligned.
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "kinds.hpp"
+#include "region.hpp"
+
+namespace falling_particles {
+namespace {
+
+using Eigen::Matrix3d;
+
+Vector3 axis_in_world(const Body& body, std::size_t axis) {
+  const auto [w, x, y, z] = body.quaternion();
+  return Eigen::Quaterniond(w, x, y, z).toRotationMatrix().col(static_cast<Eigen::Index>(axis));
+}
+
+class NematicOrder final : public Measurement {
+ public:
+  NematicOrder(const SamplingRegion& region, std::string grain, std::size_t axis)
+      : region_(region), grain_(std::move(grain)), axis_(axis) {}
+
+  std::string columns() const override { return "time_s,grains,order,director_x,director_y,director_z,biaxiality"; }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    const Bounds bounds = region_.bounds(sample.world);
+    Matrix3d sum = Matrix3d::Zero();
+    std::size_t grains = 0;
+    for (const Body& body : sample.world.present()) {
+      if (body.grain->name != grain_ || !bounds.contains(place_of(body, sample.world))) continue;
+      const Vector3 axis = axis_in_world(body, axis_);
+      sum += axis * axis.transpose();
+      ++grains;
+    }
+    table.add(sample.time).add(grains);
+    if (grains == 0) {
+      constexpr int kOtherColumns = 5;
+      table.blank(kOtherColumns).end_line();
+      return;
+    }
+    const Matrix3d Q = 1.5 * sum / static_cast<double>(grains) - 0.5 * Matrix3d::Identity();
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(Q);
+    const Vector3& values = solver.eigenvalues();  // rising
+    table.add(values[2]).add(Vector3(solver.eigenvectors().col(2))).add(values[1] - values[0]).end_line();
+  }
+
+ private:
+  SamplingRegion region_;
+  std::string grain_;
+  std::size_t axis_;
+};
+
+/// The half-axis of the grain that is longer, or shorter, than both others.
+std::size_t find_axis(const TomlTable& table, const Scene& scene, const std::string& name, const std::string& which) {
+  const auto kind = std::ranges::find(scene.grains, name, [](const GrainCount& count) { return count.grain.name; });
+  const std::array<double, 3>& axes = kind->grain.half_axes;
+  const auto [least, most] = std::ranges::minmax_element(axes);
+  const auto found = which == "longest" ? most : least;
+  if (std::ranges::count(axes, *found) > 1) {
+    table.fail("axis", "grain \"" + name + "\" has no single " + which + " half-axis (" + shortest(axes[0]) + ", " +
+                           shortest(axes[1]) + ", " + shortest(axes[2]) + " m); allowed: an axis that is one of a kind");
+  }
+  return static_cast<std::size_t>(found - axes.begin());
+}
+
+}  // namespace
+
+MeasurementKind nematic_order_kind() {
+  return {
+      "nematic_order",
+      "the alignment of an axis of one kind of grains",
+      {{"grain", "the kind's name"},
+       {"axis", "longest or shortest, the half-axis that is followed"},
+       {"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"}},
+      "time, grains, order parameter (largest eigenvalue of the mean of 3/2 u u - I/2), director, biaxiality (difference of the "
+      "others)",
+      "de Gennes and Prost, The Physics of Liquid Crystals (1993)",
+      false,
+      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+        const SamplingRegion region(table, scene, SamplingRegion::Without::Everywhere);
+        const std::string grain = read_grain(table, "grain", scene);
+        const std::size_t axis = find_axis(table, scene, grain, table.choice("axis", {"longest", "shortest"}));
+        return [=](const World&) { return std::make_unique<NematicOrder>(region, grain, axis); };
+      },
+      {"order", "biaxiality"},
+      "order parameter"};
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,82 @@
+// Force and torque on walls and parts.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "base/nearest_word.hpp"
+#include "kinds.hpp"
+#include "surfaces.hpp"
+
+namespace falling_particles {
+namespace {
+
+class PartForce final : public Measurement {
+ public:
+  PartForce(std::vector<dGeomID> geoms, const Vector3& about) : geoms_(std::move(geoms)), about_(about) {}
+
+  std::string columns() const override {
+    return "time_s,contacts,force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm";
+  }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    Vector3 force = Vector3::Zero();
+    Vector3 moment = Vector3::Zero();
+    std::size_t contacts = 0;
+    for (const PairContact& contact : sample.contacts) {
+      if (contact.body2 != nullptr || std::ranges::find(geoms_, contact.geom2) == geoms_.end()) continue;
+      force -= contact.force;
+      moment -= contact.moment;
+      if (contact.bears_force()) ++contacts;
+    }
+    table.add(sample.time).add(contacts).add(force).add(Vector3(moment - about_.cross(force))).end_line();
+  }
+
+ private:
+  std::vector<dGeomID> geoms_;
+  Vector3 about_;
+};
+
+std::vector<std::string> read_surfaces(const TomlTable& table, const Scene& scene) {
+  const std::vector<std::string> names = surface_names(scene);
+  if (names.empty()) {
+    table.fail("surfaces", std::string("part_force in a ") + kind_of(scene.container) + "; allowed: where there is a wall");
+  }
+  std::vector<std::string> chosen = table.has("surfaces") ? table.choices("surfaces", names) : names;
+  if (chosen.empty()) table.fail("surfaces", table.full_name("surfaces") + " is empty; allowed: words of " + join(names));
+  return chosen;
+}
+
+}  // namespace
+
+MeasurementKind part_force_kind() {
+  constexpr double kFarthest = 1e6;  // m
+  return {"part_force",
+          "the force of the grains on a wall or on several together, and its torque about a point",
+          {{"surfaces",
+            "names: floor, x_low, x_high, y_low, y_high (box, hopper's tray), lid, hopper, dish, ground (terrain), or of parts; "
+            "without "
+            "it all"},
+           {"about", "m, the point; the origin without it"}},
+          "time, force-bearing contacts, force, torque",
+          "sum of the feedback of ODE's contact joints",
+          true,
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+            const std::vector<std::string> chosen = read_surfaces(table, scene);
+            Vector3 about = Vector3::Zero();
+            if (table.has("about")) {
+              const std::vector<double> v = table.numbers("about", 3, Interval::closed(-kFarthest, kFarthest, "m"));
+              about = Vector3(v[0], v[1], v[2]);
+            }
+            return [chosen, about, names = surface_names(scene)](const World& world) {
+              std::vector<dGeomID> geoms;
+              for (const NamedSurface& surface : surfaces_of(world, names)) {
+                if (std::ranges::find(chosen, surface.name) != chosen.end()) geoms.push_back(surface.geom);
+              }
+              return std::make_unique<PartForce>(std::move(geoms), about);
+            };
+          },
+          {"force_x_N", "force_y_N", "force_z_N"},
+          "force, N"};
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,148 @@
+#include "region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace falling_particles {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFarthest = 1e6;  // m
+constexpr double kMostCells = 1000;
+
+Vector3 to_vector(const std::vector<double>& v) { return Vector3(v[0], v[1], v[2]); }
+
+}  // namespace
+
+double Bounds::share_of(const Vector3& a, const Vector3& b) const {
+  double from = 0;
+  double to = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = b[axis] - a[axis];
+    if (way == 0) {
+      if (a[axis] < lower[axis] || a[axis] >= upper[axis]) return 0;
+      continue;
+    }
+    const double one = (lower[axis] - a[axis]) / way;
+    const double two = (upper[axis] - a[axis]) / way;
+    from = std::max(from, std::min(one, two));
+    to = std::min(to, std::max(one, two));
+  }
+  return std::max(0.0, to - from);
+}
+
+SamplingRegion::SamplingRegion(const TomlTable& table, const Scene& scene, Without without) {
+  if (!table.has("lower") && !table.has("upper")) {
+    is_cell_ = std::holds_alternative<Periodic>(scene.container);
+    if (is_cell_ || without == Without::Everywhere) return;
+  }
+  const Interval anywhere = Interval::closed(-kFarthest, kFarthest, "m");
+  given_ = Bounds{to_vector(table.numbers("lower", 3, anywhere)), to_vector(table.numbers("upper", 3, anywhere))};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (given_->lower[axis] < given_->upper[axis]) continue;
+    table.fail("upper", table.full_name("upper") + "[" + std::to_string(axis) + "] is " + shortest(given_->upper[axis]) +
+                            "; allowed: a number above " + table.full_name("lower") + "[" + std::to_string(axis) + "], " +
+                            shortest(given_->lower[axis]) + " m");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const std::optional<Period>& period = scene.periodic[axis];
+    if (!period || (given_->lower[i] >= period->lower && given_->upper[i] <= period->upper())) continue;
+    const bool is_below = given_->lower[i] < period->lower;
+    const char* const key = is_below ? "lower" : "upper";
+    table.fail(key, table.full_name(key) + "[" + std::to_string(axis) + "] is " +
+                        shortest(is_below ? given_->lower[i] : given_->upper[i]) + "; allowed: from " + shortest(period->lower) +
+                        " to " + shortest(period->upper()) + " m, within the periodic cell");
+  }
+}
+
+Bounds SamplingRegion::bounds(const World& world) const {
+  if (given_) return *given_;
+  if (is_cell_) return {Vector3::Zero(), periods_of(world)};
+  Bounds everywhere{Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)};
+  if (world.cell() == nullptr) return everywhere;
+  for (int axis = 0; axis < 3; ++axis) {  // everything is once in a cell
+    const std::optional<Period>& period = world.cell()->axes()[static_cast<std::size_t>(axis)];
+    if (!period) continue;
+    everywhere.lower[axis] = period->lower;
+    everywhere.upper[axis] = period->upper();
+  }
+  return everywhere;
+}
+
+Vector3 periods_of(const World& world) {
+  Vector3 periods = Vector3::Zero();
+  if (world.cell() == nullptr) return periods;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::optional<Period>& period = world.cell()->axes()[static_cast<std::size_t>(axis)];
+    if (period) periods[axis] = period->length;
+  }
+  return periods;
+}
+
+Vector3 place_of(const Body& body, const World& world) {
+  const Point place = world.place_of(body);
+  return {place[0], place[1], place[2]};
+}
+
+double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods) {
+  double share = 0;
+  const auto most = [&periods](int axis) { return periods[axis] > 0 ? 1 : 0; };
+  for (int i = -most(0); i <= most(0); ++i) {
+    for (int j = -most(1); j <= most(1); ++j) {
+      for (int k = -most(2); k <= most(2); ++k) {
+        const Vector3 shift(i * periods[0], j * periods[1], k * periods[2]);
+        share += bounds.share_of(a + shift, b + shift);
+      }
+    }
+  }
+  return share;
+}
+
+std::size_t read_axis(const TomlTable& table, const char* key) {
+  return static_cast<std::size_t>(table.choice(key, {"x", "y", "z"}).front() - 'x');
+}
+
+CellCounts read_cells(const TomlTable& table) {
+  const std::vector<double> numbers = table.numbers("cells", 3, Interval::closed(1, kMostCells, "(a whole one)"));
+  CellCounts cells{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (numbers[axis] != std::floor(numbers[axis])) {
+      table.fail("cells", table.full_name("cells") + "[" + std::to_string(axis) + "] is " + shortest(numbers[axis]) +
+                              "; allowed: an array of 3 whole numbers from 1 to " + shortest(kMostCells));
+    }
+    cells[axis] = static_cast<std::size_t>(numbers[axis]);
+  }
+  constexpr std::size_t kMostOfAll = 1'000'000;
+  if (number_of(cells) > kMostOfAll) {
+    table.fail("cells", table.full_name("cells") + " makes " + std::to_string(number_of(cells)) + " cells; allowed: up to " +
+                            std::to_string(kMostOfAll));
+  }
+  return cells;
+}
+
+std::optional<std::size_t> cell_of(const Vector3& point, const Bounds& bounds, const CellCounts& cells) {
+  if (!bounds.contains(point)) return std::nullopt;
+  std::array<std::size_t, 3> at{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const double relative = (point[i] - bounds.lower[i]) / (bounds.upper[i] - bounds.lower[i]);
+    at[axis] = std::min(static_cast<std::size_t>(relative * static_cast<double>(cells[axis])), cells[axis] - 1);
+  }
+  return at[0] + cells[0] * (at[1] + cells[1] * at[2]);
+}
+
+std::vector<std::string> names_of_grains(const Scene& scene) {
+  std::vector<std::string> names;
+  names.reserve(scene.grains.size());
+  for (const GrainCount& kind : scene.grains) names.push_back(kind.grain.name);
+  return names;
+}
+
+std::string read_grain(const TomlTable& table, const char* key, const Scene& scene) {
+  return table.choice(key, names_of_grains(scene));
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,84 @@
+#include "simulation.hpp"
+
+#include <array>
+
+#include "base/archive.hpp"
+#include "world/placement.hpp"
+
+namespace falling_particles {
+namespace {
+
+using supernormal::effects::Cost;
+
+constexpr std::array kCounts = {&snStatistics::queries_cold,          &snStatistics::queries_warm,
+                                &snStatistics::evaluations_cold,      &snStatistics::evaluations_warm,
+                                &snStatistics::closed_forms,          &snStatistics::contacts,
+                                &snStatistics::not_converged,         &snStatistics::stalled,
+                                &snStatistics::out_of_evaluations,    &snStatistics::diverged,
+                                &snStatistics::contacts_not_converged};
+static_assert(sizeof(snStatistics) == kCounts.size() * sizeof(snCount));
+
+}  // namespace
+
+/// The bytes, of which the world is read first, since all others are made for it.
+struct Simulation::Saved {
+  explicit Saved(const std::string& bytes) : reader(bytes) { reader(world); }
+  Reader reader;
+  WorldState world;
+};
+
+Simulation::Simulation(const Scene& scene, int threads)
+    : random(scene.seed),
+      world(scene, place(scene, random)),
+      stepper(world, scene, threads),
+      watches(world, scene, random),
+      population(world, scene) {
+  snResetStatistics();
+}
+
+Simulation::Simulation(const Scene& scene, int threads, const std::string& saved) : Simulation(scene, threads, Saved(saved)) {}
+
+Simulation::Simulation(const Scene& scene, int threads, Saved&& saved)
+    : random(scene.seed),
+      world(scene, World::GoOn{}, saved.world),
+      stepper(world, scene, threads),
+      watches(world, scene, random),
+      population(world, scene) {
+  Reader& reader = saved.reader;
+  reader(random, stepper, watches, population);
+  for (const auto count : kCounts) reader(statistics_before_.*count);
+  effect_costs_before_ = world.effects().costs();
+  for (Cost& cost : effect_costs_before_) reader(cost.rows, cost.contacts, cost.coarse, cost.bodies, cost.seconds);
+  snResetStatistics();
+}
+
+std::string Simulation::save() const {
+  Writer writer;
+  writer(world.save(), random, stepper, watches, population);
+  const snStatistics counts = statistics();
+  for (const auto count : kCounts) writer(counts.*count);
+  for (const Cost& cost : effect_costs()) writer(cost.rows, cost.contacts, cost.coarse, cost.bodies, cost.seconds);
+  return writer.bytes();
+}
+
+snStatistics Simulation::statistics() const {
+  snStatistics sum;
+  snGetStatistics(&sum);
+  for (const auto count : kCounts) sum.*count += statistics_before_.*count;
+  return sum;
+}
+
+std::vector<Cost> Simulation::effect_costs() const {
+  std::vector<Cost> costs = world.effects().costs();
+  for (std::size_t i = 0; i < effect_costs_before_.size(); ++i) {
+    const Cost& before = effect_costs_before_[i];
+    costs[i].rows += before.rows;
+    costs[i].contacts += before.contacts;
+    costs[i].coarse += before.coarse;
+    costs[i].bodies += before.bodies;
+    costs[i].seconds += before.seconds;
+  }
+  return costs;
+}
+
+}  // namespace falling_particles

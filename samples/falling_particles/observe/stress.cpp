@@ -1,0 +1,126 @@
+// Stress of a box or of slices.
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "kinds.hpp"
+#include "region.hpp"
+
+namespace falling_particles {
+namespace {
+
+using Eigen::Matrix3d;
+
+/// What is in a slice.
+struct SliceSums {
+  Matrix3d contacts = Matrix3d::Zero();  // N m
+  Matrix3d momentum = Matrix3d::Zero();  // kg m^2/s^2, sum of m v v^T
+  Vector3 velocity = Vector3::Zero();    // kg m/s, sum of m v
+  double mass = 0;                       // kg
+  std::size_t grains = 0;
+};
+
+Bounds slice_of(const Bounds& all, std::size_t axis, std::size_t index, std::size_t count) {
+  Bounds slice = all;
+  const auto i = static_cast<Eigen::Index>(axis);
+  const auto at = [&](std::size_t k) {
+    return std::lerp(all.lower[i], all.upper[i], static_cast<double>(k) / static_cast<double>(count));
+  };
+  slice.lower[i] = at(index);
+  slice.upper[i] = at(index + 1);
+  return slice;
+}
+
+/// The force of a contact goes through grain 1 from its centre to the contact, and through grain 2 on to its centre.
+void add_contact(SliceSums& sums, const Bounds& slice, const PairContact& contact, const Vector3& periods) {
+  const Vector3 way1 = contact.centre1 - contact.position;
+  const Vector3 way2 = contact.position - contact.centre2;
+  const double share1 = share_of_images(slice, contact.centre1, contact.position, periods);
+  const double share2 = contact.body2 == nullptr ? 0 : share_of_images(slice, contact.position, contact.centre2, periods);
+  if (share1 == 0 && share2 == 0) return;
+  sums.contacts += contact.force * (share1 * way1 + share2 * way2).transpose();
+}
+
+void add_grain(SliceSums& sums, const Body& body) {
+  const dReal* v = dBodyGetLinearVel(body.body);
+  const Vector3 velocity(v[0], v[1], v[2]);
+  sums.mass += body.mass.mass;
+  sums.velocity += body.mass.mass * velocity;
+  sums.momentum += body.mass.mass * velocity * velocity.transpose();
+  ++sums.grains;
+}
+
+class Stress final : public Measurement {
+ public:
+  Stress(const SamplingRegion& region, std::size_t axis, std::size_t slices) : region_(region), axis_(axis), slices_(slices) {}
+
+  std::string columns() const override {
+    std::string text = "time_s,slice,lower_m,upper_m,grains";
+    for (const char* prefix : {"contact", "kinetic"}) {
+      for (const char* entry : {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}) {
+        text += std::string(",") + prefix + '_' + entry + "_Pa";
+      }
+    }
+    return text + ",pressure_Pa,deviator_Pa";
+  }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    const Bounds all = region_.bounds(sample.world);
+    const Vector3 periods = periods_of(sample.world);
+    const auto axis = static_cast<Eigen::Index>(axis_);
+    for (std::size_t index = 0; index < slices_; ++index) {
+      const Bounds slice = slice_of(all, axis_, index, slices_);
+      SliceSums sums;
+      for (const PairContact& contact : sample.contacts) add_contact(sums, slice, contact, periods);
+      for (const Body& body : sample.world.present()) {
+        if (slice.contains(place_of(body, sample.world))) add_grain(sums, body);
+      }
+      table.add(sample.time).add(index).add(slice.lower[axis]).add(slice.upper[axis]).add(sums.grains);
+      write(sums, slice.volume(), table);
+    }
+  }
+
+ private:
+  static void write(const SliceSums& sums, double volume, TableText& table) {
+    const Matrix3d contact = sums.contacts / volume;
+    Matrix3d kinetic = Matrix3d::Zero();
+    if (sums.mass > 0) kinetic = (sums.momentum - sums.velocity * sums.velocity.transpose() / sums.mass) / volume;
+    const Matrix3d total = contact + kinetic;
+    const double pressure = total.trace() / 3;
+    const Matrix3d deviator = (total + total.transpose()) / 2 - pressure * Matrix3d::Identity();
+    for (const Matrix3d& stress : {contact, kinetic}) {
+      for (Eigen::Index row = 0; row < 3; ++row) table.add(Vector3(stress.row(row)));
+    }
+    table.add(pressure).add(std::sqrt(1.5) * deviator.norm()).end_line();
+  }
+
+  SamplingRegion region_;
+  std::size_t axis_;
+  std::size_t slices_;
+};
+
+}  // namespace
+
+MeasurementKind stress_kind() {
+  constexpr std::int64_t kMostSlices = 1000;
+  return {
+      "stress",
+      "the stress tensor of a box or of slices of it, pressure positive",
+      {{"lower, upper", "m, corners of the box, which should lie within the container; without them all of a periodic cell"},
+       {"axis", "x, y or z, across which the box is sliced; z without it"},
+       {"slices", "1 to 1000, of equal thickness; 1 without it"}},
+      "time, slice, its ends, grains; contact part and kinetic part, nine components each; pressure, deviator",
+      "Love 1927, Weber 1966; share of a force by its way from centre to contact to centre: Weinhart et al., Granular Matter 14 "
+      "(2012)",
+      true,
+      [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+        const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
+        const std::size_t axis = table.has("axis") ? read_axis(table, "axis") : 2;
+        const std::int64_t slices = table.has("slices") ? table.integer("slices", 1, kMostSlices) : 1;
+        return [=](const World&) { return std::make_unique<Stress>(region, axis, static_cast<std::size_t>(slices)); };
+      },
+      {"pressure_Pa", "deviator_Pa"},
+      "stress, Pa"};
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,177 @@
+// The free surface of a bed and its slope.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "kinds.hpp"
+#include "region.hpp"
+
+namespace falling_particles {
+namespace {
+
+struct Settings {
+  std::size_t along;    // axis of the profile, x or y
+  std::size_t columns;  // along it
+  std::size_t rays;     // across it, in each column
+  double middle;        // share of the width to which the line is fitted
+};
+
+struct Top {
+  dGeomID geom;
+  std::array<dReal, 6> aabb;
+};
+
+/// m, the highest point of a grain on a vertical within the heights of the bounds.
+std::optional<double> height_at(const std::vector<Top>& tops, dGeomID ray, double x, double y, double least) {
+  std::optional<double> height;
+  for (const Top& top : tops) {
+    const auto& a = top.aabb;
+    if (x < a[0] || x > a[1] || y < a[2] || y > a[3] || a[5] <= height.value_or(least)) continue;
+    const double start = a[5] + (a[5] - a[4]);
+    dGeomRaySetLength(ray, start - a[4]);
+    dGeomRaySet(ray, x, y, start, 0, 0, -1);
+    dContactGeom hit;
+    if (dCollide(ray, top.geom, 1, &hit, sizeof hit) > 0 && hit.pos[2] > height.value_or(least)) height = hit.pos[2];
+  }
+  return height;
+}
+
+struct Slope {
+  double angle;           // degrees
+  double standard_error;  // degrees
+};
+
+/// A straight line through points by least squares; from three on.
+std::optional<Slope> fit(const std::vector<std::array<double, 2>>& points) {
+  if (points.size() < 3) return std::nullopt;
+  const auto n = static_cast<double>(points.size());
+  double x = 0;
+  double y = 0;
+  for (const auto& point : points) {
+    x += point[0] / n;
+    y += point[1] / n;
+  }
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  for (const auto& point : points) {
+    xx += (point[0] - x) * (point[0] - x);
+    xy += (point[0] - x) * (point[1] - y);
+    yy += (point[1] - y) * (point[1] - y);
+  }
+  const double slope = xy / xx;
+  const double error = std::sqrt(std::max(0.0, yy - slope * xy) / (n - 2) / xx);
+  const double degrees = 180 / std::numbers::pi;
+  return Slope{std::atan(slope) * degrees, error / (1 + slope * slope) * degrees};
+}
+
+class Surface final : public Measurement {
+ public:
+  Surface(const SamplingRegion& region, const Settings& settings) : region_(region), settings_(settings) {}
+
+  std::string columns() const override {
+    std::string text = "time_s,angle_deg,standard_error_deg,fitted_columns";
+    for (std::size_t i = 1; i <= settings_.columns; ++i) text += ",height_" + std::to_string(i) + "_m";
+    return text;
+  }
+
+  void measure(const Sample& sample, TableText& table) const override {
+    const Bounds bounds = region_.bounds(sample.world);
+    const std::vector<Top> tops = tops_of(sample.world, bounds);
+    const std::unique_ptr<dxGeom, decltype(&dGeomDestroy)> ray(dCreateRay(nullptr, 1), dGeomDestroy);
+    std::vector<std::optional<double>> heights;
+    std::vector<std::array<double, 2>> fitted;
+    const auto axis = static_cast<Eigen::Index>(settings_.along);
+    for (std::size_t i = 0; i < settings_.columns; ++i) {
+      const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(settings_.columns);
+      heights.push_back(column_height(tops, ray.get(), bounds, share));
+      if (heights.back() && std::abs(share - 0.5) <= settings_.middle / 2) {
+        fitted.push_back({std::lerp(bounds.lower[axis], bounds.upper[axis], share), *heights.back()});
+      }
+    }
+    table.add(sample.time);
+    if (const std::optional<Slope> slope = fit(fitted)) {
+      table.add(slope->angle).add(slope->standard_error);
+    } else {
+      table.blank(2);
+    }
+    table.add(fitted.size());
+    for (const std::optional<double>& height : heights) height ? table.add(*height) : table.blank();
+    table.end_line();
+  }
+
+ private:
+  static std::vector<Top> tops_of(const World& world, const Bounds& bounds) {
+    std::vector<Top> tops;
+    world.for_each_grain_geom([&](dGeomID geom) {
+      const dReal* p = dGeomGetPosition(geom);
+      if (p[2] < bounds.lower[2] || p[2] >= bounds.upper[2]) return;
+      Top& top = tops.emplace_back(Top{geom, {}});
+      dGeomGetAABB(geom, top.aabb.data());
+    });
+    return tops;
+  }
+
+  /// m, the mean over the rays of a column that meet a grain.
+  std::optional<double> column_height(const std::vector<Top>& tops, dGeomID ray, const Bounds& bounds, double share) const {
+    const auto along = static_cast<Eigen::Index>(settings_.along);
+    const Eigen::Index across = 1 - along;
+    double sum = 0;
+    int hits = 0;
+    for (std::size_t k = 0; k < settings_.rays; ++k) {
+      Vector3 at = Vector3::Zero();
+      at[along] = std::lerp(bounds.lower[along], bounds.upper[along], share);
+      at[across] = std::lerp(bounds.lower[across], bounds.upper[across],
+                             (static_cast<double>(k) + 0.5) / static_cast<double>(settings_.rays));
+      const std::optional<double> height = height_at(tops, ray, at[0], at[1], bounds.lower[2]);
+      if (!height) continue;
+      sum += *height;
+      ++hits;
+    }
+    return hits == 0 ? std::nullopt : std::optional(sum / hits);
+  }
+
+  SamplingRegion region_;
+  Settings settings_;
+};
+
+Settings read_settings(const TomlTable& table) {
+  constexpr std::int64_t kMostColumns = 1000;
+  const bool is_about_x = table.has("axis") && table.choice("axis", {"x", "y"}) == "x";
+  const auto count = [&table](const char* key, std::int64_t least, std::int64_t otherwise) {
+    return static_cast<std::size_t>(table.has(key) ? table.integer(key, least, kMostColumns) : otherwise);
+  };
+  const std::size_t columns = count("columns", 3, 40);
+  const std::size_t rays = count("rays", 1, 20);
+  const double middle = table.has("middle") ? table.number("middle", Interval::positive(1, "(share of the width)")) : 0.5;
+  return {is_about_x ? std::size_t{1} : std::size_t{0}, columns, rays, middle};
+}
+
+}  // namespace
+
+MeasurementKind surface_kind() {
+  return {"surface",
+          "the height of the bed in columns, and the slope of its middle: the dynamic angle of repose of a drum",
+          {{"lower, upper", "m, corners of a box; grains with centres between their heights count"},
+           {"axis", "x or y, the drum's: the profile runs along the other one; y without it"},
+           {"columns", "3 to 1000, along the profile; 40 without it"},
+           {"rays", "1 to 1000, vertical ones across each column, whose heights are averaged; 20 without it"},
+           {"middle", "in (0, 1], share of the width to which the line is fitted; 0.5 without it"}},
+          "time, angle (positive where the bed rises along the axis), its standard error, columns of the fit, heights",
+          "line of least squares through the middle: Henein et al., Metallurgical Transactions B 14 (1983)",
+          false,
+          [](const TomlTable& table, const Scene& scene) -> MeasurementMaker {
+            const SamplingRegion region(table, scene, SamplingRegion::Without::Refused);
+            const Settings settings = read_settings(table);
+            return [=](const World&) { return std::make_unique<Surface>(region, settings); };
+          },
+          {"angle_deg"},
+          "angle, degrees"};
+}
+
+}  // namespace falling_particles

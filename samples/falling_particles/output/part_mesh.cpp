@@ -1,0 +1,116 @@
+#include "part_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <supernormal/shapes/superovoid.hpp>
+#include <supernormal/shapes/tessellation.hpp>
+#include <utility>
+
+namespace falling_particles {
+namespace {
+
+constexpr double kChordError = 0.01;    // of the smallest half-axis
+constexpr unsigned int kSegments = 64;  // of a circle
+constexpr double kSharp = 0.87;         // cosine of 30 degrees between two triangles, above which their edge is not drawn
+
+std::array<float, 3> vertex(const Vector3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// A prism between two polygons, anticlockwise from above; the lower corners come first.
+Mesh prism(const std::vector<Vector3>& corners, double half_height) {
+  Mesh mesh;
+  const auto count = static_cast<unsigned int>(corners.size());
+  for (const double z : {-half_height, half_height}) {
+    for (const Vector3& corner : corners) mesh.vertices.push_back(vertex(corner + z * Vector3::UnitZ()));
+  }
+  for (unsigned int i = 0; i < count; ++i) {
+    const unsigned int next = (i + 1) % count;
+    mesh.triangles.push_back({i, next, next + count});
+    mesh.triangles.push_back({i, next + count, i + count});
+    if (i == 0 || next == 0) continue;
+    mesh.triangles.push_back({0, next, i});
+    mesh.triangles.push_back({count, i + count, next + count});
+  }
+  return mesh;
+}
+
+std::vector<Vector3> rectangle(double x, double y) {
+  return {{-x / 2, -y / 2, 0}, {x / 2, -y / 2, 0}, {x / 2, y / 2, 0}, {-x / 2, y / 2, 0}};
+}
+
+std::vector<Vector3> circle(double radius) {
+  std::vector<Vector3> corners;
+  for (unsigned int i = 0; i < kSegments; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSegments;
+    corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+  }
+  return corners;
+}
+
+struct Mesher {
+  double extent;
+
+  Mesh operator()(const PlaneShape& plane) const {
+    Mesh mesh;
+    const std::vector<Vector3> outline = plane.shown_radius > 0 ? circle(plane.shown_radius) : rectangle(extent, extent);
+    for (const Vector3& corner : outline) mesh.vertices.push_back(vertex(corner));
+    for (unsigned int i = 2; i < outline.size(); ++i) mesh.triangles.push_back({0, i - 1, i});
+    return mesh;
+  }
+  Mesh operator()(const BoxShape& box) const { return prism(rectangle(box.size.x(), box.size.y()), box.size.z() / 2); }
+  Mesh operator()(const CylinderShape& cylinder) const { return prism(circle(cylinder.radius), cylinder.length / 2); }
+  Mesh operator()(const SmoothShape& body) const {
+    const supernormal::Superovoid shape(body.half_axes, body.delta, body.epsilon, body.taper_x, body.taper_y);
+    const supernormal::Tessellation found = supernormal::tessellate(shape, kChordError * body.half_axes.minCoeff());
+    Mesh mesh;
+    for (const Vector3& point : found.points) mesh.vertices.push_back(vertex(point));
+    for (const auto& [a, b, c] : found.triangles) mesh.triangles.push_back({a, b, c});
+    return mesh;
+  }
+  Mesh operator()(const MeshShape& mesh) const { return {mesh.vertices, mesh.triangles}; }
+};
+
+Vector3 normal_of(const Mesh& mesh, const std::array<unsigned int, 3>& triangle) {
+  const auto corner = [&](std::size_t i) {
+    const auto& [x, y, z] = mesh.vertices[triangle[i]];
+    return Vector3(x, y, z);
+  };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+}
+
+/// The edges of one triangle alone, or between two that are bent.
+std::vector<std::array<unsigned int, 2>> sharp_edges(const Mesh& mesh) {
+  std::map<std::array<unsigned int, 2>, std::vector<Vector3>> normals;
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const unsigned int a = triangle[i], b = triangle[(i + 1) % 3];
+      normals[{std::min(a, b), std::max(a, b)}].push_back(normal_of(mesh, triangle));
+    }
+  }
+  std::vector<std::array<unsigned int, 2>> edges;
+  for (const auto& [edge, sides] : normals) {
+    if (sides.size() != 2 || sides[0].dot(sides[1]) < kSharp) edges.push_back(edge);
+  }
+  return edges;
+}
+
+}  // namespace
+
+ContainerPart picture_of(const Part& part, double extent) {
+  ContainerPart picture{part.name,
+                        part.moves() ? ContainerPart::Role::Moving : ContainerPart::Role::Still,
+                        std::visit(Mesher{extent}, part.shape),
+                        {}};
+  // Smooth bodies have no edges, however sharply their triangles bend.
+  if (!std::holds_alternative<SmoothShape>(part.shape)) picture.edges = sharp_edges(picture.mesh);
+  const auto* const mesh = std::get_if<MeshShape>(&part.shape);
+  picture.two_sided = mesh != nullptr && mesh->two_sided;
+  if (part.moves()) return picture;
+  for (auto& corner : picture.mesh.vertices) corner = vertex(part.start(Vector3(corner[0], corner[1], corner[2])));
+  return picture;
+}
+
+}  // namespace falling_particles

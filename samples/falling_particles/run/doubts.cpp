@@ -1,0 +1,258 @@
+#include "doubts.hpp"
+
+#include <supernormal/supernormal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <stdexcept>
+
+#include "base/input_error.hpp"
+#include "base/interval.hpp"
+#include "model/grain_shape.hpp"
+#include "model/lattice.hpp"
+#include "origins.hpp"
+#include "output/part_mesh.hpp"
+#include "world/world.hpp"
+
+namespace falling_particles {
+namespace {
+
+struct SurfacePoint {
+  Vector3 position;  // m
+  Vector3 normal;
+};
+
+/// The corners of the triangles that show a part, where it starts.
+std::vector<SurfacePoint> surface_of(const Part& part, double extent) {
+  const Mesh mesh = picture_of(part, extent).mesh;
+  const auto corner = [&](unsigned int index) {
+    const auto& [x, y, z] = mesh.vertices[index];
+    return part.moves() ? part.start(Vector3(x, y, z)) : Vector3(x, y, z);
+  };
+  std::vector<SurfacePoint> points;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3 normal = (corner(b) - corner(a)).cross(corner(c) - corner(a)).normalized();
+    for (const unsigned int index : {a, b, c}) points.push_back({corner(index), normal});
+  }
+  return points;
+}
+
+/// m/s, largest at any time.
+double normal_speed(const PartMotion& motion, const SurfacePoint& point, bool turns) {
+  const auto along = [&](const Vector3& velocity) { return turns ? velocity.norm() : std::abs(point.normal.dot(velocity)); };
+  if (const auto* translation = std::get_if<Translation>(&motion.kind)) return along(translation->velocity);
+  if (const auto* vibration = std::get_if<Vibration>(&motion.kind)) {
+    return along(2 * std::numbers::pi * vibration->frequency * vibration->amplitude);
+  }
+  if (const auto* rotation = std::get_if<Rotation>(&motion.kind)) {
+    const Vector3 spin = 2 * std::numbers::pi / 60 * rotation->rpm * rotation->axis;
+    return std::abs(point.normal.dot(spin.cross(point.position - rotation->point)));
+  }
+  return 0;  // a conveyor stands
+}
+
+/// m, the way of a driven part in its first step, from rest and against nothing.
+double first_way_of(const Drive& drive, double step) {
+  return step * step * std::abs(drive.force) / (drive.mass + step * drive.damping);
+}
+
+std::string in_half_axes(double way, const Scene& scene) {
+  return rounded(way / scene.smallest_half_axis()) + " of the smallest half-axis (" + shortest(scene.smallest_half_axis()) + " m)";
+}
+
+std::string moves_too_far(const std::string& who, double way, const Scene& scene) {
+  return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
+}
+
+// What grains that look ahead fall onto, they meet in time.
+void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
+  if (scene.looks_ahead()) return;
+  const std::optional<Fall> fall = fall_from_start(scene);
+  if (!fall || fall->way <= scene.smallest_half_axis()) return;
+  doubts.push_back("the start is " + rounded(fall->height) + " m high, and " +
+                   moves_too_far("without drag its last grains fall with " + rounded(fall->speed) + " m/s,", fall->way, scene) +
+                   "a container with a larger plan, feeders, or time.step up to " +
+                   rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
+}
+
+/// m, by which a grain under its own weight sinks into what carries it; infinite where overlaps are never corrected.
+double rest_depth_of(const GrainCount& kind, const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  const double weight =
+      std::pow(kind.smallest_scale(), 3) * mass_of(kind.grain) * (gravity == nullptr ? 0 : gravity->acceleration.norm());
+  return scene.solver.erp == 0 ? INFINITY : scene.solver.cfm * weight * scene.time.step / scene.solver.erp;
+}
+
+/// Contacts that a scene names as soft have a stiffness of their own.
+bool has_soft_contacts(const Scene& scene) {
+  return std::ranges::any_of(scene.effects, [](const supernormal::effects::Effect& effect) {
+    return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
+           std::holds_alternative<supernormal::effects::Hertz>(effect);
+  });
+}
+
+void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kSunk = 0.1;  // of the smallest half-axis
+  if (has_soft_contacts(scene) || scene.compression) return;
+  for (const GrainCount& kind : scene.grains) {
+    const double share = rest_depth_of(kind, scene) / (kind.smallest_scale() * kind.grain.smallest_half_axis());
+    if (!(share > kSunk)) continue;
+    doubts.push_back(std::isfinite(share) ? "grain \"" + kind.grain.name + "\" sinks by " + rounded(share) +
+                                                " of its smallest half-axis under its own weight: solver.cfm up to " +
+                                                rounded(scene.solver.cfm * kSunk / share) + " s/kg would do"
+                                          : "solver.erp is 0: overlaps are never corrected, and grains sink; 0.2 would do");
+    return;
+  }
+}
+
+void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
+  if (!scene.looks_ahead()) return;
+  for (const supernormal::effects::Effect& effect : scene.effects) {
+    const auto* const layer = std::get_if<supernormal::effects::SurfaceLayer>(&effect);
+    if (layer == nullptr) continue;
+    doubts.push_back("surface_layer leaves grains that rest " + rounded(layer->depth) +
+                     " m deep in one another, and speculative_contacts have no need of it: one of both would do");
+  }
+}
+
+/// What moves or is driven from the end of the run on stands.
+void add_late(const Scene& scene, const Part& part, std::vector<std::string>& doubts) {
+  const auto is_late = [&](double from) { return from >= scene.time.duration; };
+  if (std::ranges::none_of(part.motions, [&](const PartMotion& motion) { return is_late(motion.from); }) &&
+      !(part.drive && is_late(part.drive->from))) {
+    return;
+  }
+  doubts.push_back("part \"" + part.name + "\" has a motion or a drive that starts at the end of the run, after " +
+                   shortest(scene.time.duration) + " s, or later");
+}
+
+/// m, the least of the lengths that describe a solid; infinite for the others.
+double thinnest(const PartShape& shape) {
+  if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
+  if (const auto* body = std::get_if<SmoothShape>(&shape)) return body->half_axes.minCoeff();
+  return INFINITY;
+}
+
+void add_parts(const Scene& scene, std::vector<std::string>& doubts) {
+  constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
+  const double size = scene.smallest_half_axis();
+  for (const Part& part : scene.parts) {
+    add_late(scene, part, doubts);
+    if (const double least = thinnest(part.shape); least < kThin * size) {
+      doubts.push_back("part \"" + part.name + "\" is " + rounded(least) + " m thin, " + in_half_axes(least, scene) +
+                       ": is it in another unit?");
+    }
+    const double way = normal_way_of(part, scene);
+    if (way > size) {
+      doubts.push_back(moves_too_far("part \"" + part.name + "\" moves", way, scene) + "time.step up to " +
+                       rounded(scene.time.step * size / way) + " s would do");
+    }
+    if (!part.drive) continue;
+    const double first = first_way_of(*part.drive, scene.time.step);
+    if (first > size) {
+      doubts.push_back(moves_too_far("part \"" + part.name + "\" is driven", first, scene) + "part.drive.mass from " +
+                       rounded(part.drive->mass * first / size) + " kg on would do");
+    }
+  }
+}
+
+void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
+  for (const Feeder& feeder : scene.feeders) {
+    const double speed = std::hypot(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
+    const double way = speed * scene.time.step;
+    if (way > scene.smallest_half_axis() && !scene.looks_ahead()) {
+      doubts.push_back(moves_too_far("grains of feeder \"" + feeder.name + "\" move", way, scene) + "time.step up to " +
+                       rounded(scene.smallest_half_axis() / speed) + " s would do");
+    }
+    const double on = std::min(feeder.until, scene.time.duration) - feeder.from;
+    const double least = feeder.rate.of == Quantity::Of::Mass ? lightest_grain(feeder, scene) : 1;
+    if (!(feeder.rate.number * on >= least)) {
+      doubts.push_back("feeder \"" + feeder.name + "\" feeds nothing: no grain is due until it ends, or the run; a rate above " +
+                       feeder.rate.in_words() + "/s, or a longer time would do");
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Fall> fall_from_start(const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || scene.bodies() == 0 || std::holds_alternative<Periodic>(scene.container)) return std::nullopt;
+  const double height = filled_lattice(scene).top() - lowest_start(scene.container);
+  const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
+  return Fall{height, speed, speed * scene.time.step};
+}
+
+// README.md, "Contacts before overlap", has the measurement.
+std::optional<double> step_for_look_ahead(const Scene& scene) {
+  constexpr double kFlat = 4;         // least exponent of grains that lie on faces
+  constexpr double kStep = 1.0 / 10;  // of the time in which a grain would fall by half of its smallest half-axis
+  constexpr double kStepOfFlat = 1.0 / 25;
+  const auto* const gravity = scene.gravity();
+  if (!scene.looks_ahead() || has_soft_contacts(scene) || gravity == nullptr) return std::nullopt;
+  const double acceleration = gravity->acceleration.norm();
+  if (!(acceleration > 0)) return std::nullopt;
+  double least = INFINITY;
+  for (const GrainCount& kind : scene.grains) {
+    for (const GrainPart& part : kind.grain.all_parts()) {
+      const double fall = std::sqrt(kind.smallest_scale() * part.body.smallest_half_axis() / acceleration);
+      least = std::min(least, fall * (std::max(part.body.delta, part.body.epsilon) < kFlat ? kStep : kStepOfFlat));
+    }
+  }
+  return least;
+}
+
+double normal_way_of(const Part& part, const Scene& scene) {
+  const auto turns = [](const PartMotion& motion) { return std::holds_alternative<Rotation>(motion.kind); };
+  if (part.motions.empty()) return 0;
+  const bool any_turns = std::ranges::any_of(part.motions, turns);
+  const Rectangle plan = plan_of(scene.container);
+  double farthest = 0;
+  for (const SurfacePoint& point : surface_of(part, std::hypot(plan.width[0], plan.width[1]))) {
+    double speed = 0;
+    for (const PartMotion& motion : part.motions) speed += normal_speed(motion, point, any_turns);
+    farthest = std::max(farthest, scene.time.step * speed);
+  }
+  return farthest;
+}
+
+std::vector<std::string> doubts_about(const Scene& scene) {
+  std::vector<std::string> doubts;
+  add_fall(scene, doubts);
+  add_solver(scene, doubts);
+  add_layer(scene, doubts);
+  add_parts(scene, doubts);
+  add_feeders(scene, doubts);
+  std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
+  return doubts;
+}
+
+void refuse_overlapping_start(const Scene& scene) {
+  if (scene.parts.empty() || scene.bodies() == 0) return;
+  Random random(scene.seed);
+  const World world(scene, place(scene, random));
+  std::vector<std::pair<dGeomID, dGeomID>> pairs;
+  world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
+    static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
+  });
+  const std::vector<dGeomID>& parts = world.parts()->geoms();
+  for (const auto& [grain, wall] : pairs) {
+    const auto found = std::ranges::find(parts, wall);
+    if (found == parts.end()) continue;
+    snProximity proximity;
+    if (snGeomProximity(grain, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
+    const Body& body = *body_of(grain);
+    constexpr double kRounding = 1e-6;  // of the smallest half-axis
+    if (!(proximity.gap < -kRounding * body.smallest_half_axis())) continue;
+    const auto [x, y, z] = body.position();
+    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(body)) + " (" + body.grain->name +
+                     ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
+                     " m deep in part \"" + scene.parts[static_cast<std::size_t>(found - parts.begin())].name +
+                     "\"; allowed: parts that leave the start of the grains free");
+  }
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,82 @@
+#include "forecast.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/processor_time.hpp"
+#include "input/memory.hpp"
+#include "observe/measurement.hpp"
+#include "observe/simulation.hpp"
+
+namespace falling_particles {
+namespace {
+
+// Bytes a grain and frame, as 150 frames of 1000 grains have them (samples/benchmarks/README.md, pictures).
+constexpr double kTrajectory = 160;
+
+double bytes_of_picture(const std::string& format, double grain_frames) {
+  constexpr double kMega = 1e6;
+  if (format == "page")
+    return 0.7 * kMega + 25 * grain_frames + std::min(2.5 * kMega, 60 * grain_frames);  // itself; grains; contacts
+  if (format == "glb") return 0.1 * kMega + 33 * grain_frames;                          // meshes; grains
+  if (format == "lammps") return 307 * grain_frames;
+  if (format == "vtk") return 793 * grain_frames;
+  return 0;  // a still and plots are small
+}
+
+constexpr double kLineOfFrame = 300;    // bytes, of energies.csv and state.csv together
+constexpr double kLineOfContact = 260;  // bytes, of contact_forces
+
+std::uint64_t samples_of(const MeasurementRequest& request) {
+  const auto up_to = [&](int step) { return step < 0 ? 0 : step / request.every + 1; };
+  const int first = std::max(request.first, request.needs_contacts ? 1 : 0);
+  return static_cast<std::uint64_t>(std::max(0, up_to(request.last) - up_to(first - 1)));
+}
+
+/// A sample of the start tells the bytes of one, but for the lines of contacts.
+double bytes_of_sample(const MeasurementRequest& request, const World& world, int grains) {
+  TableText table;
+  request.make(world)->measure({0, world, {}}, table);
+  const double contacts = request.kind == "contact_forces" ? kContactsPerGrain * grains : 0;
+  return static_cast<double>(table.text().size()) + kLineOfContact * contacts;
+}
+
+/// s, the mean of the first steps.
+double time_start(Simulation& simulation) {
+  constexpr double kPatience = 0.5;  // s
+  const double start = processor_time();
+  int steps = 0;
+  do {
+    simulation.stepper.step();
+    ++steps;
+  } while (steps < 20 && processor_time() - start < kPatience);
+  return (processor_time() - start) / steps;
+}
+
+}  // namespace
+
+Forecast forecast(const Scene& scene) {
+  Forecast result;
+  const double most = scene.bodies() + most_fed(scene);
+  result.most_grains = static_cast<int>(most);
+  result.steps = scene.time.steps();
+  result.frames = 1 + (result.steps + scene.time.steps_per_frame() - 1) / scene.time.steps_per_frame();
+  result.memory = memory_needed(result.most_grains);
+  const double grain_frames = most * result.frames;
+  result.table_bytes = kTrajectory * grain_frames + kLineOfFrame * result.frames;
+  for (const std::string& format : scene.pictures) result.picture_bytes += bytes_of_picture(format, grain_frames);
+  {
+    Simulation simulation(scene, 1);
+    for (const MeasurementRequest& request : scene.measurements) {
+      result.samples.push_back(samples_of(request));
+      result.table_bytes +=
+          static_cast<double>(result.samples.back()) * bytes_of_sample(request, simulation.world, result.most_grains);
+    }
+    result.start_step = time_start(simulation);
+  }
+  constexpr int kEnough = 2000;  // grains: what is beyond the processor's caches
+  result.bed = time_bed(scene, std::clamp(result.most_grains, 2, kEnough));
+  return result;
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,198 @@
+#include "origins.hpp"
+
+#include <supernormal/supernormal.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <variant>
+
+#include "sight.hpp"
+#include "world/candidate.hpp"
+#include "world/free_places.hpp"
+#include "world/placement.hpp"
+#include "world/world.hpp"
+
+namespace falling_particles {
+namespace {
+
+/// Places from which grains of the start, or of a feeder, look around.
+struct Lookout {
+  std::string name;  // of a feeder; empty for the start
+  std::vector<Point> places;
+  bool falls;  // straight down, where there is gravity
+
+  std::string grains(std::size_t count) const {
+    if (!name.empty()) return "grains that feeder \"" + name + "\" brings are";
+    return std::to_string(count) + " of " + std::to_string(places.size()) + " grains start";
+  }
+};
+
+Lookout start_of(const Scene& scene) {
+  Random random(scene.seed);
+  Lookout origin{"", {}, true};
+  for (const Placement& placement : place(scene, random)) {
+    constexpr std::size_t kEnough = 1000;  // they are in random order
+    if (origin.places.size() < kEnough) origin.places.push_back(placement.position);
+  }
+  return origin;
+}
+
+/// Where grains fall, if they do: of unit length.
+std::optional<Vector3> down_in(const Scene& scene) {
+  const auto* const gravity = scene.gravity();
+  if (gravity == nullptr || gravity->acceleration.isZero(0)) return std::nullopt;
+  return gravity->acceleration.stableNormalized();
+}
+
+double smallest_radius(const Feeder& feeder, const Scene& scene) {
+  double least = INFINITY;
+  for (const FedKind& fed : feeder.mixture) {
+    const GrainCount& kind = scene.grains[fed.kind];
+    least = std::min(least, kind.smallest_scale() * kind.grain.bounding_radius());
+  }
+  return least;
+}
+
+/// The outermost centres of grains in the region, and its middle.
+Lookout origin_of(const Feeder& feeder, const Scene& scene) {
+  Lookout origin{feeder.name, {}, true};
+  const double radius = smallest_radius(feeder, scene);
+  const auto& [corner, size] = feeder.region;
+  origin.places.push_back({corner[0] + size[0] / 2, corner[1] + size[1] / 2, corner[2] + size[2] / 2});
+  for (unsigned i = 0; i < 8; ++i) {
+    Point& place = origin.places.emplace_back(corner);
+    for (unsigned axis = 0; axis < 3; ++axis) place[axis] += ((i >> axis) & 1U) != 0 ? size[axis] - radius : radius;
+  }
+  const std::optional<Vector3> down = down_in(scene);
+  const Vector3 velocity(feeder.velocity[0], feeder.velocity[1], feeder.velocity[2]);
+  origin.falls = down && velocity.cross(*down).norm() <= 1e-12 * velocity.norm();
+  return origin;
+}
+
+/// Where a grain may be held: below and beside it; on all sides without gravity.
+std::vector<Vector3> directions_of(const Scene& scene) {
+  const std::optional<Vector3> gravity = down_in(scene);
+  const Vector3 down = gravity.value_or(-Vector3::UnitZ());
+  const Vector3 side = down.unitOrthogonal(), other = down.cross(side);
+  std::vector<Vector3> directions = {down, side, -side, other, -other};
+  if (!gravity) directions.emplace_back(-down);
+  return directions;
+}
+
+void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
+  std::map<std::size_t, std::size_t> counts;  // of places, by part
+  for (const Point& place : origin.places) {
+    std::set<std::size_t> parts;
+    for (const Vector3& direction : directions_of(scene)) {
+      if (const auto seen = sight.look(place, direction); seen && seen->is_back) parts.insert(*seen->part);
+    }
+    for (const std::size_t part : parts) ++counts[part];
+  }
+  for (const auto& [part, count] : counts) {
+    doubts.push_back("part \"" + scene.parts[part].name + "\": " + origin.grains(count) +
+                     " behind a triangle, which does not hold them: a triangle is solid behind, and holds what sees its corners "
+                     "anticlockwise; turn its corners around, or let part.two_sided = true hold grains on both sides");
+  }
+}
+
+void add_void(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
+  const std::optional<Vector3> down = down_in(scene);
+  if (!down || !origin.falls || origin.places.empty()) return;
+  const auto lands = [&](const Point& place) {
+    const std::optional<Sight::Seen> below = sight.look(place, *down);
+    if (!below) return false;
+    const double way = std::max(0.0, below->distance - scene.smallest_half_axis());
+    return is_inside(scene, {place[0] + way * down->x(), place[1] + way * down->y(), place[2] + way * down->z()});
+  };
+  if (std::ranges::any_of(origin.places, lands)) return;
+  doubts.push_back(origin.grains(origin.places.size()) +
+                   " above nothing: no wall, part or sink is below them within the container, and they fall out of it");
+}
+
+void add_sunk(const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
+  const auto is_in_sink = [&](const Point& place) {
+    return std::ranges::any_of(scene.sinks, [&](const Sink& sink) { return sink.contains(place); });
+  };
+  if (origin.places.empty() || !std::ranges::all_of(origin.places, is_in_sink)) return;
+  doubts.push_back(origin.grains(origin.places.size()) + " within sinks, which take them at once");
+}
+
+/// Parts that stand outside a box, whose walls have no end. (It is not a periodic one, which has images of its parts.)
+void add_unreached(const World& world, std::vector<std::string>& doubts) {
+  const Scene& scene = world.scene();
+  const auto* const box = std::get_if<Box>(&scene.container);
+  if (box == nullptr || world.parts() == nullptr || is_any(scene.periodic)) return;
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    if (scene.parts[i].moves()) continue;
+    dReal aabb[6];
+    dGeomGetAABB(world.parts()->geoms()[i], aabb);
+    const auto& [x, y] = box->width;
+    if (aabb[1] > 0 && aabb[0] < x && aabb[3] > 0 && aabb[2] < y && aabb[5] > 0) continue;
+    doubts.push_back("part \"" + scene.parts[i].name + "\" stands outside the box of the container, where no grain meets it");
+  }
+}
+
+std::string name_of(dGeomID solid, const World& world) {
+  if (world.parts() == nullptr) return "the container";
+  const std::vector<dGeomID>& parts = world.parts()->geoms();
+  const auto found = std::ranges::find(parts, solid);
+  if (found == parts.end()) return "the container";
+  return "part \"" + world.parts()->part(static_cast<std::size_t>(found - parts.begin())).name + '"';
+}
+
+/// The names of the solids that are in the way of the grain at every place of many; none if one is free.
+std::set<std::string> names_in_the_way(const Feeder& feeder, std::size_t kind, const World& world) {
+  constexpr int kTries = 512;  // a region of which a hundredth is free is found full in one of 170
+  const GrainCount& fed = world.scene().grains[kind];
+  const Candidate grain(fed.grain, fed.smallest_scale());
+  const Neighbourhood walls(world, feeder.region);
+  Random random(world.scene().seed);
+  std::set<std::string> found;
+  for (int i = 0; i < kTries; ++i) {
+    grain.put(random_place(feeder.region, kind, grain.body().scale, grain.body().bounding_radius(), random));
+    const auto find = [&](dGeomID geom) { return walls.find_overlap(geom); };
+    const auto blocked = std::ranges::find_if(grain.geoms(), find);
+    if (blocked == grain.geoms().end()) return {};
+    found.insert(name_of(find(*blocked), world));
+  }
+  return found;
+}
+
+/// Whether there is one.
+bool add_full(const World& world, const Feeder& feeder, std::vector<std::string>& doubts) {
+  for (const FedKind& fed : feeder.mixture) {
+    std::string names;
+    for (const std::string& name : names_in_the_way(feeder, fed.kind, world)) names += (names.empty() ? "" : ", ") + name;
+    if (names.empty()) continue;
+    doubts.push_back("feeder \"" + feeder.name + "\" has no room for grain \"" + world.scene().grains[fed.kind].grain.name +
+                     "\" at the start: " + names + " is wherever it would come");
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_about_origins(const Scene& scene) {
+  std::vector<std::string> doubts;
+  if (std::holds_alternative<Periodic>(scene.container)) return doubts;
+  const World world(scene, std::vector<Placement>{});
+  const Sight sight(world);
+  std::vector<Lookout> origins = {start_of(scene)};
+  for (const Feeder& feeder : scene.feeders) {
+    if (!add_full(world, feeder, doubts)) origins.push_back(origin_of(feeder, scene));
+  }
+  for (const Lookout& origin : origins) {
+    add_sunk(scene, origin, doubts);
+    add_void(sight, scene, origin, doubts);
+    add_backs(sight, scene, origin, doubts);
+  }
+  add_unreached(world, doubts);
+  return doubts;
+}
+
+}  // namespace falling_particles

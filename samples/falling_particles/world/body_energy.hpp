@@ -1,0 +1,15 @@
+// The energy of a grain.
+#pragma once
+
+#include "model/scene.hpp"
+#include "world.hpp"
+
+namespace falling_particles {
+
+/// J, of translation and rotation.
+double kinetic_energy(const Body& body);
+
+/// J, kinetic and potential, 0 at rest at the origin.
+double energy_of(const Body& body, const Scene& scene);
+
+}  // namespace falling_particles

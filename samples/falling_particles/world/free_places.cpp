@@ -1,0 +1,65 @@
+#include "free_places.hpp"
+
+#include <supernormal/supernormal.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace falling_particles {
+namespace {
+
+using Aabb = std::array<dReal, 6>;  // x, x, y, y, z, z
+
+Aabb aabb_of(dGeomID geom) {
+  Aabb aabb;
+  dGeomGetAABB(geom, aabb.data());
+  return aabb;
+}
+
+bool meet(const Aabb& a, const Aabb& b) {
+  for (std::size_t i = 0; i < 6; i += 2) {
+    if (a[i] > b[i + 1] || b[i] > a[i + 1]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Neighbourhood::Neighbourhood(const World& world, const Region& region) {
+  Aabb box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box[2 * i] = region.corner[i];
+    box[2 * i + 1] = region.corner[i] + region.size[i];
+  }
+  const auto add_if_near = [&](dGeomID geom) {
+    if (dGeomIsEnabled(geom) != 0 && meet(aabb_of(geom), box)) geoms_.push_back(geom);
+  };
+  world.sweep().for_each_body(add_if_near);
+  std::ranges::for_each(world.walls().geoms(), add_if_near);
+  if (world.parts() != nullptr) std::ranges::for_each(world.parts()->geoms(), add_if_near);
+}
+
+dGeomID Neighbourhood::find_overlap(dGeomID geom) const {
+  const Aabb own = aabb_of(geom);
+  const auto found = std::ranges::find_if(geoms_, [&](dGeomID other) {
+    if (!meet(own, aabb_of(other))) return false;
+    snProximity proximity;
+    if (snGeomProximity(geom, other, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
+    return !(proximity.gap > 0);
+  });
+  return found == geoms_.end() ? nullptr : *found;
+}
+
+Placement random_place(const Region& region, std::size_t kind, double scale, double radius, Random& random) {
+  Placement place{kind, {}, {}, scale};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double room = std::max(0.0, region.size[axis] - 2 * radius);
+    place.position[axis] = region.corner[axis] + radius + room * random.uniform();
+  }
+  place.quaternion = random.rotation();
+  return place;
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,54 @@
+#include "placement.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/lattice.hpp"
+
+namespace falling_particles {
+namespace {
+
+/// The grains in random order, without their places.
+std::vector<Placement> shuffled_grains(const Scene& scene, Random& random) {
+  std::vector<Placement> grains;
+  for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) {
+    const auto count = static_cast<std::size_t>(scene.grains[kind].count);
+    for (std::size_t i = 0; i < count; ++i) grains.push_back({kind, {}, {}, scene.grains[kind].scale(i)});
+  }
+  for (std::size_t i = grains.size(); i > 1; --i) std::swap(grains[i - 1], grains[random.below(i)]);  // Fisher-Yates
+  return grains;
+}
+
+/// Scatters grains like the points of an ideal gas: they overlap, and are pushed apart in the first steps.
+std::vector<Placement> scatter(const Scene& scene, double side, Random& random) {
+  std::vector<Placement> placements = shuffled_grains(scene, random);
+  for (Placement& placement : placements) {
+    for (double& x : placement.position) x = side * random.uniform();
+    placement.quaternion = random.rotation();
+  }
+  return placements;
+}
+
+}  // namespace
+
+std::vector<Placement> place(const Scene& scene, Random& random) {
+  if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) return scatter(scene, periodic->side, random);
+  Lattice lattice(scene);
+  std::vector<double> radii;  // m, by kind
+  for (const GrainCount& kind : scene.grains) radii.push_back(kind.grain.bounding_radius());
+  std::vector<Placement> placements = shuffled_grains(scene, random);
+  for (Placement& placement : placements) {
+    // A grain may stand anywhere in its cell as long as its own bounding sphere is inside.
+    const double own_radius = placement.scale * radii[placement.kind];
+    const Lattice::Cell cell = lattice.next(own_radius);
+    placement.position = lattice.corner();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double room = std::max(0.0, cell.size[axis] - 2 * own_radius);
+      placement.position[axis] += cell.offset[axis] + own_radius + room * random.uniform();
+    }
+    placement.quaternion = random.rotation();
+  }
+  return placements;
+}
+
+}  // namespace falling_particles

@@ -1,0 +1,24 @@
+// Start positions of the grains.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/random.hpp"
+#include "model/scene.hpp"
+
+namespace falling_particles {
+
+struct Placement {
+  std::size_t kind;                  ///< index into Scene::grains
+  Point position;                    ///< m
+  std::array<double, 4> quaternion;  ///< w, x, y, z
+  double scale = 1;                  ///< of the grain's lengths
+};
+
+/// Places every grain: kinds are shuffled, layer upon layer on a jittered lattice, with random attitudes. No two touch, nor does
+/// any touch a wall: each stays within its own cell. In a periodic container grains are placed anywhere and may overlap.
+std::vector<Placement> place(const Scene& scene, Random& random);
+
+}  // namespace falling_particles

@@ -1,0 +1,76 @@
+// Steps of a simulation.
+#pragma once
+
+#include <ode/ode.h>
+#include <supernormal/supernormal.h>
+
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "base/stopwatch.hpp"
+#include "contact_joints.hpp"
+#include "model/scene.hpp"
+#include "world.hpp"
+
+namespace falling_particles {
+
+/// The time and the amount of work of all steps.
+struct StepCosts {
+  Stopwatch collision;      ///< broad and narrow phase
+  Stopwatch broad_phase;    ///< bounding boxes and pairs, within collision
+  Stopwatch contact_setup;  ///< effects' passes, contact joints made and removed
+  Stopwatch solver;         ///< dWorldQuickStep
+  unsigned long long pairs_tested = 0;
+  unsigned long long contacts = 0;
+  double narrow_phase_seconds() const { return collision.seconds() - broad_phase.seconds(); }
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(collision, broad_phase, contact_setup, solver, pairs_tested, contacts);
+  }
+};
+
+/// Advances a world: find contacts, turn them into constraints, step.
+class Stepper {
+ public:
+  /// `threads`, in [1, 256], look for contacts; 0: as many as the machine has. The motion is the same with any number.
+  Stepper(const World& world, const Scene& scene, int threads = 1);
+  ~Stepper();
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  /// If `measures`, measured_contacts() tells the forces of this step; the motion is the same.
+  void step(bool measures = false);
+
+  std::size_t contacts() const { return contacts_.size(); }                     ///< number of contacts in the last step
+  const std::vector<dContactGeom>& contact_geoms() const { return contacts_; }  ///< contacts of the last step
+  /// The contacts of the last step with their forces, if it measured them.
+  const std::deque<MeasuredContact>& measured_contacts() const { return joints_.measured(); }
+  double deepest_contact() const { return deepest_contact_; }  ///< m, over all steps
+  const StepCosts& costs() const { return costs_; }
+
+  /// What the steps so far have left, but for the contacts of the last one.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(deepest_contact_, costs_);
+  }
+
+ private:
+  void collide_grains();
+  void collide_with_walls();
+  void sort_contacts();
+  static int name_pair(void* self, dGeomID g1, dGeomID g2);
+  static void add_contacts(void* self, dGeomID g1, dGeomID g2, const dContactGeom* contacts, int count);
+
+  const World& world_;
+  double step_;
+  bool may_sleep_;  // if true, pairs without an awake body are skipped
+  ContactJoints joints_;
+  snBatchID batch_;
+  std::vector<std::pair<dGeomID, dGeomID>> wall_pairs_;
+  std::vector<dContactGeom> contacts_;
+  double deepest_contact_ = 0;
+  StepCosts costs_;
+};
+
+}  // namespace falling_particles

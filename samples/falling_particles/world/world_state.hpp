@@ -1,0 +1,44 @@
+// What a world is between two steps.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/geometry.hpp"
+#include "part_bodies.hpp"
+
+namespace falling_particles {
+
+/// A grain, or what is left of one that is gone.
+struct SavedBody {
+  std::uint64_t kind = 0;  ///< index into Scene::grains
+  double scale = 1;        ///< of the grain's lengths
+  double mass = 0;         ///< kg
+  bool is_present = true;
+  bool is_awake = true;
+  Point position = {};  ///< m
+  std::array<double, 4> quaternion = {1, 0, 0, 0};
+  Point velocity = {};          ///< m/s
+  Point angular_velocity = {};  ///< rad/s
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(kind, scale, mass, is_present, is_awake, position, quaternion, velocity, angular_velocity);
+  }
+};
+
+struct WorldState {
+  std::uint64_t seed = 0;         ///< of ODE's random numbers
+  std::vector<SavedBody> bodies;  ///< all that there have been so far
+  bool has_lid = false;           ///< on a hopper's outlet
+  Point periods = {};             ///< m, of the cell along x, y and z; 0 where there is none
+  PartsState parts;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(seed, bodies, has_lid, periods, parts);
+  }
+};
+
+}  // namespace falling_particles

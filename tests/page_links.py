@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""Fails where a page of the repository links to a file, or to a heading of a page, that is not there: page_links.py FOLDER."""
+import pathlib
+import re
+import subprocess
+import sys
+
+
+def anchors(page):
+    """The anchors of a page's headings, as GitHub and GitLab make them."""
+    found = set()
+    for heading in re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.S | re.M), re.M):
+        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
+        found.add(re.sub(r"[^\w\- ]", "", text).strip().replace(" ", "-"))
+    return found
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    pages = subprocess.run(["git", "-C", root, "ls-files", "*.md"], capture_output=True, text=True, check=True).stdout.split()
+    links, broken = 0, []
+    for name in pages:
+        page = root / name
+        text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.S | re.M)
+        for target in re.findall(r"\]\(([^)\s]+)\)", text):
+            if re.match(r"[a-z]+:", target):
+                continue
+            links += 1
+            path, _, anchor = target.partition("#")
+            file = (page.parent / path) if path else page
+            if not file.exists() or (anchor and file.suffix == ".md" and anchor not in anchors(file)):
+                broken.append(f"{name}: {target}")
+    if links < 100:
+        sys.exit(f"only {links} links in {len(pages)} pages: has the layout changed?")
+    if broken:
+        sys.exit("\n".join(broken))
+    print(f"{links} links in {len(pages)} pages")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,214 @@
+// Tests of the [[part]] sections of scene files: what they may say, and what is said of mistakes.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include "complaint.hpp"
+#include "input/load_mesh.hpp"
+#include "scenes.hpp"
+
+using namespace falling_particles;
+
+namespace {
+
+constexpr const char* kPart = R"(
+[[part]]
+name = "plate"
+shape = "box"
+size = [0.1, 0.2, 0.02]
+position = [0, 0, 0.5]
+axis = [0, 0, 2]
+angle = 90
+[[part.motion]]
+kind = "vibration"
+direction = [0, 0, 3]
+amplitude = 0.001
+frequency = 50
+phase = 90
+from = 0.01
+until = 0.05
+[[part.motion]]
+kind = "rotation"
+axis = [0, 1, 0]
+point = [0, 0, 1]
+rpm = 30
+[part.drive]
+axis = [0, 0, -1]
+pressure = 1000
+mass = 0.2
+travel = [0, 0.3]
+)";
+
+constexpr const char* kNone = R"(kind = "none"
+start = {corner = [0, 0, 0], size = [0.05, 0.06, 0.2]}
+bounds = {corner = [-0.1, -0.1, -0.1], size = [0.3, 0.3, 0.4]})";
+
+std::string with_part(const std::string& part = kPart) {
+  std::string text = kSceneText;
+  text += part;
+  return text;
+}
+
+constexpr const char* kTetrahedron = R"(solid t
+facet normal 0 0 -1
+outer loop
+vertex 0 0 0
+vertex 0 10 0
+vertex 10 0 0
+endloop
+endfacet
+facet normal 0 -1 0
+outer loop
+vertex 0 0 0
+vertex 10 0 0
+vertex 0 0 10
+endloop
+endfacet
+facet normal -1 0 0
+outer loop
+vertex 0 0 0
+vertex 0 0 10
+vertex 0 10 0
+endloop
+endfacet
+facet normal 1 1 1
+outer loop
+vertex 10 0 0
+vertex 0 10 0
+vertex 0 0 10
+endloop
+endfacet
+endsolid t
+)";
+
+}  // namespace
+
+TEST_CASE("a part is read as it is written") {
+  const Scene scene = scene_of(with_part());
+  REQUIRE(scene.parts.size() == 1);
+  const Part& part = scene.parts[0];
+  CHECK(part.name == "plate");
+  CHECK(std::get<BoxShape>(part.shape).size == Vector3(0.1, 0.2, 0.02));
+  CHECK((part.start(Vector3::UnitX()) - Vector3(0, 1, 0.5)).norm() < 1e-15);
+  REQUIRE(part.motions.size() == 2);
+  const auto& vibration = std::get<Vibration>(part.motions[0].kind);
+  CHECK(vibration.amplitude == Vector3(0, 0, 0.001));
+  CHECK(part.motions[0].until == 0.05);
+  CHECK(std::get<Rotation>(part.motions[1].kind).rpm == 30);
+  REQUIRE(part.drive);
+  CHECK(part.drive->force ==
+        doctest::Approx(1000 * 0.1 * 0.2));  // the area that a box shows along z, however it is turned about it
+  CHECK(part.drive->travel[1] == 0.3);
+}
+
+TEST_CASE("a mistake in a part is told with its name, its value and what is allowed") {
+  const std::vector<Mistake> mistakes = {
+      {"shape = \"box\"", "shape = \"bx\"", {"part.shape is \"bx\"", "did you mean \"box\"", "superovoid"}},
+      {"name = \"plate\"", "name = \"a, b\"", {"part.name is \"a, b\"", "letters, digits"}},
+      {"size = [0.1, 0.2, 0.02]", "size = [0.1, -0.2, 0.02]", {"part.size[1] is -0.2", "(0, 1000] m"}},
+      {"size = [0.1, 0.2, 0.02]", "radius = 1\nsize = [1, 1, 1]", {"unknown key \"radius\"", "size"}},
+      {"axis = [0, 0, 2]", "axis = [0, 0, 0]", {"part.axis is [0, 0, 0]", "a direction"}},
+      {"axis = [0, 0, 2]", "", {"part.axis is missing"}},
+      {"kind = \"vibration\"", "kind = \"shake\"", {"part.motion.kind is \"shake\"", "conveyor"}},
+      {"frequency = 50", "frequency = 500", {"part.motion.frequency is 500", "(0, 200] Hz", "ten time.step"}},
+      {"amplitude = 0.001", "amplitude = 0", {"part.motion.amplitude is 0", "(0, 1000] m"}},
+      {"until = 0.05", "until = 0.01", {"part.motion.until is 0.01", "after from"}},
+      {"rpm = 30", "rpm = 30000", {"part.motion.rpm is 30000", "[-12000, 12000]", "tenth"}},
+      {"rpm = 30", "rpm = 30\nfrequency = 1", {"unknown key \"frequency\""}},
+      {"pressure = 1000", "", {"part.drive.force and part.drive.pressure are missing", "one of them"}},
+      {"pressure = 1000", "pressure = 1\nforce = 1", {"are both given", "one of them"}},
+      {"mass = 0.2", "mass = 0", {"part.drive.mass is 0", "kg"}},
+      {"travel = [0, 0.3]", "travel = [0.1, 0.3]", {"part.drive.travel is [0.1, 0.3]", "0 or less"}},
+  };
+  for (const Mistake& mistake : mistakes) {
+    CAPTURE(mistake.to);
+    check_says(complaint(replaced(with_part(), mistake.from, mistake.to)), mistake.says);
+  }
+  check_says(complaint(with_part(std::string(kPart) + kPart)), {"part.name is \"plate\"", "another part"});
+  check_says(complaint(scene_in("kind = \"periodic\"\nside = 0.1") + kPart), {"part in a periodic container"});
+}
+
+TEST_CASE("a conveyor needs a velocity or a turn, and no drive") {
+  const std::string belt = "[[part]]\nname = \"belt\"\nshape = \"plane\"\n[[part.motion]]\nkind = \"conveyor\"\n";
+  check_says(complaint(with_part(belt)), {"part.motion.velocity is missing", "or axis, point and rpm"});
+  check_says(complaint(with_part(belt + "axis = [0, 0, 1]\n")), {"part.motion.point is missing"});
+  CHECK(complaint(with_part(belt + "velocity = [1, 0, 0]\n")).empty());
+  const std::string drive = "[part.drive]\naxis = [0, 0, 1]\nforce = 1\nmass = 1\n";
+  check_says(complaint(with_part(belt + "velocity = [1, 0, 0]\n" + drive)), {"part.drive besides", "conveyor"});
+}
+
+TEST_CASE("a superovoid that is not convex is refused") {
+  const std::string part = "[[part]]\nname = \"egg\"\nshape = \"superovoid\"\nhalf_axes = [1, 1, 1]\ndelta = 2\nepsilon = 2\n";
+  check_says(complaint(with_part(part + "taper = [0.9, 0.9]\n")), {"part.taper", "taper"});
+  CHECK(complaint(with_part(part + "taper = [0.3, 0.3]\n")).empty());
+}
+
+TEST_CASE("a pressure on a shape without a plan area needs one") {
+  const std::string part =
+      "[[part]]\nname = \"lid\"\nshape = \"plane\"\n[part.drive]\naxis = [0, 0, -1]\npressure = 100\nmass = 1\n";
+  check_says(complaint(with_part(part)), {"part.drive.area is missing", "m^2"});
+  CHECK(scene_of(with_part(part + "area = 0.02\n")).parts[0].drive->force == doctest::Approx(2));
+}
+
+TEST_CASE("without a container parts do the work: where grains start and where they have leaked is said") {
+  const Scene scene = scene_of(scene_in(kNone) + kPart);
+  CHECK(contains(scene.container, {0, 0, -0.05}));
+  CHECK_FALSE(contains(scene.container, {0, 0, -0.2}));
+  check_says(complaint(scene_in(kNone)), {"container.kind is \"none\" in a scene without parts", "[[part]]"});
+  check_says(complaint(replaced(scene_in(kNone), "size = [0.05, 0.06, 0.2]", "size = [0.05, 0.06, 0.4]") + kPart),
+             {"container.start reaches from 0 to 0.4 m along z", "within container.bounds"});
+  // A layer has 2 by 3 cells.
+  check_says(complaint(replaced(scene_in(kNone), "size = [0.05, 0.06, 0.2]", "size = [0.05, 0.06, 0.04]") + kPart),
+             {"the scene has 7 grains", "up to 6"});
+}
+
+TEST_CASE("a mesh is read in its unit, and what is wrong with its file is said") {
+  if (!can_load_meshes()) return;
+  const TemporaryFolder folder;
+  folder.write("grains.toml", kCatalogueText);
+  folder.write("t.stl", kTetrahedron);
+  folder.write("broken.stl", "");
+  folder.write("nan.stl", replaced(kTetrahedron, "endfacet\nendsolid t",
+                                   "endfacet\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\n"
+                                   "vertex 1 nan 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t"));
+  folder.write("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 2 1 3\n");
+  folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  folder.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const auto load = [&](const std::string& file, const std::string& unit) {
+    return load_scene(folder.write(
+        "scene.toml", with_part("[[part]]\nname = \"m\"\nshape = \"mesh\"\nfile = \"" + file + "\"\nunit = \"" + unit + "\"\n")));
+  };
+  const auto refusal = [&](const std::string& file, const std::string& unit) -> std::string {
+    try {
+      load(file, unit);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto mesh = std::get<MeshShape>(load("t.stl", "mm").parts[0].shape);
+  CHECK(mesh.vertices.size() == 4);
+  CHECK(mesh.triangles.size() == 4);
+  CHECK(bounding_radius(mesh) == doctest::Approx(0.01));
+  CHECK(std::get<MeshShape>(load("square.obj", "inch").parts[0].shape).triangles.size() == 2);
+  // An OBJ that names a file of materials is read as without it: lines of the file would be quoted in warnings.
+  folder.write("secret", "newmtl a\nmap_Kd secret\nroot:$6$hash:19000:0:99999:7:::\n");
+  for (const std::string& named :
+       {folder.path().string() + "/secret", std::string("secret"), std::string("../secret"), std::string("pipe.stl")}) {
+    folder.write("named.obj", "mtllib " + named + "\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    REQUIRE(mkfifo((folder.path() / "pipe.stl").c_str(), 0600) == 0);
+    CHECK(std::get<MeshShape>(load("named.obj", "inch").parts[0].shape).triangles.size() == 2);
+    check_says(refusal("pipe.stl", "mm"), {"part.file", "pipe.stl\" is a pipe or a socket, and no file"});
+    std::filesystem::remove(folder.path() / "pipe.stl");
+  }
+  check_says(refusal("none.stl", "mm"), {"part.file", "there is no file", "none.stl"});
+  check_says(refusal("points.obj", "mm"), {"part.file", "points.obj"});
+  check_says(refusal("broken.stl", "mm"), {"part.file", "broken.stl", "cannot be read"});
+  check_says(refusal("nan.stl", "mm"), {"part.file", "nan.stl\" has a coordinate that is not finite"});
+  check_says(refusal("twice.obj", "m"),
+             {"part.file: \"twice.obj\" has 1 triangles with their corners in both orders", "part.two_sided = true"});
+  const auto sheet = std::get<MeshShape>(load("twice.obj", "m\"\ntwo_sided = true # ").parts[0].shape);
+  CHECK(sheet.two_sided);
+  CHECK(sheet.triangles.size() == 1);
+  check_says(refusal("t.step", "mm"), {"part.file is \"t.step\"", ".stl or .obj"});
+  check_says(refusal("t.stl", "ft"), {"part.unit is \"ft\"", "inch"});
+}

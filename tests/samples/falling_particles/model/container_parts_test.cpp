@@ -1,0 +1,197 @@
+// Tests of containers that are made of parts: where their walls are and how they move, and what is said of mistakes.
+#include "model/container_parts.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "complaint.hpp"
+#include "observe/leaks.hpp"
+#include "relative.hpp"
+#include "scenes.hpp"
+#include "world/stepper.hpp"
+
+using namespace falling_particles;
+using supernormal::test::relative;
+
+namespace {
+
+constexpr const char* kDrum = R"(kind = "drum"
+diameter = 0.1
+length = 0.05
+segments = 48
+rpm = 30)";
+
+constexpr const char* kTray = R"(kind = "tray"
+width = [0.05, 0.06]
+wall_height = 0.05
+thickness = 0.01
+direction = [0, 0, 1]
+amplitude = 0.001
+frequency = 30)";
+
+constexpr const char* kCell = R"(kind = "shear_cell"
+width = [0.05, 0.06]
+height = 0.12
+cut = 0.02
+thickness = 0.01
+lid = 0.11
+lid_mass = 0.1
+pressure = 500
+speed = 0.05)";
+
+constexpr const char* kBelt = R"(kind = "conveyor"
+length = 0.2
+width = 0.06
+height = 0.1
+thickness = 0.02
+wall_height = 0.05
+speed = 0.4
+drop_length = 0.1)";
+
+const Part& find(const std::vector<Part>& parts, const std::string& name) {
+  const auto found = std::ranges::find(parts, name, &Part::name);
+  REQUIRE(found != parts.end());
+  return *found;
+}
+
+/// Velocity of the surface of a part at a point of the world, at the start.
+Vector3 surface_velocity(const Part& part, const Vector3& point) {
+  const PartVelocity v = conveyor_velocity(part.start, part.start, part.motions, 1, 1.001);
+  return v.linear + v.angular.cross(point - part.start.position);
+}
+
+/// The largest extent of a box of parts along an axis that is below or above a point of it.
+double face(const Part& part, int axis, int side) {
+  return part.start.position[axis] + side * std::get<BoxShape>(part.shape).size[axis] / 2;
+}
+
+}  // namespace
+
+TEST_CASE("the shell of a drum is around its axis, at its radius, and looks inwards; the ends look at one another") {
+  const Scene scene = scene_of(scene_in(kDrum));
+  const Part& shell = find(scene.parts, "drum");
+  const auto& mesh = std::get<MeshShape>(shell.shape);
+  const auto corner = [&](unsigned int index) -> Vector3 {
+    const auto& [x, y, z] = mesh.vertices[index];
+    return shell.start(Vector3(x, y, z));
+  };
+  const Vector3 middle(0, 0.025, 0.05);
+  CHECK(mesh.triangles.size() == 2 * 48);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3 normal = (corner(b) - corner(a)).cross(corner(c) - corner(a)).normalized();
+    CHECK(normal.dot(middle - corner(a)) == relative(0.05).epsilon(1e-5));
+  }
+  CHECK((find(scene.parts, "near_end").start.rotation * Vector3::UnitZ() - Vector3::UnitY()).norm() < 1e-15);
+  CHECK((find(scene.parts, "far_end").start.rotation * Vector3::UnitZ() + Vector3::UnitY()).norm() < 1e-15);
+  CHECK(contains(scene.container, {0, 0.01, 0.001}));
+  CHECK_FALSE(contains(scene.container, {0.04, 0.01, 0.001}));
+  CHECK_FALSE(contains(scene.container, {0, 0.06, 0.05}));
+}
+
+TEST_CASE("grains in a drum that turns stay in it, and its flat sides stand where only its surface turns") {
+  for (const bool is_smooth : {false, true}) {
+    CAPTURE(is_smooth);
+    Scene scene = scene_of(Drum{0.08, 0.04, 32, 60, is_smooth, 0.1}, {{lentil(), 60}});
+    scene.parts = parts_in(scene.container);
+    Random random(1);
+    const World world(scene, place(scene, random));
+    Stepper stepper(world, scene);
+    LeakWatch leaks(world, scene);
+    for (int step = 1; step <= 2200; ++step) {
+      stepper.step();
+      leaks.after_step(step * scene.time.step);
+    }
+    CHECK(leaks.count() == 0);
+    // It has turned once since 0.1 s.
+    const PartState state = world.parts()->state(0);
+    CHECK((state.pose.rotation * Vector3::UnitX() - Vector3::UnitX()).norm() < 1e-12);
+    // A positive speed moves the floor towards -x: the bed leans on that side.
+    double x = 0;
+    for (const Body& body : world.bodies()) x += body.position()[0] / static_cast<double>(world.bodies().size());
+    CHECK(x < -0.008);
+  }
+}
+
+TEST_CASE("all parts of a tray shake together, and grains fit between its walls") {
+  const Scene scene = scene_of(scene_in(kTray));
+  REQUIRE(scene.parts.size() == 5);
+  for (const Part& part : scene.parts) CHECK(std::get<Vibration>(part.motions.at(0).kind).amplitude == Vector3(0, 0, 0.001));
+  CHECK(face(find(scene.parts, "tray_floor"), 2, 1) == doctest::Approx(0));
+  CHECK(face(find(scene.parts, "tray_left"), 0, 1) == doctest::Approx(0));
+  CHECK(face(find(scene.parts, "tray_right"), 0, -1) == doctest::Approx(0.05));
+  CHECK(face(find(scene.parts, "tray_front"), 1, 1) == doctest::Approx(0));
+  CHECK(face(find(scene.parts, "tray_back"), 1, -1) == doctest::Approx(0.06));
+  CHECK(contains(scene.container, {0.01, 0.01, -0.001}));
+  CHECK_FALSE(contains(scene.container, {0.01, 0.01, -0.003}));
+}
+
+TEST_CASE("the lower half of a shear cell moves, the upper one stands, and the lid presses on the plan") {
+  const Scene scene = scene_of(scene_in(kCell));
+  for (const Part& part : scene.parts) {
+    CAPTURE(part.name);
+    CHECK(part.moves() == !part.name.starts_with("upper"));
+  }
+  CHECK(std::get<Translation>(find(scene.parts, "lower_left").motions.at(0).kind).velocity == Vector3(0.05, 0, 0));
+  CHECK(face(find(scene.parts, "lower_left"), 2, 1) == doctest::Approx(0.02));
+  CHECK(face(find(scene.parts, "upper_left"), 2, -1) == doctest::Approx(0.02));
+  const Part& lid = find(scene.parts, "lid");
+  CHECK(lid.drive->force == doctest::Approx(500 * 0.05 * 0.06));
+  CHECK(lid.drive->axis == Vector3(0, 0, -1));
+  CHECK(face(lid, 2, -1) == doctest::Approx(0.11));
+}
+
+TEST_CASE("the belt and its rollers have one speed where they meet") {
+  const Scene scene = scene_of(scene_in(kBelt));
+  CHECK((surface_velocity(find(scene.parts, "belt"), {0.1, 0.03, 0.1}) - Vector3(0.4, 0, 0)).norm() < 1e-12);
+  for (const double x : {0.0, 0.2}) {
+    const Part& roller = find(scene.parts, x == 0 ? "first_roller" : "last_roller");
+    CHECK((surface_velocity(roller, {x, 0.03, 0.1}) - Vector3(0.4, 0, 0)).norm() < 1e-12);
+    CHECK((surface_velocity(roller, {x, 0.03, 0.08}) + Vector3(0.4, 0, 0)).norm() < 1e-12);
+    CHECK(std::abs((roller.start.rotation * Vector3::UnitZ()).y()) == doctest::Approx(1));
+  }
+  CHECK_FALSE(contains(scene.container, {0.31, 0.03, 0.05}));
+}
+
+TEST_CASE("a mistake in a container that moves is told with its name, its value and what is allowed") {
+  struct Wrong {
+    const char* container;
+    Mistake mistake;
+  };
+  const std::vector<Wrong> all = {
+      {kDrum, {"rpm = 30", "rpm = 1e9", {"container.rpm is 1e+09", "revolutions a minute"}}},
+      {kDrum, {"segments = 48", "segments = 3", {"container.segments is 3", "from 8"}}},
+      {kDrum, {"segments = 48", "segments = 48\nturns_at = 1", {"container.turns_at is 1", "before time.duration"}}},
+      {kDrum, {"diameter = 0.1", "diameter = 0.03", {"the scene has 7 grains", "up to 0"}}},
+      {kDrum, {"length = 0.05", "length = 0.01", {"container.length is 0.01", "fits in any attitude"}}},
+      {kTray, {"frequency = 30", "frequency = 300", {"container.frequency is 300", "ten time.step"}}},
+      {kTray, {"amplitude = 0.001", "amplitude = -1", {"container.amplitude is -1", "(0, 1000] m"}}},
+      {kTray, {"direction = [0, 0, 1]", "direction = [0, 0, 0]", {"container.direction", "a direction, not 0"}}},
+      {kCell, {"cut = 0.02", "cut = 0.2", {"container.cut is 0.2", "below container.height"}}},
+      {kCell, {"speed = 0.05", "speed = 0.2", {"container.speed is 0.2", "container.thickness"}}},
+      {kCell, {"lid = 0.11", "lid = 0.04", {"the scene has 7 grains", "up to"}}},
+      {kBelt, {"thickness = 0.02", "thickness = 0.2", {"container.thickness is 0.2", "container.height"}}},
+      {kBelt, {"speed = 0.4", "speed = 40", {"container.speed is 40", "a tenth"}}},
+      {kBelt, {"drop_length = 0.1", "drop_length = 0.01", {"container.drop_length is 0.01", "beyond the last roller"}}},
+  };
+  for (const Wrong& wrong : all) {
+    const Mistake& mistake = wrong.mistake;
+    CAPTURE(mistake.to);
+    check_says(complaint(replaced(scene_in(wrong.container), mistake.from, mistake.to)), mistake.says);
+  }
+}
+
+TEST_CASE("the scenes that show parts are valid, and their grains start") {
+  for (const char* name : {"drum", "tray", "shear_cell", "conveyor", "piston"}) {
+    CAPTURE(name);
+    const Scene scene = load_scene(SUPERNORMAL_SAMPLES "/scenes/" + std::string(name) + ".toml");
+    Random random(scene.seed);
+    const World world(scene, place(scene, random));
+    CHECK(world.parts() != nullptr);
+    Stepper stepper(world, scene);
+    for (int i = 0; i < 20; ++i) stepper.step();
+    for (const Body& body : world.bodies()) CHECK(contains(scene.container, body.position()));
+  }
+}

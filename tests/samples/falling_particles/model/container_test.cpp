@@ -1,0 +1,144 @@
+#include "model/container.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "complaint.hpp"
+#include "observe/leaks.hpp"
+#include "scenes.hpp"
+#include "world/placement.hpp"
+#include "world/world.hpp"
+
+using namespace falling_particles;
+
+TEST_CASE("a box is open at the top only") {
+  const Container box = Box{{0.2, 0.3}};
+  CHECK(contains(box, {0.1, 0.29, 1e-9}));
+  CHECK(contains(box, {0.1, 0.1, 1e6}));
+  CHECK_FALSE(contains(box, {0.1, 0.31, 0.1}));
+  CHECK_FALSE(contains(box, {0, 0.1, 0.1}));
+  CHECK_FALSE(contains(box, {0.1, 0.1, -1e-9}));
+  CHECK_FALSE(contains(box, {0.1, 0.1, INFINITY}));
+  CHECK_FALSE(contains(box, {0.1, NAN, 0.1}));
+  CHECK_FALSE(contains(box, {0.1, 0.1, NAN}));
+}
+
+TEST_CASE("hoppers and terrains are read as they are written") {
+  const Scene with_hopper = scene_of(scene_in(kHopperText));
+  CHECK(std::string(kind_of(with_hopper.container)) == "hopper");
+  const auto& hopper = std::get<Hopper>(with_hopper.container);
+  CHECK(hopper.outlet == 0.05);
+  CHECK(hopper.wall_angle == 30);
+  CHECK(hopper.diameter == 0.1);
+  CHECK(hopper.cylinder_height == 0.1);
+  CHECK(hopper.segments == 12);
+  CHECK(hopper.clearance == 0.05);
+  CHECK(hopper.tray_width == 0.15);
+  CHECK(hopper.opens_at == 0.05);
+  const Scene with_terrain = scene_of(scene_in(kTerrainText));
+  CHECK(std::string(kind_of(with_terrain.container)) == "terrain");
+  const TerrainParameters& terrain = std::get<Terrain>(with_terrain.container).parameters();
+  CHECK(terrain.width == std::array<double, 2>{0.05, 0.06});
+  CHECK(terrain.amplitude == 0.004);
+  CHECK(terrain.wavelength == 0.03);
+  CHECK(terrain.ridge_height == 0.002);
+  CHECK(terrain.samples == 21);
+  CHECK(terrain.seed == 3);
+}
+
+TEST_CASE("every mistake in a container ends with one line: file, line, what is allowed") {
+  const std::vector<Mistake> in_hoppers = {
+      {"outlet = 0.05", "outlet = 0", {"scene.toml:5: container.outlet is 0;", "(0, 1000] m"}},
+      {"outlet = 0.05", "outlet = 0.1", {"scene.toml:7: container.diameter is 0.1;", "(0.1, 1000] m (above container.outlet)"}},
+      {"outlet = 0.05", "width = [1, 1]", {"scene.toml:5: unknown key \"width\" in [container]", "allowed: kind, outlet"}},
+      {"wall_angle = 30", "wall_angle = 90", {"scene.toml:6: container.wall_angle is 90;", "[1, 89] degrees from the vertical"}},
+      {"diameter = 0.1", "diameter = 0.052", {"scene.toml:7: container.diameter is 0.052;", "at least 0.05", "lattice"}},
+      {"cylinder_height = 0.1", "cylinder_height = -1", {"scene.toml:8: container.cylinder_height is -1;", "(0, 1000] m"}},
+      {"segments = 12", "segments = 2", {"scene.toml:9: container.segments is 2;", "a whole number from 3 to 10000"}},
+      {"segments = 12", "segments = 12.0", {"scene.toml:9: container.segments is 12;", "a whole number"}},
+      {"clearance = 0.05", "clearance = \"low\"", {"scene.toml:10: container.clearance is the string \"low\";"}},
+      {"tray_width = 0.15", "tray_width = 0.1", {"scene.toml:11: container.tray_width is 0.1;", "[0.103"}},
+      {"opens_at = 0.05", "opens_at = 0.1", {"scene.toml:12: container.opens_at is 0.1;", "(0, 0.1) s"}},
+      {"opens_at = 0.05", "", {"scene.toml:3: container.opens_at is missing;", "(0, 0.1) s"}},
+  };
+  for (const Mistake& mistake : in_hoppers) {
+    check_says(complaint(scene_in(replaced(kHopperText, mistake.from, mistake.to))), mistake.says);
+  }
+  const std::vector<Mistake> in_terrains = {
+      {"width = [0.05, 0.06]", "width = [0.05, 0]", {"scene.toml:5: container.width[1] is 0;", "(0, 1000] m"}},
+      {"width = [0.05, 0.06]", "width = [0.05, 0.015]", {"scene.toml:5: container.width is 0.015", "at least 0.018"}},
+      {"amplitude = 0.004", "amplitude = -0.004", {"scene.toml:6: container.amplitude is -0.004;", "[0, 1000] m"}},
+      {"amplitude = 0.004",
+       "opens_at = 1",
+       {"scene.toml:6: unknown key \"opens_at\" in [container]", "allowed: kind, width, amplitude"}},
+      {"wavelength = 0.03", "wavelength = 0", {"scene.toml:7: container.wavelength is 0;", "(0, 1000] m"}},
+      {"ridge_height = 0.002", "ridge_height = nan", {"scene.toml:8: container.ridge_height is nan;", "[0, 1000] m"}},
+      {"samples = 21", "samples = 1", {"scene.toml:9: container.samples is 1;", "a whole number from 2 to 4096"}},
+      {"seed = 3", "seed = -3", {"scene.toml:10: container.seed is -3;", "a whole number from 0"}},
+  };
+  for (const Mistake& mistake : in_terrains) {
+    check_says(complaint(scene_in(replaced(kTerrainText, mistake.from, mistake.to))), mistake.says);
+  }
+}
+
+TEST_CASE("a cylinder that is too low for the grains is refused, with the height that does") {
+  const std::string many = replaced(scene_in(kHopperText), "count = 5", "count = 200");
+  const std::string said = complaint(many);
+  check_says(said, {"scene.toml:8: container.cylinder_height is 0.1; allowed: at least "});
+  const std::string least = said.substr(said.find("at least ") + 9, said.find(" m, so") - said.find("at least ") - 9);
+  const double height = std::stod(least);
+  CHECK(height > 0.1);
+  CHECK(complaint(replaced(many, "cylinder_height = 0.1", "cylinder_height = " + std::to_string(height + 1e-5))).empty());
+  CHECK_FALSE(complaint(replaced(many, "cylinder_height = 0.1", "cylinder_height = " + std::to_string(height - 1e-5))).empty());
+}
+
+TEST_CASE("grains start within their container, clear of its walls") {
+  for (const std::string container : {kHopperText, kTerrainText}) {
+    CAPTURE(container);
+    const Scene scene = scene_of(replaced(scene_in(container), "count = 5", "count = 12"));
+    Random random(5);
+    for (const Placement& p : place(scene, random)) {
+      const double radius = scene.grains[p.kind].grain.bounding_radius() * (1 - 1e-12);
+      constexpr int kDirections = 200;
+      for (int i = 0; i < kDirections; ++i) {
+        // The points cover the bounding sphere, by the golden angle.
+        const double z = 1 - (2 * i + 1.0) / kDirections;
+        const double around = 2.39996322972865332 * i;
+        const double r = std::sqrt(1 - z * z);
+        CHECK(contains(scene.container, {p.position[0] + radius * r * std::cos(around),
+                                         p.position[1] + radius * r * std::sin(around), p.position[2] + radius * z}));
+      }
+    }
+  }
+}
+
+TEST_CASE("a leak is noticed once, and remembered") {
+  Scene scene = scene_of(kSceneText);
+  scene.grains[0].count = 2;
+  scene.grains.resize(1);
+  const World world(scene, {{0, {0.02, 0.02, 0.02}, {1, 0, 0, 0}}, {0, {0.04, 0.04, 0.02}, {1, 0, 0, 0}}});
+  LeakWatch watch(world, scene);
+  watch.after_step(0.1);
+  CHECK(watch.count() == 0);
+  CHECK_FALSE(watch.first());
+  dBodySetPosition(world.bodies()[1].body, 0.04, -0.001, 0.02);
+  watch.after_step(0.2);
+  watch.after_step(0.3);
+  dBodySetPosition(world.bodies()[1].body, 0.04, 0.04, 0.02);
+  watch.after_step(0.4);
+  CHECK(watch.count() == 1);
+  REQUIRE(watch.first());
+  CHECK(watch.first()->body == 1);
+  CHECK(watch.first()->time == 0.2);
+  CHECK(describe(*watch.first()) ==
+        "grain 1 (pea) left the container at t = 0.2 s: position [0.04, -0.001, 0.02] m, quaternion [1, 0, 0, 0], velocity [0, 0, "
+        "0] m/s");
+  dBodySetPosition(world.bodies()[0].body, 0.02, 0.02, -1);
+  watch.after_step(0.5);
+  CHECK(watch.count() == 2);
+  CHECK(watch.first()->body == 1);
+}

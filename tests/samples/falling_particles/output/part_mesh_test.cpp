@@ -1,0 +1,85 @@
+// Tests of what pictures show of parts: closed surfaces of the right size, seen from outside.
+#include "output/part_mesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "model/container_parts.hpp"
+
+using namespace falling_particles;
+
+namespace {
+
+Vector3 corner(const Mesh& mesh, unsigned int index) {
+  return {mesh.vertices[index][0], mesh.vertices[index][1], mesh.vertices[index][2]};
+}
+
+/// m^3, by the divergence theorem: positive where the triangles look outwards.
+double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) sum += corner(mesh, a).dot(corner(mesh, b).cross(corner(mesh, c))) / 6;
+  return sum;
+}
+
+/// Whether every edge belongs to two triangles, which run along it in opposite directions.
+bool is_closed(const Mesh& mesh) {
+  std::map<std::pair<unsigned int, unsigned int>, int> edges;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) ++edges[{from, to}];
+  }
+  for (const auto& [edge, count] : edges) {
+    if (count != 1 || !edges.contains({edge.second, edge.first})) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volumes") {
+  constexpr double kPi = std::numbers::pi;
+  const std::vector<std::tuple<PartShape, double, std::size_t>> shapes = {
+      {BoxShape{{0.1, 0.2, 0.3}}, 0.006, 12},
+      {CylinderShape{0.1, 0.5}, kPi * 0.01 * 0.5, 128},
+      {SmoothShape{{0.1, 0.2, 0.3}, 2, 2, 0, 0}, 4.0 / 3 * kPi * 0.006, 0},
+  };
+  for (const auto& [shape, wanted, edges] : shapes) {
+    Part part{"part", shape};
+    part.motions = {{Translation{{1, 0, 0}}}};
+    const ContainerPart picture = picture_of(part, 1);
+    CHECK(picture.role == ContainerPart::Role::Moving);
+    CHECK(is_closed(picture.mesh));
+    CHECK(volume(picture.mesh) == doctest::Approx(wanted).epsilon(0.02));
+    CHECK(picture.edges.size() == edges);
+  }
+}
+
+TEST_CASE("the picture of a part that stands is where it stands, and that of a plane looks along its normal") {
+  Part wall{"wall", PlaneShape{}, {{0, 0, 2}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()))}};
+  const ContainerPart picture = picture_of(wall, 0.4);
+  CHECK(picture.role == ContainerPart::Role::Still);
+  REQUIRE(picture.mesh.triangles.size() == 2);
+  const auto& [a, b, c] = picture.mesh.triangles[0];
+  const Vector3 p = corner(picture.mesh, a);
+  const Vector3 normal = (corner(picture.mesh, b) - p).cross(corner(picture.mesh, c) - p).normalized();
+  CHECK((normal - Vector3::UnitX()).norm() < 1e-6);
+  for (const auto& vertex : picture.mesh.vertices) {
+    CHECK(std::abs(vertex[0]) < 1e-7F);
+    CHECK(std::abs(vertex[2] - 2) == doctest::Approx(0.2).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the ends of a drum are shown as discs as wide as the drum") {
+  const Drum drum{.diameter = 0.2, .length = 0.1, .segments = 24, .rpm = 10, .is_smooth = false, .turns_at = 0};
+  const std::vector<Part> parts = parts_in(drum);
+  for (const std::size_t end : {1U, 2U}) {
+    const ContainerPart picture = picture_of(parts[end], 0.7);
+    double radius = 0;
+    for (const auto& [x, y, z] : picture.mesh.vertices) radius = std::max(radius, Vector3(x, y, z).norm());
+    CHECK(radius == doctest::Approx(drum.outer_radius()).epsilon(1e-6));
+  }
+}

@@ -1,0 +1,201 @@
+// Tests of what a scene is refused for or asked about before it runs.
+#include "run/doubts.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "complaint.hpp"
+#include "relative.hpp"
+#include "scenes.hpp"
+
+using namespace falling_particles;
+using supernormal::test::relative;
+
+namespace {
+
+Scene with_part(const std::string& part) { return scene_of(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + part); }
+
+/// A scene whose walls are parts.
+Scene in_open(const std::string& rest) {
+  return scene_of(replaced(kSceneText, "kind = \"box\"\nwidth = [0.05, 0.06]\n",
+                           "kind = \"none\"\nstart = { corner = [0, 0, 0], size = [0.05, 0.06, 0.5] }\n"
+                           "bounds = { corner = [-9, -9, -9], size = [18, 18, 18] }\n") +
+                  rest);
+}
+
+void check_one_doubt(const Scene& scene, const std::vector<const char*>& says) {
+  const std::vector<std::string> doubts = doubts_about(scene);
+  REQUIRE(doubts.size() == 1);
+  check_says(doubts.front(), says);
+}
+
+/// A box without a lid around the scene's start, whose triangles are seen from inside or from outside.
+Scene in_mesh(bool from_inside) {
+  Scene scene = scene_of(std::string(kSceneText));
+  MeshShape mesh;
+  for (const float z : {0.001F, 0.5F}) {
+    for (const auto& [x, y] : {std::pair{0.F, 0.F}, {0.05F, 0.F}, {0.05F, 0.06F}, {0.F, 0.06F}}) mesh.vertices.push_back({x, y, z});
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned next = (i + 1) % 4;
+    mesh.triangles.push_back({next, i, i + 4});
+    mesh.triangles.push_back({next, i + 4, next + 4});
+  }
+  if (!from_inside) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+  }
+  scene.parts = {{"bin", mesh}};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("doubts: a scene that means what it says has none") {
+  CHECK(doubts_about(scene_of(std::string(kSceneText))).empty());
+  refuse_overlapping_start(scene_of(std::string(kSceneText)));
+}
+
+TEST_CASE("doubts: the fall from the start is compared with the step") {
+  Scene scene = scene_of(std::string(kSceneText));
+  const std::optional<Fall> low = fall_from_start(scene);
+  REQUIRE(low);
+  CHECK(low->height > 0.01 + 2 * 6e-3);
+  CHECK(low->speed == relative(std::sqrt(2 * 9.81 * low->height)).epsilon(1e-12));
+  CHECK(low->way == relative(scene.time.step * low->speed).epsilon(1e-12));
+  scene.drop.height = 300;
+  check_one_doubt(scene, {"the start is 300 m high", "76.7 m/s", "of the smallest half-axis (0.003 m)", "time.step up to"});
+}
+
+TEST_CASE("doubts: a part whose surface moves by more than a half-axis in a step may pass through grains") {
+  const std::string paddle = "shape = \"box\"\nsize = [0.01, 0.04, 0.04]\nposition = [1, 0, 1]\n[[part.motion]]\n";
+  check_one_doubt(with_part(paddle + "kind = \"velocity\"\nvelocity = [1000, 0, 0]\n"), {"part \"p\" moves 0.5 m in a step"});
+  CHECK(doubts_about(with_part(paddle + "kind = \"velocity\"\nvelocity = [5, 0, 0]\n")).empty());
+  check_one_doubt(with_part(paddle + "kind = \"vibration\"\ndirection = [1, 0, 0]\namplitude = 0.01\nfrequency = 200\n"),
+                  {"part \"p\" moves"});
+  check_one_doubt(with_part(paddle + "kind = \"rotation\"\naxis = [0, 1, 0]\npoint = [0, 0, 0]\nrpm = 300\n"),
+                  {"part \"p\" moves"});
+  // A shaft turns in its own place, however fast, and a turntable in its own plane.
+  const std::string spin = "[[part.motion]]\nkind = \"rotation\"\naxis = [0, 0, 1]\npoint = [1, 0, 1]\nrpm = 3000\n";
+  CHECK(doubts_about(with_part("shape = \"cylinder\"\nradius = 0.02\nlength = 0.1\nposition = [1, 0, 1]\n" + spin)).empty());
+  CHECK(doubts_about(with_part("shape = \"plane\"\nposition = [0, 0, -1]\n" + spin)).empty());
+}
+
+TEST_CASE("doubts: a driven part that jumps over a half-axis in its first step is named, and one without mass refused") {
+  const std::string lid =
+      "shape = \"box\"\nsize = [0.04, 0.04, 0.01]\nposition = [0.025, 0.03, 1]\n[part.drive]\naxis = [0, 0, -1]\nforce = 10\n";
+  check_one_doubt(with_part(lid + "mass = 1e-6\n"),
+                  {"part \"p\" is driven 2.5 m in a step", "part.drive.mass from 0.000833 kg on"});
+  CHECK(doubts_about(with_part(lid + "mass = 0.1\n")).empty());
+  check_says(complaint(std::string(kSceneText) + "[[part]]\nname = \"p\"\n" + lid + "mass = 1e-160\n"),
+             {"part.drive.mass is 1e-160; allowed: a number in [1e-12, 1e+06] kg"});
+}
+
+TEST_CASE("doubts: a grain may not start inside a part") {
+  const std::string shapes[] = {"shape = \"box\"\nsize = [0.1, 0.1, 0.1]\n", "shape = \"cylinder\"\nradius = 0.1\nlength = 0.1\n",
+                                "shape = \"ellipsoid\"\nhalf_axes = [0.1, 0.1, 0.1]\n",
+                                "shape = \"plane\"\nposition = [0, 0, 0.05]\n"};
+  for (const std::string& shape : shapes) {
+    CAPTURE(shape);
+    std::string text;
+    try {
+      refuse_overlapping_start(with_part(shape));
+    } catch (const InputError& error) {
+      text = error.what();
+    }
+    check_says(text, {"starts at [", "deep in part \"p\"; allowed: parts that leave the start of the grains free"});
+  }
+  refuse_overlapping_start(with_part("shape = \"plane\"\nposition = [0, 0, 0.009]\n"));
+}
+
+TEST_CASE("doubts: a mesh does not hold what falls on the backs of its triangles") {
+  CHECK(doubts_about(in_mesh(true)).empty());
+  check_one_doubt(in_mesh(false), {"part \"bin\": 7 of 7 grains start behind a triangle", "part.two_sided = true"});
+  Scene without_floor = in_mesh(false);  // whose walls alone are turned around, above the container's floor
+  auto& walls = std::get<MeshShape>(without_floor.parts[0].shape);
+  walls.triangles.erase(walls.triangles.begin(), walls.triangles.begin() + 2);
+  check_one_doubt(without_floor, {"part \"bin\": 7 of 7 grains start behind a triangle"});
+  Scene two_sided = in_mesh(false);
+  std::get<MeshShape>(two_sided.parts[0].shape).two_sided = true;
+  CHECK(doubts_about(two_sided).empty());
+  for (const bool from_inside : {true, false}) {  // nothing else is below the grains
+    Scene alone = in_open("[[part]]\nname = \"p\"\nshape = \"plane\"\n");
+    alone.parts = in_mesh(from_inside).parts;
+    std::get<MeshShape>(alone.parts[0].shape).two_sided = true;
+    CHECK(doubts_about(alone).empty());
+  }
+}
+
+TEST_CASE("doubts: a feeder that no grain is due from, or that throws too fast") {
+  const std::string feeder =
+      std::string(kSceneText) + "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.1]\nsize = [0.05, 0.06, 0.05]\n";
+  check_one_doubt(scene_of(feeder + "grains_per_second = 5\n"), {"feeder \"f\" feeds nothing", "5 grains/s"});
+  check_one_doubt(scene_of(feeder + "grains_per_second = 100\nvelocity = [0, 0, -500]\n"), {"grains of feeder \"f\" move 0.25 m"});
+  CHECK(doubts_about(scene_of(feeder + "grains_per_second = 100\n")).empty());
+}
+
+TEST_CASE("doubts: a feeder whose grains have no room, or fall beside everything") {
+  const auto fed = [](const std::string& corner, const std::string& part, const std::string& more = "") {
+    return in_open("[[feeder]]\nname = \"f\"\ncorner = " + corner + "\nsize = [0.05, 0.06, 0.05]\ngrains_per_second = 100\n" +
+                   more + "[[part]]\nname = \"p\"\n" + part);
+  };
+  const std::string floor = "shape = \"box\"\nsize = [1, 1, 0.1]\nposition = [0, 0, -0.05]\n";
+  CHECK(doubts_about(fed("[0, 0, 0.2]", floor)).empty());
+  check_one_doubt(fed("[0, 0, -1]", floor), {"grains that feeder \"f\" brings are above nothing"});
+  check_one_doubt(fed("[0.6, 0, 0.2]", floor), {"grains that feeder \"f\" brings are above nothing"});
+  CHECK(doubts_about(fed("[0.6, 0, 0.2]", floor, "velocity = [-1, 0, 0]\n")).empty());
+  CHECK(doubts_about(fed("[0, 0, -1]", floor, "[[sink]]\nname = \"s\"\npoint = [0, 0, -2]\nnormal = [0, 0, 1]\n")).empty());
+  const std::string thick = "shape = \"box\"\nsize = [1, 1, 2]\nposition = [0, 0, -1]\n";
+  check_one_doubt(fed("[0, 0, -1]", thick), {"feeder \"f\" has no room for grain", "part \"p\" is wherever it would come"});
+  check_one_doubt(fed("[0, 0, -1]", "shape = \"plane\"\n"), {"feeder \"f\" has no room for grain", "part \"p\""});
+}
+
+TEST_CASE("doubts: grains that start above nothing") {
+  check_one_doubt(in_open("[[part]]\nname = \"p\"\nshape = \"box\"\nsize = [1, 1, 0.1]\nposition = [3, 0, -0.05]\n"),
+                  {"7 of 7 grains start above nothing"});
+}
+
+TEST_CASE("doubts: sinks that take grains where they come, and parts that no grain meets") {
+  const std::string text = kSceneText;
+  check_one_doubt(scene_of(text + "[[sink]]\nname = \"s\"\ncorner = [-1, -1, -1]\nsize = [2, 2, 2]\n"),
+                  {"7 of 7 grains start within sinks, which take them at once"});
+  const std::string feeder = "[[feeder]]\nname = \"f\"\ncorner = [0, 0, 0.1]\nsize = [0.05, 0.06, 0.05]\ngrains_per_second = 100\n";
+  check_one_doubt(scene_of(text + feeder + "[[sink]]\nname = \"s\"\npoint = [0, 0, 0.2]\nnormal = [0, 0, -1]\n" +
+                           "[[sink]]\nname = \"t\"\ncorner = [-1, -1, 0.09]\nsize = [2, 2, 0.1]\n"),
+                  {"grains that feeder \"f\" brings are within sinks"});
+  const std::string box = "shape = \"box\"\nsize = [0.02, 0.02, 0.02]\n";
+  check_one_doubt(with_part(box + "position = [0.02, 0.02, -0.5]\n"), {"part \"p\" stands outside the box"});
+  check_one_doubt(with_part(box + "position = [0.5, 0.02, 0.02]\n"), {"part \"p\" stands outside the box"});
+  CHECK(doubts_about(with_part(box + "position = [0.055, 0.02, 0.5]\n")).empty());
+  for (const char* thin : {"1e-300", "1e-10"}) {
+    check_one_doubt(with_part(replaced(box, "[0.02,", std::string("[") + thin + ",") + "position = [0.02, 0.02, 0.5]\n"),
+                    {"part \"p\" is 1e-", "m thin", "is it in another unit?"});
+  }
+}
+
+TEST_CASE("doubts: grains that leave the bounds before they land") {
+  const std::string floor = "[[part]]\nname = \"p\"\nshape = \"plane\"\nposition = [0, 0, -10]\n";
+  check_one_doubt(in_open(floor), {"7 of 7 grains start above nothing"});
+  Scene deep = in_open(floor);
+  std::get<Open>(deep.container).bounds = {{-20, -20, -20}, {40, 40, 40}};
+  for (const std::string& doubt : doubts_about(deep)) CHECK(doubt.find("above nothing") == std::string::npos);
+}
+
+TEST_CASE("doubts: gravity of zero is none, and motions that start too late are named") {
+  const std::string weightless = replaced(kSceneText, "acceleration = [0, 0, -9.81]", "acceleration = [0, 0, 0]");
+  CHECK(doubts_about(scene_of(weightless)).empty());
+  const std::string box = "shape = \"box\"\nsize = [0.02, 0.02, 0.02]\nposition = [0.02, 0.02, 0.5]\n";
+  check_one_doubt(with_part(box + "[[part.motion]]\nkind = \"velocity\"\nvelocity = [0, 0, -1]\nfrom = 7\n"),
+                  {"part \"p\" has a motion or a drive that starts at the end of the run, after 0.1 s"});
+  check_one_doubt(with_part(box + "[part.drive]\naxis = [0, 0, -1]\nforce = 1\nmass = 0.1\nfrom = 0.1\n"),
+                  {"part \"p\" has a motion or a drive"});
+}
+
+TEST_CASE("doubts: grains that sink by their own weight") {
+  check_one_doubt(scene_of(replaced(kSceneText, "erp = 0.2", "erp = 0")), {"solver.erp is 0"});
+  check_one_doubt(scene_of(replaced(replaced(kSceneText, "cfm = 1e-10", "cfm = 1"), "erp = 0.2", "erp = 0.01")),
+                  {"grain \"die\" sinks by", "solver.cfm up to"});
+  CHECK(doubts_about(scene_of(replaced(kSceneText, "cfm = 1e-10", "cfm = 0.001"))).empty());
+}

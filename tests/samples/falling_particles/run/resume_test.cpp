@@ -1,0 +1,215 @@
+// A simulation that goes on from what another one has saved, against one that has not been left.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "observe/simulation.hpp"
+
+using namespace falling_particles;
+
+namespace {
+
+Scene sample(const std::string& name) { return load_scene(std::string(SUPERNORMAL_SAMPLES) + "/scenes/" + name + ".toml"); }
+
+/// Steps as a run does; from step `from`, exclusive, to step `to`.
+void advance(Simulation& simulation, const Scene& scene, int from, int to) {
+  for (int step = from + 1; step <= to; ++step) {
+    const double now = step * scene.time.step;
+    simulation.watches.energy.exchange(simulation.population.before_step(now));
+    simulation.stepper.step();
+    simulation.watches.after_step(now, simulation.stepper);
+  }
+}
+
+/// All numbers that a simulation has between two steps, bit for bit; not the times that steps took.
+std::string state_of(const Simulation& simulation, const WorldState& world) {
+  Writer writer;
+  writer(world, simulation.random, simulation.watches, simulation.population, simulation.stepper.deepest_contact(),
+         simulation.stepper.costs().contacts, simulation.stepper.costs().pairs_tested);
+  const snStatistics statistics = simulation.statistics();
+  writer(statistics.queries_cold, statistics.queries_warm, statistics.evaluations_cold, statistics.evaluations_warm);
+  for (const supernormal::effects::Cost& cost : simulation.effect_costs()) writer(cost.rows, cost.contacts, cost.bodies);
+  return writer.bytes();
+}
+
+/// The same, and the contacts of the last step.
+std::string results_of(const Simulation& simulation) {
+  Writer writer;
+  for (const dContactGeom& contact : simulation.stepper.contact_geoms()) writer(contact.depth, contact.pos[0], contact.normal[2]);
+  return state_of(simulation, simulation.world.save()) + writer.bytes();
+}
+
+constexpr int kEvery = 60;
+
+/// The end of a run that saves itself after kEvery steps and twice that, and goes on from there; with what it has saved last.
+std::string end_of_run(const Scene& scene, int end, std::string& saved) {
+  std::optional<Simulation> simulation(std::in_place, scene, 1);
+  int step = 0;
+  for (int k = 0; k < 2; ++k, step += kEvery) {
+    advance(*simulation, scene, step, step + kEvery);
+    saved = simulation->save();
+    simulation.reset();
+    simulation.emplace(scene, 1, saved);
+  }
+  advance(*simulation, scene, step, end);
+  return results_of(*simulation);
+}
+
+/// The attitudes of a world, taken out of it: ODE scales quaternions to 1 when they are set, which may change a last digit.
+std::vector<double> take_attitudes(WorldState& world) {
+  std::vector<double> attitudes;
+  for (SavedBody& body : world.bodies) {
+    attitudes.insert(attitudes.end(), body.quaternion.begin(), body.quaternion.end());
+    body.quaternion = {};
+  }
+  return attitudes;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  REQUIRE(a.size() == b.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+std::vector<double> places_in(const World& world) {
+  std::vector<double> places;
+  for (const Body& body : world.present()) {
+    for (const double x : world.place_of(body)) places.push_back(x);
+  }
+  return places;
+}
+
+/// Checks that nothing is lost on the way: the state is the same, and the next step leads to where it would have led, but for what
+/// the order of contacts changes in the solver's answer.
+void check_nothing_is_lost(const Scene& scene) {
+  std::optional<Simulation> simulation(std::in_place, scene, 1);
+  advance(*simulation, scene, 0, 2 * kEvery);
+  const std::string saved = simulation->save();
+  WorldState world = simulation->world.save();
+  const std::vector<double> attitudes = take_attitudes(world);
+  const std::string state = state_of(*simulation, world);
+  advance(*simulation, scene, 2 * kEvery, 2 * kEvery + 1);
+  const std::vector<double> places = places_in(simulation->world);
+  simulation.reset();
+
+  Simulation resumed(scene, 1, saved);
+  world = resumed.world.save();
+  CHECK(largest_difference(take_attitudes(world), attitudes) < 1e-15);
+  CHECK(state_of(resumed, world) == state);
+  advance(resumed, scene, 2 * kEvery, 2 * kEvery + 1);
+  CHECK(largest_difference(places_in(resumed.world), places) < 1e-4 * scene.smallest_half_axis());
+}
+
+/// Checks that a run that was left at its second checkpoint ends as one that was not, with another number of threads, too.
+void check_same_end(const Scene& scene, int end) {
+  std::string saved;
+  const std::string expected = end_of_run(scene, end, saved);
+  Simulation resumed(scene, 2, saved);
+  advance(resumed, scene, 2 * kEvery, end);
+  CHECK(resumed.stepper.contacts() > 0);
+  CHECK(results_of(resumed) == expected);
+}
+
+void check_resume(const Scene& scene, int end = 5 * kEvery / 2) {
+  check_nothing_is_lost(scene);
+  check_same_end(scene, end);
+}
+
+}  // namespace
+
+TEST_CASE("resume: grains that come from a feeder, some of which have gone into a sink, on a belt") {
+  Scene scene = sample("feeder");
+  scene.feeders[0].rate.number = 0.2;  // kg/s
+  scene.sinks.push_back({"hole", Region{{0, 0, 0.1}, {0.05, 0.03, 0.03}}});
+  std::string saved;
+  end_of_run(scene, 3 * kEvery, saved);
+  const Simulation simulation(scene, 1, saved);
+  CHECK(simulation.population.fed().grains > 10);
+  CHECK(simulation.population.taken().grains > 0);
+  check_resume(scene, 3 * kEvery);
+}
+
+TEST_CASE("resume: images in a periodic drum that turns") {
+  Scene scene = sample("drum_periodic");
+  for (Part& part : scene.parts) {
+    for (PartMotion& motion : part.motions) motion.from = 0.02;  // s
+  }
+  check_resume(scene);
+}
+
+TEST_CASE("resume: contacts before overlap, of grains that come from a feeder, bounce and go through a periodic boundary") {
+  Scene scene = sample("feeder");
+  scene.feeders[0].rate.number = 0.2;  // kg/s
+  scene.periodic[1] = Period{0, 0.06};
+  scene.time.step = 2e-3;
+  scene.effects.emplace_back(supernormal::effects::Restitution{0.5, 0, {}});
+  scene.effects.emplace_back(supernormal::effects::SpeculativeContacts{});
+  check_same_end(scene, 3 * kEvery);  // which of two impacts of a grain comes first is up to the order of contacts
+  std::string saved;
+  end_of_run(scene, 3 * kEvery, saved);
+  const std::vector<supernormal::effects::Cost> costs = Simulation(scene, 1, saved).effect_costs();
+  CHECK(costs.back().name == std::string("speculative_contacts"));
+  CHECK(costs.back().contacts > 100);
+}
+
+TEST_CASE("resume: a piston on its way") {
+  Scene scene = sample("piston");
+  scene.parts.back().drive->from = 0.01;  // s
+  check_resume(scene);
+}
+
+TEST_CASE("resume: a hopper, before and after its outlet opens") {
+  Scene scene = sample("hopper");
+  for (const double opens_at : {0.05, 0.001}) {
+    std::get<Hopper>(scene.container).opens_at = opens_at;
+    check_resume(scene);
+  }
+}
+
+TEST_CASE("resume: grains on a terrain") {
+  Scene scene = sample("terrain");
+  scene.drop.height = 0;
+  check_resume(scene, 250);
+}
+
+TEST_CASE("resume: a packing in a cell that shrinks") {
+  Scene scene = sample("packing_superballs");
+  scene.grains[0].count = 120;
+  std::get<Periodic>(scene.container).side = 0.07;
+  check_resume(scene);
+}
+
+TEST_CASE("resume: compounds and grains of many sizes") {
+  check_resume(sample("compounds"));
+  check_resume(sample("sizes"));
+}
+
+TEST_CASE("resume: grains that sleep") {
+  Scene scene = sample("short");
+  scene.effects.emplace_back(supernormal::effects::AutoDisable{1, 100, 0, 5});  // all fall asleep as soon as they lie
+  std::string saved;
+  const std::string expected = end_of_run(scene, 500, saved);
+  Simulation resumed(scene, 1, saved);
+  advance(resumed, scene, 2 * kEvery, 500);
+  int asleep = 0;
+  for (const Body& body : resumed.world.present()) asleep += 1 - dBodyIsEnabled(body.body);
+  CHECK(asleep > 0);
+  CHECK(results_of(resumed) == expected);
+  const std::string at_rest = resumed.save();
+  const Simulation later(scene, 1, at_rest);
+  for (const Body& body : later.world.present()) asleep -= 1 - dBodyIsEnabled(body.body);
+  CHECK(asleep == 0);
+}
+
+TEST_CASE("resume: a state that ends too early is refused") {
+  const Scene scene = sample("short");
+  const std::string saved = Simulation(scene, 1).save();
+  CHECK_THROWS(Simulation(scene, 1, saved.substr(0, saved.size() - 1)));
+}
