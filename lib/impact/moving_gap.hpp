@@ -27,8 +27,7 @@ class MovingGap {
   /// The smallest half-extent of the bodies, m.
   virtual double length_unit() const = 0;
 
-  /// Whether the bounding balls about the centres of the bodies are separate at time t and separate further. Only for rotating
-  /// bodies.
+  /// Whether the bounding balls about the centres are separate at time t and move apart. Only for rotating bodies.
   virtual bool is_parting(double t) const = 0;
 
   /// The unit normal that separates these balls at time t.
@@ -93,8 +92,8 @@ class MovingPair final : public MovingGap {
   Proximity evaluate(const Vector3& n, double t) override;
   double length_unit() const override { return length_unit_; }
 
-  /// A time before which the bounding balls about the centres do not meet, s. 0 if neither body rotates, or if the balls overlap at
-  /// first.
+  /// A time before which the bounding balls about the centres do not meet, s. It is 0 if neither body rotates, or if the balls
+  /// overlap initially.
   double balls_meet(double horizon) const;
 
   bool is_parting(double t) const override;

@@ -14,15 +14,15 @@ namespace {
 // A gap below this multiple of its rounding error cannot be distinguished from an overlap.
 constexpr double kRoundingUnits = 4;
 
-// Rounding grows with the displacement of the bodies. So the horizon is searched in windows, each this many times as long as all
-// windows before. The rounding error of an impact is then at most the error at this multiple of the displacement.
+// Rounding grows with the displacement of the bodies, so the horizon is searched in windows. Each is this many times as long as all
+// before. The rounding error of an impact is thus at most the error at this multiple of the displacement until then.
 constexpr double kWindowGrowth = 8;
 
 // The first window ends where rounding is this fraction of the tolerance, or twice the rounding of the initial positions.
 constexpr double kUnfelt = 1e-3;
 
-// A query at the end of a stride may find an overlap, whose depth is not needed. It gets no more evaluations than separate bodies
-// need.
+// A query at the end of a stride may find an overlap. Its depth is not needed. Such a query gets the evaluations of separate
+// bodies.
 constexpr int kLookAheadEvaluations = 12;
 
 // rad; normals farther apart prove nothing about the time between them.
@@ -37,15 +37,15 @@ constexpr double kFarShare = 0.3;
 // A normal is kept while it proves at least this fraction of the gap at which it was found.
 constexpr double kGoodShare = 0.5;
 
-// If a normal proves less than this fraction of its stride, the next stride changes the method: from a fixed normal to a rotating
-// one, or back.
+// A normal that proves less than this fraction of its stride ends the present method. The next stride changes from a fixed normal
+// to a rotating one, or back.
 constexpr double kPoorShare = 0.25;
 
 // Far from an impact, gaps are computed to this fraction of the last gap.
 constexpr double kRough = 0.05;
 
-/// The longest interval, at most `left`, in which the bound of README.md with this K stays positive, s. At its start the gap is a
-/// with the slope `rate`. The gap is assumed linear.
+/// The longest interval, at most `left`, in which the bound of README.md with this K stays positive, s. Assumes a linear gap with
+/// the value a and the slope `rate` at the start.
 double longest_stride(double a, double rate, double K, double left) {
   const double to_zero = -rate * left > a ? a / -rate : left;
   if (K * to_zero * to_zero <= 2 * a) return to_zero;

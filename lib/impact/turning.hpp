@@ -22,8 +22,8 @@ class Turning {
   double fastest() const { return speed_ * axis_distance_; }
 
   /// Upper bound of n.q'' + 2 n'.q', m/s^2, for every point q of the body, relative to its centre. The unit normal rotates from n
-  /// by at most `angle` (rad), with an angular velocity of at most `turn` (rad/s). The points of a body of revolution are chosen so
-  /// that they do not spin about its axis: they form the same body at every time.
+  /// by at most `angle` (rad). Its angular velocity is at most `turn` (rad/s). In a body of revolution the points do not spin about
+  /// its axis: they form the same body at every time.
   double bound(const Vector3& n, double angle, double turn) const;
 
  private:
