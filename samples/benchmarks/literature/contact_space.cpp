@@ -18,8 +18,8 @@ using supernormal::Pose;
 
 constexpr int kMostIterations = 100;  // Ruan et al.
 
-/// The gap function of the bodies. Its vector d points from the boundary of the Minkowski sum to the centre of body 2. So both
-/// methods use the support functions of the library.
+/// The gap function of the bodies. Its vector d points from the boundary of the Minkowski difference to the centre of body 2. So
+/// both methods use the support functions of the library.
 GapFunction gap_function(const Bodies& bodies) {
   Pose pose2;
   pose2.rotation = bodies.rotation;

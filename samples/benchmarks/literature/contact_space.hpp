@@ -1,12 +1,12 @@
-// Method 4: the boundary of the Minkowski sum in closed form, and Wellmann's angles of the common normal.
+// Method 4: the boundary of the Minkowski difference in closed form, and Wellmann's angles of the common normal.
 #pragma once
 
 #include "method.hpp"
 
 namespace literature {
 
-// Ruan, Wang and Chirikjian (2022) describe the boundary of the Minkowski sum of body 1 and the mirrored body 2 by the gradient of
-// body 1. They search its point nearest to the centre of body 2. They start at the angles of this centre.
+// Ruan, Wang and Chirikjian (2022) describe the boundary of the Minkowski difference by the gradient of body 1. It is the sum of
+// body 1 and the mirrored body 2. They search its point nearest to the centre of body 2. They start at the angles of this centre.
 
 /// Fixed-point iteration: the next normal points from a centre of curvature, known from the last two points, to the centre of body
 /// 2.
