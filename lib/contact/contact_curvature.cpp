@@ -8,19 +8,19 @@
 namespace supernormal {
 namespace {
 
-constexpr double kSharpest = 1e-9;    // radius of curvature of an edge, relative to the smallest half-extent
-constexpr double kFlattest = 1e12;    // radius of curvature beyond which a face counts as flat, relative to the same
-constexpr double kDifference = 1e-4;  // rad; boundary points are good to rounding, so the differences are good to about 1e-8
+constexpr double kSharpest = 1e-9;    // smallest radius of curvature of an edge, in smallest half-extents
+constexpr double kFlattest = 1e12;    // a larger radius of curvature counts as flat, in smallest half-extents
+constexpr double kDifference = 1e-4;  // rad; boundary points are exact to rounding, so the differences are good to about 1e-8
 
-/// The tangent plane at m with one basis vector along an axis of the body's frame: the flattest one, so that the large radius of
-/// curvature of a face does not drown the one across it.
+/// The tangent plane at m, with one basis vector along the flattest axis of the body. So the large radius of curvature of a face
+/// does not swamp the radius across it.
 TangentPlane plane_along(const Vector3& m, const Vector3& flatness) {
   int axis = 0;
   if (flatness.maxCoeff(&axis) > 0) return {m, Vector3::Unit(axis)};
   return {m, m.unitOrthogonal()};
 }
 
-/// Estimates the radii of curvature from differences of boundary points.
+/// Estimates the radii of curvature by finite differences of boundary points.
 Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
   const auto change = [&](const Vector3& t) {
     const Vector3 forward = shape.point((plane.n + kDifference * t).normalized());

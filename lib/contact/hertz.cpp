@@ -10,8 +10,7 @@ struct EllipticIntegrals {
   double K, E;
 };
 
-/// The complete elliptic integrals of the ellipse with axis ratio k' = b/a, by the arithmetic-geometric mean (Abramowitz and
-/// Stegun, 17.6).
+/// The complete elliptic integrals for the axis ratio k' = b/a, by the arithmetic-geometric mean (Abramowitz and Stegun, 17.6).
 EllipticIntegrals elliptic_integrals(double axis_ratio) {
   double a = 1;
   double b = axis_ratio;
@@ -29,8 +28,8 @@ EllipticIntegrals elliptic_integrals(double axis_ratio) {
   return {K, K * (1 - sum)};
 }
 
-/// The rebound velocity from an impact with mass, stiffness and velocity 1: x'' = -x^(3/2) - sqrt(5) b x^(1/4) x', by
-/// Runge-Kutta's method.
+/// The rebound velocity of an impact with unit mass, stiffness and velocity: x'' = -x^(3/2) - sqrt(5) b x^(1/4) x', by the
+/// Runge-Kutta method.
 double rebound(double b) {
   constexpr double kStep = 0.002;
   const double factor = std::sqrt(5.0) * b;
@@ -40,7 +39,7 @@ double rebound(double b) {
   };
   double x = 0;
   double v = 1;
-  // At x = 0 the damper starts with an infinite slope; a first short step is exact without it.
+  // At x = 0 the slope of the damping force is infinite. A short first step without damping is exact enough.
   x = 1e-6;
   while (true) {
     const double f1 = force(x, v);
@@ -57,8 +56,8 @@ double rebound(double b) {
 
 double hertz_correction(double ratio) {
   if (ratio < 1 + 1e-6) return 1;
-  // The equation (a/b)^2 E - K = ratio (K - E) is solved for the axis ratio; it is nearly a power law, so secants of the
-  // logarithms converge.
+  // Solve (a/b)^2 E - K = ratio (K - E) for the axis ratio. It is nearly a power law, so the secant method on the logarithms
+  // converges.
   const auto excess = [&](double log_axes) {
     const double k = std::exp(log_axes);
     const auto [K, E] = elliptic_integrals(k);

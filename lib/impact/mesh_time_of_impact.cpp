@@ -7,7 +7,7 @@
 namespace supernormal {
 namespace {
 
-/// A triangle about its middle, where solvers of the gap start.
+/// A triangle about its middle, where the solvers of the gap start.
 struct MovingTriangle {
   std::array<Vector3, 3> vertices;
   Motion motion;

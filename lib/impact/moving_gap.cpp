@@ -12,8 +12,8 @@
 namespace supernormal {
 namespace {
 
-// Rounding of s in units of the last place of its terms: as of the gap function (gap_function.cpp), and as much for the places,
-// which are sums of products with the time.
+// Rounding error of s in ulps of its terms: as much as in the gap function (gap_function.cpp), and the same again for the
+// positions, which are sums of products with the time.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 const Motion kAtRest;
@@ -40,7 +40,7 @@ double MovingGap::known_until(double rounding, double horizon) const {
 }
 
 double MovingGap::rate(const Proximity& proximity, double t) const {
-  // On a face the witness points may be any; the contact is a point of both bodies.
+  // On a face the witness points are not unique. The contact point lies in both bodies.
   const bool has_contact = proximity.status != Status::Apart;
   const Vector3 point1 = has_contact ? proximity.contact : proximity.point1;
   const Vector3 point2 = has_contact ? proximity.contact : proximity.point2;

@@ -1,4 +1,4 @@
-// The gap of two bodies in steady motion at any time.
+// The gap of two bodies in steady motion, as a function of time.
 #pragma once
 
 #include "impact/turning.hpp"
@@ -6,8 +6,8 @@
 
 namespace supernormal {
 
-/// The gap of two moving bodies, and what is proved of it between two times. Answers are in a frame whose origin moves with the
-/// centre of body 1 and which does not turn, so that a common velocity and the distance from the origin cost no digits.
+/// The gap of two moving bodies, and bounds on it between two times. Results are in a frame that moves with the centre of body 1
+/// and does not rotate. So a common velocity and the distance from the origin cost no digits.
 class MovingGap {
  public:
   MovingGap(const Motion& motion1, const Motion& motion2, const Turning& turning1, const Turning& turning2);
@@ -17,42 +17,42 @@ class MovingGap {
   MovingGap& operator=(MovingGap&&) = delete;
   virtual ~MovingGap() = default;
 
-  /// The proximity at time t, to `tolerance` (m), in no more than `most_evaluations`; `first_normal` (world frame) is where the
-  /// search starts, or null.
+  /// The proximity at time t, to `tolerance` (m), in at most `most_evaluations`. The search starts at `first_normal` (world frame)
+  /// unless it is null.
   virtual Proximity find(double t, const Vector3* first_normal, double tolerance, int most_evaluations) = 0;
 
-  /// The proximity with the normal n at time t, whether it is a common normal or not: its gap is s(n).
+  /// The proximity with the normal n at time t; n need not be a common normal. Its gap is s(n).
   virtual Proximity evaluate(const Vector3& n, double t) = 0;
 
-  /// m; the smallest half-extent of the bodies.
+  /// The smallest half-extent of the bodies, m.
   virtual double length_unit() const = 0;
 
-  /// Whether balls that hold the bodies, about their centres, are apart at time t and never meet again. Only for bodies that turn.
+  /// Whether the bounding balls about the centres are separate at time t and move apart. Only for rotating bodies.
   virtual bool is_parting(double t) const = 0;
 
-  /// Unit; the normal that separates those balls at time t.
+  /// The unit normal that separates these balls at time t.
   virtual Vector3 parting_normal(double t) const = 0;
 
-  /// m; the rounding of s, at any time in [0, t].
+  /// The rounding error of s at any time in [0, t], m.
   double rounding(double t) const;
 
-  /// s; no later than `horizon`; until then the rounding of s is no more than `rounding` (m).
+  /// The last time, at most `horizon`, until which the rounding error of s is at most `rounding` (m); s.
   double known_until(double rounding, double horizon) const;
 
-  /// m/s; how fast s at the normal of a proximity, at the time t, changes. An estimate: on a face another point may decide.
+  /// The rate of s at time t, at the normal of the proximity, m/s. An estimate: on a face another point may determine it.
   double rate(const Proximity& proximity, double t) const;
 
-  /// m/s; no gap changes faster.
+  /// Upper bound of the rate of any gap, m/s.
   double fastest() const { return velocity_.norm() + turning1_.fastest() + turning2_.fastest(); }
 
   bool is_turning() const { return turning1_.is_turning() || turning2_.is_turning(); }
 
-  /// m/s^2; the bound K of README.md for a normal that turns by `angle` (rad), from n on, with the angular velocity `turn` (rad/s).
+  /// The bound K of README.md, m/s^2, for a normal that rotates from n by `angle` (rad) with the angular velocity `turn` (rad/s).
   double bound(const Vector3& n, double angle, double turn) const {
     return 2 * turn * velocity_.norm() + turning1_.bound(n, angle, turn) + turning2_.bound(n, angle, turn);
   }
 
-  /// Where the answers at time t have their origin.
+  /// The origin of the results at time t.
   Vector3 origin(double t) const { return centre1_ + t * motion1_.velocity; }
 
   int evaluations() const { return evaluations_; }
@@ -60,14 +60,14 @@ class MovingGap {
  protected:
   const Motion& motion1() const { return motion1_; }
   const Motion& motion2() const { return motion2_; }
-  const Vector3& first_centre1() const { return centre1_; }  // m; of body 1 at time 0
+  const Vector3& first_centre1() const { return centre1_; }  // m; centre of body 1 at time 0
   double reach() const { return turning1_.reach() + turning2_.reach(); }
 
-  /// m; from the centre of body 1 to that of body 2.
+  /// From the centre of body 1 to the centre of body 2, m.
   Vector3 offset(double t) const { return centre_offset_ + t * velocity_; }
-  const Vector3& velocity() const { return velocity_; }  // m/s; of the centre of body 2 against that of body 1
+  const Vector3& velocity() const { return velocity_; }  // m/s; of the centre of body 2 relative to the centre of body 1
 
-  /// m; the sizes and distances at time 0 of which s is the sum.
+  /// The sum of the sizes and distances at time 0 that enter s, m.
   virtual double terms() const = 0;
 
   void count(int evaluations) { evaluations_ += evaluations; }
@@ -82,7 +82,7 @@ class MovingGap {
   int evaluations_ = 0;
 };
 
-/// Two shapes.
+/// The gap of two shapes.
 class MovingPair final : public MovingGap {
  public:
   /// Keeps references to shapes and motions.
@@ -92,8 +92,8 @@ class MovingPair final : public MovingGap {
   Proximity evaluate(const Vector3& n, double t) override;
   double length_unit() const override { return length_unit_; }
 
-  /// s; balls that hold the bodies, about their centres, do not meet before; 0 where neither body turns, and where they overlap at
-  /// first.
+  /// A time before which the bounding balls about the centres do not meet, s. It is 0 if neither body rotates, or if the balls
+  /// overlap initially.
   double balls_meet(double horizon) const;
 
   bool is_parting(double t) const override;
@@ -110,7 +110,7 @@ class MovingPair final : public MovingGap {
   double length_unit_;
 };
 
-/// A body and a half-space that stands still.
+/// The gap of a body and a half-space at rest.
 class MovingOverPlane final : public MovingGap {
  public:
   /// Keeps references to its arguments.

@@ -11,47 +11,48 @@
 namespace supernormal {
 namespace {
 
-// The gap is known to rounding: less than some units of it cannot be told from an overlap.
+// A gap below this multiple of its rounding error cannot be distinguished from an overlap.
 constexpr double kRoundingUnits = 4;
 
-// Rounding grows with the way that the bodies go. So the horizon is looked at in windows, each so many times as long as the ones
-// before: an impact is known to the rounding of no more than so many times the way until it.
+// Rounding grows with the displacement of the bodies, so the horizon is searched in windows. Each is this many times as long as all
+// before. The rounding error of an impact is thus at most the error at this multiple of the displacement until then.
 constexpr double kWindowGrowth = 8;
 
-// The first window ends where rounding is this share of what is asked for, or twice that of the first places.
+// The first window ends where rounding is this fraction of the tolerance, or twice the rounding of the initial positions.
 constexpr double kUnfelt = 1e-3;
 
-// A look ahead may find an overlap, whose depth is of no use: it takes no more evaluations than bodies apart do.
+// A query at the end of a stride may find an overlap. Its depth is not needed. Such a query gets the evaluations of separate
+// bodies.
 constexpr int kLookAheadEvaluations = 12;
 
 // rad; normals farther apart prove nothing about the time between them.
-constexpr double kWidestTurn = 2;
+constexpr double kWidestRotation = 2;
 
-// Bodies that touch at first are looked at when they have moved so far, in units of the tolerance: enough to be seen apart.
+// Displacement after which bodies that touch at first are tested again, in tolerances: enough to find them separate.
 constexpr double kPartingDistance = 64;
 
-// An impact is near where a stride would leave less than this share of the gap.
+// An impact is near if a stride would leave less than this fraction of the gap.
 constexpr double kFarShare = 0.3;
 
-// A normal is kept while it proves at least this share of the gap that it proved when it was found, ...
+// A normal is kept while it proves at least this fraction of the gap at which it was found.
 constexpr double kGoodShare = 0.5;
 
-// ... and the next stride is made the other way, with a normal that turns or with one that does not, where this one has proved less
-// than this share of its stride.
+// A normal that proves less than this fraction of its stride ends the present method. The next stride changes from a fixed normal
+// to a rotating one, or back.
 constexpr double kPoorShare = 0.25;
 
-// Far from an impact, gaps are known to this share of the last.
+// Far from an impact, gaps are computed to this fraction of the last gap.
 constexpr double kRough = 0.05;
 
-/// s; the length of the longest interval, no longer than `left`, that begins where the gap is a with the slope `rate`, and in which
-/// the bound of README.md with this K is positive throughout if the gap goes straight on.
+/// The longest interval, at most `left`, in which the bound of README.md with this K stays positive, s. Assumes a linear gap with
+/// the value a and the slope `rate` at the start.
 double longest_stride(double a, double rate, double K, double left) {
   const double to_zero = -rate * left > a ? a / -rate : left;
   if (K * to_zero * to_zero <= 2 * a) return to_zero;
   return std::min(2 / K * (rate + std::sqrt(2 * K * a)), left);
 }
 
-/// The share of an interval, from its start, in which a (1 - x) + b x - k x (1 - x) is positive; a is.
+/// The first fraction of the unit interval in which a (1 - x) + b x - k x (1 - x) is positive, for a > 0.
 double positive_share(double a, double b, double k) {
   // The first root of a - p x + k x^2.
   const double p = a - b + k;
@@ -60,25 +61,25 @@ double positive_share(double a, double b, double k) {
   return std::min(2 * a / (p + std::sqrt(discriminant)), 1.0);
 }
 
-/// The least value of the same in the interval.
+/// The minimum of the same function in the interval.
 double least_value(double a, double b, double k) {
   const double p = a - b + k;
   if (p <= 0) return a;
   return p >= 2 * k ? b : a - 0.25 * p * p / k;
 }
 
-/// The way of a unit normal along a great circle, from one time to a later one.
-struct Turn {
+/// The rotation of a unit normal along a great circle, from one time to a later one.
+struct NormalRotation {
   double angle;  // rad
   Vector3 axis;
 
-  static Turn between(const Vector3& from, const Vector3& to) {
+  static NormalRotation between(const Vector3& from, const Vector3& to) {
     const Vector3 across = from.cross(to);
     const double sine = across.norm();
     return {std::atan2(sine, from.dot(to)), sine > 0 ? Vector3(across / sine) : from.unitOrthogonal()};
   }
 
-  Vector3 turned(const Vector3& n, double share) const {
+  Vector3 rotated(const Vector3& n, double share) const {
     return (std::cos(share * angle) * n + std::sin(share * angle) * axis.cross(n)).normalized();
   }
 };
@@ -93,7 +94,7 @@ class ImpactSearch {
     look_until(gap.known_until(std::max(kUnfelt * asked_, 2 * gap.rounding(0)), horizon));
   }
 
-  /// The bodies are apart before `start`.
+  /// Precondition: the bodies are separate before `start`.
   Impact run(double start, const Vector3* first_normal) {
     while (end_ < start) look_farther();
     t_ = start;
@@ -115,7 +116,7 @@ class ImpactSearch {
     return end(ImpactStatus::Hits);
   }
 
-  /// The bodies are apart until the horizon, and `n` separates them there.
+  /// The result if the bodies are separate until the horizon, where `n` separates them.
   Impact apart(const Vector3& n) {
     t_ = horizon_;
     now_ = gap_.evaluate(n, t_);
@@ -150,29 +151,29 @@ class ImpactSearch {
 
   Proximity find(double t, const Vector3* first_normal) { return gap_.find(t, first_normal, tolerance_, most_evaluations_); }
 
-  /// Moves on as far as it can be proved that the bodies are apart.
+  /// Advances as far as the bodies are proved separate.
   void advance() {
     const double left = end_ - t_;
     const double a = now_.gap - rounding_;
     const double rate = gap_.rate(now_, t_);
     if (!gap_.is_turning()) return advance_straight(a, rate, left);
     if (a >= gap_.fastest() * left) return move_to_end(gap_.evaluate(now_.normal, end_));
-    const double K = gap_.bound(now_.normal, 0, is_turned_ ? turn_.angle : 0);
+    const double K = gap_.bound(now_.normal, 0, is_rotating_ ? rotation_.angle : 0);
     const double stride = longest_stride(a, rate, K, left);
     const double next = stride == left ? end_ : t_ + stride;
     const bool is_meeting = a + rate * stride < kFarShare * a;
-    if (!is_meeting && !is_turned_) return advance_fixed(a, next, stride);
+    if (!is_meeting && !is_rotating_) return advance_fixed(a, next, stride);
     look_ahead(a, next, stride);
   }
 
-  /// Tries the normal of now_ for all of a stride. Far from an impact any normal near the best will do.
+  /// Tries the normal of now_ for a whole stride. Far from an impact any normal near the best one will do.
   void advance_fixed(double a, double next, double stride) {
     const Proximity there = gap_.evaluate(now_.normal, next);
     const bool is_valid = there.status != Status::InvalidInput;
     const double share = is_valid ? proved_share(a, there, stride) : 1;
     if (share == 1 && (!is_valid || next == end_)) return move_to_end(there);
     if (share == 1 && there.gap > kGoodShare * now_.gap) return move_to(next, there);
-    is_turned_ = share < kPoorShare;
+    is_rotating_ = share < kPoorShare;
     t_ = share == 1 ? next : std::min(t_ + share * stride, next);
     const double rough = kRough * now_.gap;
     const Vector3 normal = now_.normal;
@@ -181,22 +182,22 @@ class ImpactSearch {
     now_ = find(t_, &normal);
   }
 
-  /// Looks at the gap, and which way the normal turns, at the end of a stride.
+  /// Finds the gap at the end of a stride, and the rotation of the normal until then.
   void look_ahead(double a, double next, double stride) {
-    const Vector3 guess = Turn{turn_.angle * stride, turn_.axis}.turned(now_.normal, 1);
+    const Vector3 guess = NormalRotation{rotation_.angle * stride, rotation_.axis}.rotated(now_.normal, 1);
     const Proximity there = gap_.find(next, &guess, tolerance_, std::min(kLookAheadEvaluations, most_evaluations_));
     if (there.status == Status::InvalidInput) return move_to(next, there);
     const double share = proved_share(a, there, stride);
-    is_turned_ = share > kPoorShare;
-    const Turn turn = Turn::between(now_.normal, there.normal);
-    turn_ = {turn.angle / stride, turn.axis};
+    is_rotating_ = share > kPoorShare;
+    const NormalRotation rotation = NormalRotation::between(now_.normal, there.normal);
+    rotation_ = {rotation.angle / stride, rotation.axis};
     if (share == 1 && (there.gap > tolerance_ || there.status == Status::Converged)) return move_to(next, there);
-    const Vector3 between = turn.turned(now_.normal, share);
+    const Vector3 between = rotation.rotated(now_.normal, share);
     t_ = std::min(t_ + share * stride, next);
     now_ = find(t_, &between);
   }
 
-  /// Without rotation, s at a fixed normal is linear.
+  /// Without rotation, s at a fixed normal is linear in time.
   void advance_straight(double a, double rate, double left) {
     if (-rate * left < a) return move_to_end(gap_.evaluate(now_.normal, end_));
     t_ = std::min(t_ + a / -rate, end_);
@@ -208,23 +209,23 @@ class ImpactSearch {
     now_ = proximity;
   }
 
-  /// The bodies are apart until the end of the window, where `there` proves it: if they are near, a query says how near.
+  /// `there` proves the bodies separate until the end of the window. If they are near, a query finds how near.
   void move_to_end(const Proximity& there) {
     move_to(end_, there);
     if (there.status != Status::InvalidInput && there.gap <= tolerance_) now_ = find(end_, &there.normal);
   }
 
-  /// The share of a stride for which the normals from now_ to `there` prove that the bodies are apart.
+  /// The fraction of a stride in which the normals from now_ to `there` prove the bodies separate.
   double proved_share(double a, const Proximity& there, double stride) const {
-    const double angle = Turn::between(now_.normal, there.normal).angle;
-    if (angle > kWidestTurn) return positive_share(a, a - gap_.fastest() * stride, 0);
+    const double angle = NormalRotation::between(now_.normal, there.normal).angle;
+    if (angle > kWidestRotation) return positive_share(a, a - gap_.fastest() * stride, 0);
     const double k = 0.5 * stride * stride * gap_.bound(now_.normal, angle, angle / stride) / std::cos(0.5 * angle);
     double b = there.gap - rounding_;
     if (b < 0 && angle > 0) b *= angle / std::sin(angle);
     return positive_share(a, b, k);
   }
 
-  /// Whether bodies that touch at first part: then now_ and t_ are when they are apart.
+  /// Whether bodies that touch at first separate. If so, now_ and t_ become a separate state.
   bool part() {
     if (end_ == 0 || gap_.fastest() == 0) return false;
     const double rate = gap_.rate(now_, 0);
@@ -233,14 +234,14 @@ class ImpactSearch {
       const double then = K * end_ > rate ? rate / K : end_;
       if (is_parted(now_, gap_.evaluate(now_.normal, then), then)) return true;
     }
-    // At a vertex or on a face another normal, or another point of the face, may decide.
+    // At a vertex or on a face, another normal or another point of the face may be decisive.
     const double then =
         kPartingDistance * tolerance_ < end_ * gap_.fastest() ? kPartingDistance * tolerance_ / gap_.fastest() : end_;
     const Proximity later = find(then, &now_.normal);
     return is_parted(gap_.evaluate(later.normal, 0), later, then);
   }
 
-  /// Whether s at one normal, that of both, proves that the bodies have parted at the time `then`.
+  /// Whether s at the later normal proves that the bodies are separate at the time `then`.
   bool is_parted(const Proximity& first, const Proximity& later, double then) {
     if (first.status == Status::InvalidInput || later.status == Status::InvalidInput || later.gap <= tolerance_) return false;
     const double k = 0.5 * gap_.bound(later.normal, 0, 0) * then * then;
@@ -252,15 +253,15 @@ class ImpactSearch {
   MovingGap& gap_;
   const double horizon_;  // s
   const int most_evaluations_;
-  const double asked_;    // m; half of the tolerance that is asked for: the queries may leave the other half
-  double end_ = 0;        // s; of the window
+  const double asked_;    // m; half of the tolerance, as queries may use the other half
+  double end_ = 0;        // s; end of the window
   double rounding_ = 0;   // m; at any time in the window
-  double tolerance_ = 0;  // m; what is asked for, or what rounding allows
-  double t_ = 0;          // s; the bodies are apart before
+  double tolerance_ = 0;  // m; the tolerance, or what rounding allows
+  double t_ = 0;          // s; the bodies are separate before
   Proximity now_;         // at t_
   int strides_ = 0;
-  Turn turn_{0, Vector3::UnitX()};  // of the normal in a second, as in the last look ahead
-  bool is_turned_ = false;          // whether the normal is to turn in a stride
+  NormalRotation rotation_{0, Vector3::UnitX()};  // of the normal in a second, from the last look-ahead
+  bool is_rotating_ = false;                      // whether the next stride rotates the normal
 };
 
 void check(double horizon, const Settings& settings) {

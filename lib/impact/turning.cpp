@@ -17,7 +17,7 @@
 namespace supernormal {
 namespace {
 
-// The axis of a body of revolution in its own frame, through the origin of that; 0 for a ball, which has every axis.
+// The axis of a body of revolution in its own frame, through the origin. 0 for a ball, for which every axis is valid.
 std::optional<Vector3> axis_of_revolution(const Shape& shape);
 
 std::optional<Vector3> axis_of_ellipsoid(const Vector3& half_axes) {
@@ -78,9 +78,9 @@ Turning::Turning(const Shape& shape, const Motion& motion) : speed_(motion.angul
   use_axis(shape, motion);
 }
 
-// A body of revolution about the unit vector e is at every time where the points g + q are: g is a point of that axis that turns
-// with the body, and q turns with the angular velocity w = W - (W.e) e, where W is that of the body: q follows e, and does not spin
-// about it. As W.e is constant and e' = W x e, w' = -(W.e) W x e, and q'' = w' x q + w x (w x q).
+// A body of revolution about the unit vector e consists of the points g + q. Here g is a point of the axis that moves with the
+// body. The vector q follows e but does not spin about it. It rotates with w = W - (W.e) e, where W is the angular velocity of the
+// body. Since W.e is constant and e' = W x e, w' = -(W.e) W x e. Hence q'' = w' x q + w x (w x q).
 void Turning::use_axis(const Shape& shape, const Motion& motion) {
   const std::optional<Vector3> e = axis_of_revolution(shape);
   if (!e) return;
@@ -91,8 +91,8 @@ void Turning::use_axis(const Shape& shape, const Motion& motion) {
   follow_acceleration_ = follow_speed_ * speed_ * std::abs(axis.dot(axis_));
 }
 
-// A point that circles about the axis has the velocity W x q and the acceleration W x (W x q), whose product with n is that of
-// W x (W x n) with the part of q across the axis.
+// A point on a circle about the axis has the velocity W x q and the acceleration W x (W x q). The product with n equals the product
+// of W x (W x n) with the part of q across the axis.
 double Turning::bound(const Vector3& n, double angle, double turn) const {
   if (!is_turning()) return 0;
   const double across = speed_ * std::min(axis_.cross(n).norm() + angle, 1.0);  // of the angular velocity, to n

@@ -1,41 +1,41 @@
-// How far and how sharply the points of a body move that turns.
+// Bounds on the velocity and acceleration of the points of a rotating body.
 #pragma once
 
 #include "supernormal/impact/motion.hpp"
 
 namespace supernormal {
 
-/// The rotation at `time`, s.
+/// The rotation at `time` (s).
 Matrix3 rotation_at(const Motion& motion, double time);
 
-/// Bounds for a body about its centre, Motion::centre, while it turns.
+/// Bounds for a body that rotates about Motion::centre.
 class Turning {
  public:
   Turning(const Shape& shape, const Motion& motion);
 
   bool is_turning() const { return speed_ > 0; }
 
-  /// m; a ball of this radius about the centre holds the body. Of one that does not turn it is an estimate.
+  /// The radius of a ball about the centre that contains the body, m. An estimate if the body does not rotate.
   double reach() const { return reach_; }
 
-  /// m/s; no point of the body moves faster about the centre.
+  /// Upper bound of the speed of the body's points about the centre, m/s.
   double fastest() const { return speed_ * axis_distance_; }
 
-  /// m/s^2; bounds n.q'' + 2 n'.q' for every point q of the body, from its centre, while the unit normal turns from n by no more
-  /// than `angle` (rad), with the angular velocity `turn` (rad/s) at most. Points of a body of revolution are those that do not
-  /// spin about its axis: at every time they make up the same body.
+  /// Upper bound of n.q'' + 2 n'.q', m/s^2, for every point q of the body, relative to its centre. The unit normal rotates from n
+  /// by at most `angle` (rad). Its angular velocity is at most `turn` (rad/s). In a body of revolution the points do not spin about
+  /// its axis: they form the same body at every time.
   double bound(const Vector3& n, double angle, double turn) const;
 
  private:
   void use_axis(const Shape& shape, const Motion& motion);
 
-  Vector3 axis_ = Vector3::UnitX();  // of the rotation, unit
+  Vector3 axis_ = Vector3::UnitX();  // rotation axis, unit
   double speed_ = 0;                 // rad/s
   double reach_ = 0;                 // m
-  double axis_distance_ = 0;         // m; no point of the body is farther from the axis of the rotation
-  bool is_revolved_ = false;         // the body is one of revolution, and
-  double pivot_distance_ = 0;        // m; of a point of its axis from the centre
-  double follow_speed_ = 0;          // rad/s; of the points about that one
+  double axis_distance_ = 0;         // m; the farthest point's distance from the rotation axis
+  bool is_revolved_ = false;         // body of revolution, with the following:
+  double pivot_distance_ = 0;        // m; distance of a point of its axis from the centre
+  double follow_speed_ = 0;          // rad/s; angular velocity about that point
   double follow_acceleration_ = 0;   // rad/s^2
 };
 

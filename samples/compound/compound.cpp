@@ -17,19 +17,19 @@ dBodyID assemble(dWorldID world, const std::vector<Part>& parts, dMass& mass) {
   for (const Part& part : parts) {
     dMass share;
     if (snMassSet(&share, part.density, part.geom) == 0) throw std::runtime_error(snLastError());
-    dMassRotate(&share, part.rotation);  // turns about the part's origin, so it comes before the translation
+    dMassRotate(&share, part.rotation);  // rotates about the part's origin, so it precedes the translation
     dMassTranslate(&share, part.position[0], part.position[1], part.position[2]);
     dMassAdd(&mass, &share);
   }
-  // ODE requires the centre of mass in the body's origin. It is moved there, and all parts with it.
+  // ODE requires the centre of mass at the body's origin. Move the frame there, with all parts.
   const dVector3 centre = {mass.c[0], mass.c[1], mass.c[2]};
   dMassTranslate(&mass, -centre[0], -centre[1], -centre[2]);
-  std::fill(mass.c, mass.c + 3, 0.0);  // rounding may have left something
+  std::fill(mass.c, mass.c + 3, 0.0);  // remove rounding
 
   const dBodyID body = dBodyCreate(world);
   dBodySetMass(body, &mass);
   for (const Part& part : parts) {
-    dGeomSetBody(part.geom, body);  // this resets the offset, so the offset comes after it
+    dGeomSetBody(part.geom, body);  // this resets the offset, so set the offset afterwards
     dGeomSetOffsetPosition(part.geom, part.position[0] - centre[0], part.position[1] - centre[1], part.position[2] - centre[2]);
     dGeomSetOffsetRotation(part.geom, part.rotation);
   }

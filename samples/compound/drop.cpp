@@ -8,7 +8,7 @@ namespace {
 constexpr double kStep = 0.0005;    // s
 constexpr double kLongest = 20;     // s
 constexpr double kSlow = 1e-3;      // m/s and rad/s
-constexpr double kQuietTime = 0.5;  // s; it must be slow for so long
+constexpr double kQuietTime = 0.5;  // s; must be slow for this long
 constexpr int kMaxContacts = 16;
 
 struct Scene {
@@ -22,7 +22,7 @@ void collide(void* data, dGeomID g1, dGeomID g2) {
   dContact contact[kMaxContacts] = {};
   const int count = dCollide(g1, g2, kMaxContacts, &contact[0].geom, sizeof(dContact));
   for (int i = 0; i < count; ++i) {
-    // The contacts have friction and a little resistance to rolling, because round bodies would roll on for long.
+    // Contacts have friction and a small rolling resistance, because round bodies would roll for a long time.
     contact[i].surface.mode = dContactApprox1 | dContactRolling;
     contact[i].surface.mu = 0.5;
     contact[i].surface.rho = 5e-4;

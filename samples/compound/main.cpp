@@ -1,4 +1,4 @@
-// Bodies made of several geoms: a dumbbell and a molar fall on a plane. Prints their mass, inertia and rest pose, and the energy.
+// Bodies of several geoms: a dumbbell and a molar fall on a plane. Prints their mass, inertia, rest pose and energy.
 #include <supernormal/supernormal.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ std::vector<Part> make_dumbbell(dSpaceID space) {
           make_part(other, kSteel, 0, 0, -kBar - kDisc)};
 }
 
-/// A crown on two roots that grow thinner downwards and spread a little; ten times life size.
+/// A crown on two roots that taper downwards and spread a little; ten times life size.
 std::vector<Part> make_molar(dSpaceID space) {
   constexpr double kEnamel = 2900, kDentine = 2100;
   constexpr double kCrown = 0.035, kRoot = 0.06, kSpread = 0.12;  // half-heights, m; rad
@@ -33,7 +33,7 @@ std::vector<Part> make_molar(dSpaceID space) {
   std::vector<Part> parts = {make_part(crown, kEnamel, 0, 0, 0)};
   for (const double side : {1.0, -1.0}) {
     const dGeomID root = snCreateSuperovoid(space, 0.02, 0.016, kRoot, 2, 3, 0.5, 0.5);
-    // The root is raised until it touches the crown: both are in place for snGeomProximity, which tells the distance left.
+    // Raise the root until it touches the crown. snGeomProximity measures the gap between the two.
     double z = -kCrown - 1.05 * kRoot;
     Part part = make_part(root, kDentine, 0, side * 0.028, z, side * kSpread);
     dGeomSetRotation(root, part.rotation);
@@ -49,7 +49,7 @@ std::vector<Part> make_molar(dSpaceID space) {
   return parts;
 }
 
-/// Drops one body of `parts` and prints what happened. Returns whether all is well.
+/// Drops a body of `parts` and prints the result. Returns whether it is as expected.
 bool show(const char* name, dWorldID world, dSpaceID space, const std::vector<Part>& parts) {
   dMass mass;
   const dBodyID body = assemble(world, parts, mass);

@@ -1,4 +1,4 @@
-// Explains how the gap of one pair of bodies is found, in a picture.
+// Draws a picture that explains how the gap of a pair of bodies is found.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>

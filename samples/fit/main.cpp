@@ -1,4 +1,4 @@
-// Finds the ellipsoid, superellipsoid or superovoid that is nearest to a mesh or a cloud of points.
+// Fits an ellipsoid, superellipsoid or superovoid to a mesh or a point cloud.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -38,13 +38,13 @@ struct Options {
   int threads = 1;
 };
 
-/// What is done next: at once, also into a pipe.
+/// Announces the next step at once, also into a pipe.
 void say(const std::string& step) {
   std::printf("%s\n", step.c_str());
   std::fflush(stdout);
 }
 
-/// The points that are fitted: of a mesh, as many random ones of its triangles as it has vertices, within bounds.
+/// The points to fit. For a mesh: random points of its triangles, as many as it has vertices, within bounds.
 fit::Cloud points_of(const fit::Data& data, bool uses_vertices) {
   if (data.triangles.empty() || uses_vertices) return data.vertices;
   const std::size_t count = std::clamp<std::size_t>(data.vertices.points.size(), 2000, 20000);
@@ -60,7 +60,7 @@ fit::FitSettings settings_of(const Options& options, const fit::Data& data) {
   fit::FitSettings settings;
   settings.family = families.at(options.shape);
   settings.noise = options.noise == "normal" ? fit::Noise::AlongNormal : fit::Noise::Isotropic;
-  // A mesh is the surface itself: what is far from the body is no outlier but another shape, and no noise.
+  // A mesh is the surface itself. A distance from the body means another shape, not an outlier or noise.
   settings.rejects_outliers = options.outliers == "auto" ? !is_mesh : options.outliers == "reject";
   if (is_mesh && options.noise == "auto") settings.noise = fit::Noise::AlongNormal;
   settings.is_whole = fit::is_closed(data);
@@ -103,7 +103,7 @@ std::vector<fit::FittedBody> fit_points(const fit::Cloud& points, const Options&
   }
 }
 
-/// The data without the points that the fit left out, which are of no surface. A mesh is fitted by other points than its own.
+/// The data without the outliers of the fit, which are on no surface. The fit of a mesh uses other points, so a mesh is unchanged.
 fit::Data without_outliers(fit::Data data, const std::vector<fit::FittedBody>& fitted) {
   if (!data.triangles.empty()) return data;
   std::vector<std::size_t> outliers;
@@ -112,7 +112,7 @@ fit::Data without_outliers(fit::Data data, const std::vector<fit::FittedBody>& f
   return data;
 }
 
-/// Accepts finite numbers above 0: CLI::PositiveNumber takes nan for one.
+/// Accepts finite numbers above 0. CLI::PositiveNumber accepts nan.
 const CLI::Validator kPositive(
     [](std::string& text) {
       double value = 0;

@@ -1,4 +1,4 @@
-// LAMMPS with pair_style supernormal: takes the arguments of lmp.
+// LAMMPS with pair_style supernormal. Takes the arguments of lmp.
 #include <mpi.h>
 
 #include <cstdio>

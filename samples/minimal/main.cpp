@@ -1,5 +1,5 @@
-// Drops a brick with round edges (a superellipsoid with exponents 8) and twenty pebbles on a plane, prints where the brick comes to
-// rest and when all of them sleep.
+// Drops a brick with round edges (a superellipsoid with exponents 8) and twenty pebbles on a plane. Prints where the brick comes to
+// rest and when all bodies sleep.
 #include <supernormal/supernormal.h>
 
 #include <algorithm>
@@ -47,11 +47,11 @@ int main() {
   dWorldSetAutoDisableFlag(world, 1);
   dWorldSetAutoDisableAverageSamplesCount(world, 10);
   dWorldSetAutoDisableAngularThreshold(world, 0.01 / 0.008);  // rad/s: ODE's 0.01 m/s over the smallest half-axis
-  // A pebble touches the plane in one point, which does not resist rolling. Without these two lines it rolls for ever. The
-  // physical model is RollingResistance of <supernormal/effects.hpp>, which C++ programs have; the C interface has none.
+  // A pebble touches the plane at one point, which does not resist rolling: without these two lines it would roll for ever. The
+  // physical model is RollingResistance of <supernormal/effects.hpp>. It is for C++ programs; the C interface has none.
   dWorldSetAngularDamping(world, 0.01);
   dWorldSetAngularDampingThreshold(world, 0);
-  // Bodies are met before they overlap, so that nothing falls through the plane, at longer steps too.
+  // Contacts before overlap prevent tunnelling through the plane, also at longer steps.
   snSetDefaultLookAhead(kStep);
   dSpaceID space = dHashSpaceCreate(nullptr);
   dCreatePlane(space, 0, 0, 1, 0);

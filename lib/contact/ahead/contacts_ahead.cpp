@@ -11,15 +11,15 @@
 namespace supernormal {
 namespace {
 
-/// Takes a manifold at the poses after `time` back to those of now. A contact keeps its place on the bodies, on each as much as it
-/// has its share in the motion.
+/// Moves a manifold from the poses after `time` back to the present poses. Each contact is moved by the weighted mean of the two
+/// displacements; `share` is the weight of body 1.
 void take_back(ContactManifold& manifold, const BodyAhead& body1, const BodyAhead& body2, double time, double share,
                double gap_now) {
   const Vector3 way1 = time * body1.motion.velocity;
   const Vector3 way2 = time * body2.motion.velocity;
   const Vector3 way = share * way1 + (1 - share) * way2;
   const double closed = manifold.deepest.normal.dot(way1 - way2);
-  // Bodies that are apart now do not overlap now, whatever the tangent planes at the impact say.
+  // Bodies that are apart now do not overlap now. The tangent planes at the impact may say otherwise.
   const double greatest_depth = std::max(0.0, -gap_now);
   const auto depth_now = [&](double depth) { return std::min(depth - closed, greatest_depth); };
   manifold.deepest.gap = -depth_now(-manifold.deepest.gap);
@@ -73,7 +73,7 @@ ContactManifold find_contacts_ahead(const BodyAhead& body1, const BodyAhead& bod
   return manifold;
 }
 
-// The tangent plane is the same wherever the body is moved, and its gap shrinks evenly: the impact need not be looked for.
+// The tangent plane does not depend on the position of the body, and its gap shrinks linearly: no impact search is needed.
 ContactManifold find_plane_contacts_ahead(const BodyAhead& body, double time, const Proximity& now) {
   if (now.status == Status::InvalidInput) return now;
   if (!is_finite(body.motion)) return find_plane_contacts_ahead({body.shape, body.pose, {}}, time, now);

@@ -9,13 +9,13 @@
 namespace supernormal {
 namespace {
 
-// A way that is shorter than this share of that overlap changes no contact: the poses of now will do.
+// A displacement below this fraction of the overlap changes no contact: the present poses suffice.
 constexpr double kNoWay = 0.1;
 
-// An impact is known well enough from this share of the overlap on.
+// An impact is accurate enough once the bodies overlap by this fraction of the overlap asked for.
 constexpr double kMet = 0.9;
 
-// Newton's steps end after two or three, and where they do not, the bodies count as meeting where they got to.
+// Newton's method takes two or three steps. If it reaches this limit, the last position counts as the impact.
 constexpr int kMostSteps = 30;
 
 }  // namespace

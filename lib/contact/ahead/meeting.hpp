@@ -1,4 +1,4 @@
-// Where two bodies are when they meet, or at the end of the time in which they might.
+// The positions of two bodies at their impact, or at the end of the time step.
 #pragma once
 
 #include "supernormal/contact/contacts_ahead.hpp"
@@ -7,30 +7,29 @@
 
 namespace supernormal {
 
-// An overlap by less than this share of the size on the way is no impact.
+// An overlap below this fraction of the size during the motion is no impact.
 inline constexpr double kGraze = 0.01;
 
 struct Meeting {
-  double time = 0;      ///< s from now; 0: the poses of now will do
-  Proximity there;      ///< of the bodies, moved without rotation for so long
-  bool hits = false;    ///< whether they meet within the time
-  int evaluations = 0;  ///< of the gap function
+  double time = 0;      ///< s from now; 0: use the present poses
+  Proximity there;      ///< of the bodies at that time, without rotation
+  bool hits = false;    ///< whether they meet within the time step
+  int evaluations = 0;  ///< evaluations of the gap function
 };
 
-/// The smallest half-extent of those of two bodies that have a thickness, m.
+/// The smallest half-extent of the two bodies, m. Bodies without thickness are ignored.
 double smaller_thickness(const Shape& shape1, const Shape& shape2);
 
 /// The body after `time` at its velocity, without rotation.
 BodyAhead moved(const BodyAhead& body, double time);
 
-/// Where the bodies overlap by a small share of `size` (m) for the first time on the way along their velocities, if they do within
-/// `time`, and otherwise where they are after it. An overlap by less is passed over: so a body does not hit the edge of the next
-/// one where it slides over two that are flush.
+/// Finds the first time at which the bodies overlap by kGraze * `size` (m). If there is none within `time`, the result is the state
+/// at `time`. Smaller overlaps are ignored, so a body that slides over two flush bodies does not hit the edge of the second.
 ///
-/// No impact is missed. The gap of bodies that are moved without rotation is convex in time (a maximum of linear functions, one for
-/// each normal), and no tangent to it lies above it: so Newton's steps do not pass the first time at which it has a given value.
+/// No impact is missed. Without rotation the gap is convex in time: it is a maximum of linear functions, one for each normal. A
+/// convex function lies above its tangents, so Newton's steps do not pass the first time at which it has a given value.
 ///
-/// If the way is not worth a step or leads out of the range of poses, the answer is that of now.
+/// Returns `now` if the displacement is negligible, or if a pose leaves the valid range.
 Meeting find_meeting(const BodyAhead& body1, const BodyAhead& body2, double time, double size, const Settings& settings,
                      const Proximity& now);
 

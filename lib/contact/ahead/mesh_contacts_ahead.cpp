@@ -16,18 +16,18 @@
 namespace supernormal {
 namespace {
 
-// After the first impact the body slides on along what it hit: into the wall behind the floor, and into the corner behind that.
+// After an impact the body slides along the surface: from the floor to a wall, then into the corner behind.
 constexpr int kMostImpacts = 4;
 
-// A face that the body approaches by less than this share of its speed is slid along.
+// The body slides along a face that it approaches by less than this fraction of its speed.
 constexpr double kAlong = 1e-9;
 
-// Two contacts whose normals differ by less than the first, and their gaps by less than this share of what is near, are those of
-// one face that was met at two places.
+// Two contacts belong to one face if their normals differ by less than kSameNormal, and their gaps by less than this fraction of
+// search.near.
 constexpr double kSameNormal = 1e-6;
 constexpr double kSameGap = 1e-3;
 
-/// The first impact of a body on triangles that it meets from outside.
+/// The first impact of a body on triangles that it hits from outside.
 class FirstImpact {
  public:
   FirstImpact(const BodyAhead& body, double time, double size, const Settings& settings)
@@ -40,7 +40,7 @@ class FirstImpact {
     const Vector3 inward = -(v[1] - v[0]).cross(v[2] - v[0]).normalized();
     const double closing = inward.dot(velocity);
     if (!(closing > kAlong * velocity.norm())) return;
-    // The tangent plane that is parallel to the face does not meet it later than the body does.
+    // The tangent plane parallel to the face reaches it no later than the body does.
     ++evaluations_;
     const Matrix3& rotation = body_->pose.rotation;
     const double gap = inward.dot(v[0] - body_->pose.position) - body_->shape.support(rotation.transpose() * inward);
@@ -52,7 +52,7 @@ class FirstImpact {
 
   bool hits() const { return hits_; }
   const Proximity& there() const { return there_; }  ///< at the impact
-  double time() const { return time_; }              ///< s; of the impact, or the whole time
+  double time() const { return time_; }              ///< s; time of impact, or the whole time
   int triangle() const { return triangle_; }
   int evaluations() const { return evaluations_; }
 
@@ -81,7 +81,7 @@ class FirstImpact {
   int evaluations_ = 0;
 };
 
-/// The contact of a body of which the one of a swept body tells.
+/// The contact of a body from the contact of its sweep with a ball of this radius.
 Proximity without_sweep(Proximity swept, double radius) {
   swept.gap += radius;
   swept.point1 -= radius * swept.normal;
@@ -89,8 +89,8 @@ Proximity without_sweep(Proximity swept, double radius) {
   return swept;
 }
 
-/// Takes a manifold at the end of the body's `way` over the surface back to where the body is now. What is apart there was no
-/// overlap before, whatever the tangent plane says.
+/// Moves a manifold from the end of the displacement `way` back to the present position. A gap at the end means no overlap now. The
+/// tangent plane may say otherwise.
 void take_back(ContactManifold& manifold, const Vector3& way, double share) {
   const double closed = manifold.deepest.normal.dot(way);
   const double greatest_depth = std::max(0.0, -manifold.deepest.gap);
@@ -100,7 +100,7 @@ void take_back(ContactManifold& manifold, const Vector3& way, double share) {
   for (ManifoldCorner& corner : manifold.corners) corner = {corner.point - share * way, depth_now(corner.depth)};
 }
 
-/// The velocity along a wall that is met with `normal`.
+/// The velocity along a wall with this normal.
 Vector3 along_wall(const Vector3& velocity, const Vector3& normal) {
   return velocity - std::max(0.0, velocity.dot(normal)) * normal;
 }
@@ -108,7 +108,7 @@ Vector3 along_wall(const Vector3& velocity, const Vector3& normal) {
 }  // namespace
 
 struct MeshContactsAhead::Search {
-  const BodyAhead& body;  // where it is on its way
+  const BodyAhead& body;  // at its position along the path
   const BodyAhead& now;
   const MotionAhead& surface;
   double time;  // s
@@ -116,16 +116,16 @@ struct MeshContactsAhead::Search {
   const Settings& settings;
   double near;   // m; a gap up to this is a contact
   double reach;  // m
-  double share;  // of the body in the motion of both
+  double share;  // the body's share of the mobilities
   double size;   // m; the smallest half-extent of the body
-  double graze;  // m; a body that is in the surface by more has met it
+  double graze;  // m; a deeper overlap is an impact
 };
 
 MeshContactsAhead::Reach MeshContactsAhead::reach_of(const BodyAhead& body, const MotionAhead& surface, double time) {
   if (!is_finite(body.motion) || !is_finite(surface)) return reach_of({body.shape, body.pose, {}}, {}, time);
   const Vector3 half_way = 0.5 * time * (body.motion.velocity - surface.velocity);
   const double size = body.shape.half_extents().minCoeff();
-  // The places on the way along a wall are on the sphere around the way without the wall (Thales).
+  // By Thales, all positions along a wall lie on the sphere whose diameter is the displacement without the wall.
   return {half_way, half_way.norm() + nearness_of_both(body.motion, surface, time, size)};
 }
 
@@ -175,14 +175,14 @@ std::span<const MeshManifold> MeshContactsAhead::find(const BodyAhead& body, con
   return found_;
 }
 
-/// Whether one of the contacts is in the way of the velocity.
+/// Whether a contact blocks the velocity.
 bool MeshContactsAhead::holds_back(const Vector3& velocity) const {
   return std::any_of(found_.begin(), found_.end(), [&](const MeshManifold& found) {
     return found.manifold.deepest.normal.dot(velocity) > kAlong * velocity.norm();
   });
 }
 
-/// A body that is in the surface already is held by the contacts of now, wherever it goes.
+/// A body that already overlaps the surface keeps its present contacts, whatever its motion.
 void MeshContactsAhead::add_overlaps(const Search& search) {
   const std::span<const MeshContact> contacts =
       contacts_.find(search.body.shape, search.body.pose, search.triangles, search.settings);
@@ -193,7 +193,7 @@ void MeshContactsAhead::add_overlaps(const Search& search) {
 }
 
 void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
-  // The sweep refers to the body's shape and does not own it.
+  // The swept body refers to the shape without owning it.
   const Rounded swept(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &search.body.shape), search.near);
   const std::span<const MeshContact> contacts = contacts_.find(swept, search.body.pose, search.triangles, search.settings);
   evaluations_ += contacts_.evaluations();

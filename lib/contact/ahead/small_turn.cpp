@@ -11,15 +11,15 @@
 namespace supernormal {
 namespace {
 
-// radians; by so much an impact may turn a body, and by less where its middle is farther from its centre of mass than it is thick,
-// so that the turn moves the middle by no more than this share of the thickness. The corners of a manifold hold for such turns
-// (manifold/manifold_of_gaps.cpp).
+// Largest rotation of a body by an impact, rad. Manifold points are valid for such rotations (manifold/manifold_of_gaps.cpp). It is
+// smaller if the middle of the body is farther from the centre of mass than the body is thick. Then the rotation moves the middle
+// by at most this fraction of the thickness.
 constexpr double kLargestTurn = 0.1;
 
-// From this multiple of the largest turn on, the lever is that of the largest turn; below it is in between, so that no force jumps.
+// At this multiple of the largest rotation the lever arm has its limit. Below it the arm is interpolated, so no force jumps.
 constexpr double kFarTooLarge = 2;
 
-/// The place of the contacts that is nearest to `point`, a point of their tangent plane.
+/// The point of the contact region that is nearest to `point`, a point of the tangent plane.
 Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
   if (manifold.corner_count == 0) return manifold.deepest.contact;
   const ContactFrame frame{TangentPlane::at(manifold.deepest.normal), point};
@@ -30,28 +30,28 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
   return is_inside ? point : frame.lift(region.nearest_to({0, 0}));
 }
 
-/// The middle of the body's box, m.
+/// The centre of the body's box, m.
 Vector3 middle_of(const BodyAhead& body) {
   if (body.shape.is_symmetric()) return body.pose.position;
   return body.pose.position + body.pose.rotation * BodyBox::of(body.shape).centre;
 }
 
-/// m/s; of the point of the body that is at `place`.
+/// The velocity of the point of the body at `place`, m/s.
 Vector3 velocity_at(const BodyAhead& body, const Vector3& place) {
   return body.motion.velocity + body.motion.angular_velocity.cross(place - body.pose.position);
 }
 
-/// radians; by how much an impact may turn a body.
+/// The largest rotation of a body by an impact, rad.
 double largest_turn_of(const BodyAhead& body) {
   const double thickness = body.shape.half_extents().minCoeff();
   const double distance = (middle_of(body) - body.motion.centre).norm();
   return distance > thickness ? kLargestTurn * thickness / distance : kLargestTurn;
 }
 
-/// The squared radius of gyration about the axis of the turn by a force with this lever, m^2; 0 for what no force turns.
+/// The squared radius of gyration about the axis of a force with this lever arm, m^2; 0 for a body of infinite inertia.
 double squared_gyration(double lever, double torque_turning) { return torque_turning > 0 ? lever * lever / torque_turning : 0; }
 
-/// How far from the centre of mass a contact may act that stops two bodies.
+/// Limits the lever arm of a contact that stops two bodies.
 class LeverLimit {
  public:
   LeverLimit(const BodyAhead& body1, const BodyAhead& body2, double time, double share, const Proximity& contact)
@@ -69,33 +69,34 @@ class LeverLimit {
         height_(std::max(0.0, share * normal_.dot(contact.contact - middle_of(body1)) -
                                   (1 - share) * normal_.dot(contact.contact - middle_of(body2)) + std::min(0.0, contact.gap))) {}
 
-  /// m; how much nearer the centres of mass would come than the contact lets the bodies.
+  /// The overlap that would form under the centre of mass without contact forces, m.
   double approach() const { return approach_; }
 
-  /// The point of the tangent plane through `place` that is on the line through the centre of mass.
+  /// The point of the tangent plane through `place` on the normal through the centre of mass.
   Vector3 under_centre(const Vector3& place) const { return centre_ + normal_.dot(place - centre_) * normal_; }
 
-  /// The part of its lever that a contact at `place` may keep.
+  /// The fraction of its lever arm that a contact at `place` keeps.
   double part_at(const Vector3& place) const {
     const Vector3 arm = place - under_centre(place);
     return std::min(part_for_small_turn(arm, normal_, approach_), part_for_height(arm));
   }
 
-  /// How far a contact at `place` is to be moved.
+  /// The shift of a contact at `place`, m.
   Vector3 shift_of(const Vector3& place) const {
     const Vector3 under = under_centre(place);
     return (part_at(place) - 1) * (place - under) + shift_for_friction(place, under - centre_);
   }
 
  private:
-  /// m/s; the velocity of body 1 against body 2.
+  /// The velocity of body 1 relative to body 2, m/s.
   Vector3 closing_at(const Vector3& place) const { return velocity_at(body1_, place) - velocity_at(body2_, place); }
 
-  /// m; how much nearer the bodies would come at `place` than the contact lets them.
+  /// The overlap that would form at `place` without contact forces, m.
   double approach_at(const Vector3& place) const { return (normal_.dot(closing_at(place)) + gained_) * time_ - gap_; }
 
-  /// Friction turns a body by how far before the centre of mass it acts. It is no stronger than what presses, and ends when the
-  /// bodies slide no more. What presses is the impact: the weight rolls the body, in steps of any length.
+  /// The lever arm of friction is the distance of the contact plane from the centre of mass. Friction is at most as large as the
+  /// normal force and ends when sliding ends. Only the normal force of the impact counts here: the weight rolls the body in steps
+  /// of any length.
   Vector3 shift_for_friction(const Vector3& place, const Vector3& arm) const {
     const Vector3 closing = closing_at(place);
     const Vector3 slip = closing - normal_.dot(closing) * normal_;
@@ -105,8 +106,8 @@ class LeverLimit {
     return (part_for_small_turn(arm, slip / speed, way) - 1) * arm;
   }
 
-  /// The largest part of a lever with which a force against `direction` that takes this way from the body turns it by no more than
-  /// the largest turn. A turn that it takes away counts for nothing.
+  /// The largest fraction of a lever arm with which a force against `direction`, which stops the displacement `way` (m), rotates
+  /// the bodies by at most the largest rotation. The removal of a present rotation is free.
   double part_for_small_turn(const Vector3& arm, const Vector3& direction, double way) const {
     const Vector3 torque = arm.cross(direction);
     const Vector3 axis = turning_ * torque;
@@ -114,7 +115,7 @@ class LeverLimit {
     const double gyration = squared_gyration(lever, torque.dot(axis));
     if (!(gyration > 0)) return 1;
     const double largest = largest_turn_ + std::max(0.0, turn_.dot(axis.normalized()));
-    // A lever beyond the radius of gyration turns the body by less, but those on the way to a short one turn it by more.
+    // An arm beyond the radius of gyration rotates the body by less, but shorter arms on the way to the limit rotate it by more.
     const double worst = std::min(lever, std::sqrt(gyration));
     const double excess = way * worst / (worst * worst + gyration) / largest;
     if (!(excess > 1)) return 1;
@@ -124,8 +125,8 @@ class LeverLimit {
     return 1 - std::min(1.0, (excess - 1) / (kFarTooLarge - 1)) * (1 - small / lever);
   }
 
-  /// The largest part of a lever with which a contact lets the bodies come nearer by no more than the height, by the impact and by
-  /// the turn in which they are: (A b^2 + u b k^2) / (b^2 + k^2) <= H for the approach A, the turn u and the lever b.
+  /// The largest fraction of a lever arm b with which the bodies approach by no more than the height H. The impact and the present
+  /// rotation u contribute: (A b^2 + u b k^2) / (b^2 + k^2) <= H with the approach A and the radius of gyration k.
   double part_for_height(const Vector3& arm) const {
     const Vector3 torque = arm.cross(normal_);
     const double lever = arm.norm();
@@ -142,17 +143,17 @@ class LeverLimit {
   const BodyAhead& body2_;
   double time_;          // s
   Vector3 normal_;       // unit, from body 1 to body 2
-  double gap_;           // m; that is left, 0 in an overlap
-  double gained_;        // m/s; by gravity and forces
-  Vector3 centre_;       // m; of mass
+  double gap_;           // m; the present gap, 0 in an overlap
+  double gained_;        // m/s; from gravity and forces
+  Vector3 centre_;       // m; centre of mass
   Matrix3 turning_;      // 1/m^2
-  Vector3 turn_;         // radians; in which the bodies are already
-  double largest_turn_;  // radians; by an impact
+  Vector3 turn_;         // rad; by the present angular velocity
+  double largest_turn_;  // rad; limit for an impact
   double approach_;      // m
-  double height_;        // m; by so much the middles may come nearer, none through the plane
+  double height_;        // m; limit for the approach of the middles, neither beyond the plane
 };
 
-/// The larger of the turns that a contact of two free bodies gives them, in largest turns. It takes `approach` (m) away.
+/// The larger rotation that a contact gives one of two free bodies, in units of its limit. The contact stops `approach` (m).
 double excess_of(const BodyAhead& body1, const BodyAhead& body2, double share, double approach, const Proximity& contact) {
   const Vector3 torque1 = (contact.contact - body1.motion.centre).cross(contact.normal);
   const Vector3 torque2 = (contact.contact - body2.motion.centre).cross(contact.normal);
@@ -175,7 +176,7 @@ void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double 
   const double part = std::min(1.0, (excess - 1) / (kFarTooLarge - 1));
   const Vector3 normal = (contact.normal + part * (between - contact.normal)).stableNormalized();
   const Vector3 place = share * body1.motion.centre + (1 - share) * body2.motion.centre;
-  // The gap that there is when they meet, and what closes until then.
+  // The gap at the impact, plus the displacement along the new normal until then.
   const double gap = contact.gap + meeting_time * (normal.dot(velocity) - closed);
   contact.gap = std::max(gap, std::min(0.0, contact.gap));
   contact.contact += part * (place - contact.contact);
@@ -190,8 +191,8 @@ void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, dou
   const Vector3 place = nearest_place(manifold, under);
   const Vector3 shift = limit.shift_of(place);
   for (ManifoldCorner& corner : manifold.corners) corner.point += shift;
-  manifold.deepest.contact += limit.shift_of(manifold.deepest.contact);  // with room for one it acts alone
-  // Of contacts that are all on one side of the centre only the nearest acts, but quickstep does not find that.
+  manifold.deepest.contact += limit.shift_of(manifold.deepest.contact);  // used alone if max_contacts is 1
+  // If all contacts are on one side of the centre, only the nearest one acts. Quickstep does not find this.
   const bool is_beside = manifold.corner_count > 0 && place != under && limit.part_at(place) < 1;
   if (is_beside) {
     manifold.deepest.contact = place + shift;

@@ -1,24 +1,26 @@
-// Keeps an impact at one end of a body from turning it by a large angle within a step.
+// Prevents an impact at one end of a body from rotating it by a large angle within a step.
 #pragma once
 
 #include "supernormal/contact/contacts_ahead.hpp"
 
 namespace supernormal {
 
-/// Moves the contacts of a manifold at the poses of now along the tangent plane towards the line through the centre of mass, where
-/// they would turn a body too far within `time`. `share` is that of body 1 in the motion of both.
+/// Moves the contacts of a manifold at the present poses in the tangent plane, towards the line through the centre of mass, as far
+/// as needed to limit the rotation within `time`. `share` is the share of body 1 in the mobilities.
 ///
-/// Contacts are linear in the motion: they hold for small turns. An impact with the lever a stops that place of the body, and
-/// leaves the centre the share a^2 / (a^2 + k^2) of its velocity, k the radius of gyration. Where the way is long beside the body,
-/// that share takes the centre through a wall, and the body turns by many radians. With a lever so small that the turn is small,
-/// the body stops before the wall. The turn that it has lost is one that no step of this length could follow.
+/// Contacts are linear in the motion, so they are valid for small rotations only. An impact with lever arm a stops the body at the
+/// contact, but its centre keeps the fraction a^2 / (a^2 + k^2) of its velocity, with the radius of gyration k. If the displacement
+/// is long compared to the body, the centre passes through the wall and the body rotates by many radians. With a shorter arm the
+/// rotation is small and the body stops before the wall. The lost rotation could not be resolved at this step size.
 void limit_turn(const BodyAhead& body1, const BodyAhead& body2, double time, double share, ContactManifold& manifold);
 
-/// Gives a contact of two free bodies the normal from centre of mass to centre of mass, where it would turn one of them too far
-/// within `time` wherever it acts in its tangent plane: no place there is in line with both centres.
+/// Replaces the contact normal of two free bodies by the direction between their centres of mass, if the contact would rotate one
+/// of them too far within `time`. A shift of the contact would not help, because no place in its tangent plane is in line with both
+/// centres.
 ///
-/// Between the centres it turns neither body. It stops them where their centres, seen along that normal, are as far apart as when
-/// they meet, after `meeting_time`. So they do not pass each other; what they lose is a part of the way aside, and the turn.
+/// A contact between the centres rotates neither body. It stops the bodies where the distance of their centres along the new normal
+/// equals the distance at the impact, after `meeting_time` (s). So the bodies do not pass each other. They lose part of the
+/// sideways displacement, and the rotation.
 void act_between_centres(const BodyAhead& body1, const BodyAhead& body2, double time, double share, double meeting_time,
                          ContactManifold& manifold);
 

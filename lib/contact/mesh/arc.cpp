@@ -6,9 +6,8 @@
 namespace supernormal {
 namespace {
 
-/// Halves the interval until the gap rises into it from both ends. Where it is known to rise from one end only, that end is the
-/// higher one, and the maximum lies before the first sample that is not higher still. Returns false when the bodies turn out to
-/// be apart.
+/// Bisects until the gap increases into the interval from both ends. If it increases from one end only, this end is the higher one.
+/// The maximum then lies before the first sample that is not higher. Returns false if the bodies are apart.
 bool bracket(SupportProbe& probe, const Arc& arc, ArcSample& low, ArcSample& high, int last_evaluation) {
   bool rises_from_low = low.slope >= 0;
   bool rises_from_high = high.slope <= 0;
@@ -26,9 +25,9 @@ bool bracket(SupportProbe& probe, const Arc& arc, ArcSample& low, ArcSample& hig
   return true;
 }
 
-/// Narrows the interval to the side of `middle` that the gap rises into. Where `middle` is lower than the higher end by more than
-/// the tolerance (m), a maximum as high as that end lies between these two, wherever else there is one; the interval may then be
-/// one that the gap rises into from that end only.
+/// Keeps the side of `middle` into which the gap increases. But if `middle` is lower than the higher end by more than `tolerance`
+/// (m), the side of that end contains a maximum at least as high as the end, so it is kept. The gap may then increase into the
+/// interval from that end only.
 void narrow(const ArcSample& middle, ArcSample& low, ArcSample& high, double tolerance) {
   const bool is_beyond_maximum = low.gap >= high.gap && middle.gap < low.gap - tolerance;
   const bool is_before_maximum = low.gap < high.gap && middle.gap < high.gap - tolerance;
@@ -38,8 +37,8 @@ void narrow(const ArcSample& middle, ArcSample& low, ArcSample& high, double tol
 bool is_bracket(const ArcSample& low, const ArcSample& high) { return low.slope >= 0 && high.slope <= 0; }
 
 /// Chooses the next angle by the ITP method (Oliveira, Takahashi: An enhancement of the bisection method average performance
-/// preserving minmax optimality, ACM TOMS 47, 2020): never more than one step worse than bisection, superlinear on a smooth
-/// slope.
+/// preserving minmax optimality, ACM TOMS 47, 2020). It needs at most one step more than bisection, and converges superlinearly on
+/// a smooth slope.
 class Interpolation {
  public:
   explicit Interpolation(double width) : first_width_(width), reach_(width) {}
@@ -58,18 +57,18 @@ class Interpolation {
 
  private:
   double first_width_;
-  double reach_;  // half of the width that bisection would have one step later
+  double reach_;  // half of bisection's width one step later
 };
 
-/// Bounds the maximum above the samples: s is below its tangents at both ends as far as it is concave.
+/// Bounds the maximum above the samples: where s is concave, it lies below its tangents at both ends.
 double bound_above(const ArcSample& low, const ArcSample& high) {
   const double descent = low.slope - high.slope;
   return descent > 0 ? low.slope * -high.slope / descent * (high.angle - low.angle) : 0;
 }
 
-/// The angle of the normal for which both points are equally deep. It is the maximum if the body has nothing beyond its chord
-/// between them. On a body with a nearly flat side the slope jumps from one value to the other there.
-double kink_between(const Arc& arc, const ArcSample& low, const ArcSample& high) {
+/// The angle at which both points are equally deep. It is the maximum if the body has no point beyond their chord. On a nearly flat
+/// side of the body the slope jumps there.
+double equal_depth_angle(const Arc& arc, const ArcSample& low, const ArcSample& high) {
   const Vector3 chord = low.point - high.point;
   const double sine = arc.from.dot(chord);
   const double cosine = -arc.towards.dot(chord);
@@ -106,9 +105,9 @@ ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, 
   const auto is_inside = [&](double angle) { return low.angle < angle && angle < high.angle; };
   const auto is_settled = [&] { return !is_bracket(low, high) || bound_above(low, high) <= tolerance; };
   for (int step = 0; !is_settled() && probe.evaluations() < last_evaluation; ++step) {
-    double angle = step % 2 == 0 ? kink_between(arc, low, high) : interpolation.next(low, high);
+    double angle = step % 2 == 0 ? equal_depth_angle(arc, low, high) : interpolation.next(low, high);
     if (!is_inside(angle)) angle = interpolation.next(low, high);
-    if (!is_inside(angle)) break;  // `low` and `high` are neighbouring numbers
+    if (!is_inside(angle)) break;  // `low` and `high` are adjacent numbers
     const ArcSample middle = arc.sample(angle, probe);
     if (middle.gap > 0) return best;
     narrow(middle, low, high, tolerance);
@@ -119,8 +118,8 @@ ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, 
   const bool is_bracketed = is_bracket(low, high);
   best.error =
       is_bracketed ? bound_above(low, high) : std::max(std::abs(low.slope), std::abs(high.slope)) * (high.angle - low.angle);
-  // The point is interpolated also where the two are far apart: a flat side of the body lies across the edge then, and all of it
-  // is the support of one normal.
+  // Interpolate the point even if the two are far apart. Then a flat side of the body lies across the edge, and all its points have
+  // the same support normal.
   const double descent = low.slope - high.slope;
   const double share = is_bracketed && descent > 0 ? low.slope / descent : 0.5;
   best.normal = arc.normal(low.angle + share * (high.angle - low.angle));

@@ -1,16 +1,16 @@
-// A body over a convex edge: one unknown, the angle of the normal between those of the two faces.
+// A body over a convex edge. The one unknown is the angle of the normal between the normals of the two faces.
 #pragma once
 
 #include "contact/mesh/support_probe.hpp"
 
 namespace supernormal {
 
-/// The gap for one normal of the arc, and its slope.
+/// The gap at one normal of the arc, and its slope.
 struct ArcSample {
   double angle = 0;
-  double slope = 0;                 ///< m per radian; how far the body's point is beyond the edge, seen along the normal
+  double slope = 0;                 ///< m/rad; how far the body's point is beyond the edge, across the normal
   double gap = 0;                   ///< m; normal . (point - edge_point)
-  Vector3 point = Vector3::Zero();  ///< m; the deepest point of the body with this normal
+  Vector3 point = Vector3::Zero();  ///< m; the support point of the body for this normal
 };
 
 /// The normals n(angle) = cos(angle) from + sin(angle) towards of an edge through `edge_point`, 0 <= angle <= end.
@@ -22,29 +22,29 @@ struct Arc {
 
   Vector3 normal(double angle) const;
 
-  /// A sample for which the body's deepest point with that normal is known.
+  /// A sample with the known support point of the body.
   ArcSample sample(double angle, const Vector3& point) const;
 
   /// A sample that evaluates the body.
   ArcSample sample(double angle, SupportProbe& probe) const;
 };
 
-/// The result of maximize_between(). When the bodies are apart, nothing else in it is valid.
+/// The result of maximize_between(). If `is_apart`, the other fields are invalid.
 struct ArcMaximum {
   bool is_apart = true;
   bool converged = false;
   Vector3 normal = Vector3::UnitX();
-  Vector3 point = Vector3::Zero();  ///< m; point of the body, over the edge
+  Vector3 point = Vector3::Zero();  ///< m; point of the body over the edge
   double gap = 0;                   ///< m; normal . (point - edge_point)
-  double error = 0;                 ///< m; bound on how much too small the gap may be
+  double error = 0;                 ///< m; upper bound of the missing gap
 };
 
-/// Whether two samples, `low` at the smaller angle, tell of a maximum between them: the gap rises from both, or it rises from the
-/// higher one. Slopes within `level` (m per radian) count as 0.
+/// Whether there is a maximum between two samples, `low` at the smaller angle: the gap increases from both, or from the higher one.
+/// Slopes within `level` (m/rad) count as 0.
 bool have_maximum_between(const ArcSample& low, const ArcSample& high, double level);
 
-/// Finds that maximum, or one of them where there are several: one that is as high as either sample, to the tolerance. Ends at the
-/// first normal that separates the bodies. `tolerance` of the gap in m.
+/// Finds such a maximum, at least as high as both samples to the tolerance. Stops at the first normal that separates the bodies.
+/// `tolerance`: of the gap, m.
 ArcMaximum maximize_between(SupportProbe& probe, const Arc& arc, ArcSample low, ArcSample high, double tolerance,
                             int max_evaluations);
 

@@ -8,24 +8,24 @@
 namespace supernormal {
 namespace {
 
-// Suffices for the usual tolerance, at two samples a digit, and for several maxima.
+// Enough for the usual tolerance, at two samples per digit, and for several maxima.
 constexpr std::size_t kMostSamples = 64;
 
-// A new sample keeps at least this share of the interval from its ends.
+// Smallest distance of a new sample from the ends of its interval, relative to the interval.
 constexpr double kFromEnds = 1e-3;
 
-/// The upper bound that the body's point in `sample` gives for the gap at another angle.
+/// The upper bound of the gap at another angle, from the body's point in `sample`.
 double bound_at(const ArcSample& sample, double angle) {
   return sample.gap * std::cos(angle - sample.angle) + sample.slope * std::sin(angle - sample.angle);
 }
 
-/// The angle between two neighbouring samples where their bounds allow the largest gap.
+/// The angle between two adjacent samples at which their bounds allow the largest gap.
 struct Interval {
   double angle = 0;
   double bound;  // m
 
   Interval(const ArcSample& low, const ArcSample& high) : bound(std::max(low.gap, high.gap)) {
-    // Both bounds are sinusoids: the lower one is highest at the top of one of them or where they meet.
+    // Both bounds are sinusoids. The lower of the two peaks at the top of one sinusoid or where they intersect.
     const double width = high.angle - low.angle;
     const double meet = std::atan2(low.gap - bound_at(high, low.angle), bound_at(high, low.angle + 0.5 * std::numbers::pi) -
                                                                             bound_at(low, low.angle + 0.5 * std::numbers::pi));
@@ -40,7 +40,7 @@ struct Interval {
   }
 };
 
-/// Samples in the order of their angles.
+/// Samples sorted by angle.
 class Samples {
  public:
   Samples(const ArcSample& low, const ArcSample& high) : samples_{low, high} {}

@@ -19,7 +19,7 @@ bool BodyBox::contains(const Vector3& point, double margin) const {
   return ((point - centre).cwiseAbs().array() <= half_lengths.array() + margin).all();
 }
 
-// Tests the 13 axes that may separate the two (Ericson, Real-Time Collision Detection, 5.2.9).
+// Separating axis test with 13 axes (Ericson, Real-Time Collision Detection, 5.2.9).
 bool BodyBox::touches(const Pose& pose, const std::array<Vector3, 3>& vertices) const {
   Matrix3 local;
   for (int k = 0; k < 3; ++k) {

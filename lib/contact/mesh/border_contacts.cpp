@@ -1,5 +1,5 @@
-// Contacts at the open border of a sheet. A floor is often laid of tiles, each a geom of its own, and a query knows one of them:
-// what is a border there is a seam of the floor. So a body that is a little below the face has the face's normal at its border.
+// Contacts at the open border of a sheet. A floor often consists of tiles, each its own geom, and a query sees only one of them. A
+// border may therefore be a seam of the floor. So a body slightly below the face gets the normal of the face at the border.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 namespace supernormal {
 namespace {
 
-// How far a body is below the plane of a face, in units of its own extent along the normal: up to the first it stands on the sheet,
-// as it does on the tile beside; from the second on it is beside the border, and comes out by the minimum translation.
+// Depth of a body below the plane of a face, relative to its extent along the normal. Up to kStands the body stands on the sheet,
+// as it would on the next tile. From kIsBeside on it is beside the border and gets the minimum translation.
 constexpr double kStands = 0.1;
 constexpr double kIsBeside = 0.2;
 
-// The unit vector of the arc between two normals that is nearest to `normal`.
+// The unit vector nearest to `normal` on the arc between two normals.
 Vector3 nearest_between(const Vector3& normal1, const Vector3& normal2, const Vector3& normal) {
   const Vector3 axis = normal1.cross(normal2);
   const Vector3 in_plane = normal - axis.dot(normal) / std::max(axis.squaredNorm(), 1e-300) * axis;
@@ -25,13 +25,13 @@ Vector3 nearest_between(const Vector3& normal1, const Vector3& normal2, const Ve
   return normal1.dot(normal) > normal2.dot(normal) ? normal1 : normal2;
 }
 
-// Turns the normal of the minimum translation towards that of the face.
+// Rotates the normal of the minimum translation towards the normal of the face.
 Vector3 turned(const Vector3& normal, const Vector3& face_normal, double weight) {
   return weight < 1 ? ((1 - weight) * normal + weight * face_normal).normalized() : face_normal;
 }
 
-// The body's lowest point along the arc's first normal of those over the edge. `low` is beyond the edge, at the start of the arc.
-// Each step takes the normal for which both points are equally deep, until the body has nothing beyond their chord.
+// The lowest point of the body over the edge, along the first normal of the arc. `low` is beyond the edge, at the start of the arc.
+// Each step takes the normal for which both points are equally deep, until the body has no point beyond their chord.
 Vector3 lowest_over_edge(SupportProbe& probe, const Arc& arc, ArcSample low, double tolerance, int max_evaluations) {
   const auto beyond = [&](const ArcSample& sample) { return arc.towards.dot(sample.point - arc.edge_point); };
   ArcSample high = arc.sample(arc.end, probe);
@@ -58,7 +58,7 @@ double MeshContactSearch::stands_on(SupportProbe& probe, const Vector3& face_nor
   return std::clamp((kIsBeside - share) / (kIsBeside - kStands), 0.0, 1.0);
 }
 
-// Takes the place of find_on_arc at a border. The contact is that of the body's lowest point over the edge, or at its end.
+// Replaces find_on_arc at a border. The contact is at the lowest point of the body over the edge, or at the end of the edge.
 void MeshContactSearch::find_on_border(SupportProbe& probe, int f, int side, const Arc& arc, const ArcMaximum& top, double weight) {
   const Face& face = surface_.faces()[at(f)];
   const int first_evaluation = probe.evaluations();
@@ -88,7 +88,7 @@ void MeshContactSearch::find_on_border(SupportProbe& probe, int f, int side, con
   if (touches_surface(probe, contact)) found_.add(contact);
 }
 
-// Makes the depth of the contact that of the body below its place, along its normal. Returns false if the body is not there.
+// Sets the depth of the contact to the depth of the body below its place, along its normal. Returns false if the body is not there.
 bool MeshContactSearch::drop_below(SupportProbe& probe, SurfaceContact& contact) const {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   const Pose pose{Vector3::Zero(), probe.rotation()};
@@ -103,7 +103,8 @@ bool MeshContactSearch::drop_below(SupportProbe& probe, SurfaceContact& contact)
   return true;
 }
 
-// Turns the contact at a vertex of the border, to which an inner edge has led, towards the normals of the faces there.
+// Rotates the normal of a contact at a border vertex towards the normals of the faces there. A search along an inner edge led to
+// this vertex.
 void MeshContactSearch::level_at_vertex(SupportProbe& probe, SurfaceContact& contact) const {
   const Vector3 face_normal = face_normal_at(contact.crease, contact.normal);
   const double weight = face_normal == contact.normal ? 0 : stands_on(probe, face_normal, contact.feature_point);
@@ -113,7 +114,7 @@ void MeshContactSearch::level_at_vertex(SupportProbe& probe, SurfaceContact& con
   if (drop_below(probe, level)) contact = level;
 }
 
-// The normal of the faces and edges at a vertex that is nearest to `normal`; `normal` itself if it does not lean out across a
+// The normal of the faces and edges at a vertex that is nearest to `normal`. Returns `normal` itself unless it leans out across a
 // border there.
 Vector3 MeshContactSearch::face_normal_at(int corner, const Vector3& normal) const {
   bool leans_out = false;

@@ -5,24 +5,23 @@
 namespace supernormal {
 namespace {
 
-// Two contacts are one if their normals and places are this close. The effect of a contact depends on both continuously, the
-// vertices of a mesh are floats, so that a plane through them is known to about 1e-7 only, and the normal of a small gap is known
-// to the root of its tolerance.
+// Two contacts are the same if their normals and places are this close. The tolerances are loose because contacts act continuously.
+// Vertices of a mesh are floats, so a plane through them is known to about 1e-7. The normal of a small gap is known to the square
+// root of its tolerance.
 constexpr double kSameNormal = 1e-4;
 constexpr double kSamePlace = 1e-4;  // of the length unit
 
-// Cosine of 18 degrees: where surfaces run into each other, a contact with such a similar normal makes another one redundant.
+// cos 18°. Where surfaces intersect, a contact with a normal this similar makes another one redundant.
 constexpr double kSimilarNormal = 0.95;
 
-// A point is on a tangent plane, or clearly behind it, at these distances in length units.
+// A point within kOnPlane of a tangent plane is on it; beyond kBehindPlane it is behind it. In length units.
 constexpr double kOnPlane = 1e-9;
 constexpr double kBehindPlane = 1e-8;
 
-// Cosine of 2.6 degrees: closer normals are those of a body that lies flat on two tips.
+// cos 2.6°. Closer normals belong to a body that lies flat on two tips.
 constexpr double kNearlyParallel = 0.999;
 
-// Cosine beyond which two normals are those of the two sides of a plate: they belong together although the rim that joins them is
-// far away.
+// Cosine below which two normals are on the two sides of a plate. They belong together although the connecting rim is far away.
 constexpr double kOpposite = -0.5;
 
 }  // namespace
@@ -68,8 +67,8 @@ bool DistinctContacts::are_of_one_part(const SurfaceContact& a, const SurfaceCon
   const double b_before_a = a.normal.dot(from_a_to_b);
   const double a_before_b = -b.normal.dot(from_a_to_b);
   if (std::max(b_before_a, a_before_b) > kOnPlane * length_unit_) return false;
-  // Two normals of one edge separate the same part, as both planes go through it; but not the faces of a corner, which may have
-  // been given the same point.
+  // Two normals of one edge separate the same part, because both planes contain the edge. This does not hold for two faces of a
+  // corner, which may have the same point.
   const bool is_at_crease = a.crease >= 0 || b.crease >= 0;
   return (is_at_crease && a.normal.dot(b.normal) < kNearlyParallel) ||
          std::min(b_before_a, a_before_b) < -kBehindPlane * length_unit_;
@@ -77,7 +76,7 @@ bool DistinctContacts::are_of_one_part(const SurfaceContact& a, const SurfaceCon
 
 void DistinctContacts::keep_shortest_separations() {
   sort();
-  // A contact is dropped if any shallower one, whether that one remains or not, separates the body from the same part.
+  // Drop a contact if any shallower one separates the body from the same part, even if that one is dropped, too.
   const auto is_superseded = [&](const SurfaceContact& contact) {
     const auto* const shallower = &contact + 1;
     const auto* const end = contacts_.data() + contacts_.size();

@@ -13,13 +13,13 @@
 namespace supernormal {
 namespace {
 
-// The normal at an edge must be more precise than the gap, and another step of a superlinear iteration is cheap.
+// The normal at an edge must be more accurate than the gap. Another step of a superlinear iteration is cheap.
 constexpr double kArcTolerance = 1e-2;  // of the tolerance of the gap
 
-// Cosines of angles below 1e-6 rad are 1 to within this.
+// The cosine of an angle below 1e-6 rad is 1 within this error.
 constexpr double kAligned = 1e-12;
 
-// The searched box is larger than the body's, so that rounding loses no triangle that touches it.
+// The searched box is larger than the body's by this margin, so that rounding loses no triangle that touches it.
 constexpr double kBoxMargin = 1e-9;  // of the length unit
 
 }  // namespace
@@ -43,7 +43,7 @@ std::span<const MeshContact> MeshContactSearch::find(const Shape& shape, const P
   for (std::size_t p = 0; p < supports_.size(); ++p) find_beyond_rim(probe, p);
   add_beyond_rim();
   find_other_separations(probe);
-  if (found_.contacts().empty()) find_way_up(probe);
+  if (found_.contacts().empty()) find_shortest_exit(probe);
   found_.keep_shortest_separations();
   evaluations_ = probe.evaluations();
   return to_world(pose.position);
@@ -101,7 +101,7 @@ void MeshContactSearch::find_on_patch(SupportProbe& probe, std::size_t patch) {
   }
 }
 
-// Each convex edge is handled once, by the face with the lower number.
+// Each convex edge is handled once, by the face with the lower index.
 bool MeshContactSearch::is_edge_owned_by_neighbour(int face, int side) const {
   const int neighbour = surface_.faces()[at(face)].neighbour[at(side)];
   if (neighbour < 0 || neighbour > face) return false;
@@ -144,7 +144,7 @@ double MeshContactSearch::arc_tolerance() const {
   return std::max(kArcTolerance * settings_.tolerance * length_unit_, 1e-3 * surface_.rounding());
 }
 
-// Gaps that differ by less than this (m) are the same to a query.
+// Gaps within this of each other (m) are equal to a query.
 double MeshContactSearch::touch() const { return settings_.tolerance * length_unit_ + surface_.rounding(); }
 
 void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const Arc& arc, const ArcSample& low,
@@ -178,15 +178,12 @@ void MeshContactSearch::find_on_arc(SupportProbe& probe, int f, int side, const 
   if (touches_surface(probe, contact)) found_.add(contact);
 }
 
-// The deepest point may lie under no face although the solid goes on there. There are two such cases.
-//
-// A sharp tip is pressed into the corner of floor and wall: where the floor's plane is above the tip, there is the wall already.
-// The solid goes on below the wall, and so does the contact with the floor.
-//
-// A thin rod stands deep in the floor: above its tip the floor is out of the body's box, and its triangles are not known.
-//
-// The contact goes on only as far as the solid does: beyond a low wall the floor's plane is in the air. Where the body sticks out
-// of that plane it must be in the solid, so that a known face lies between that place and the body's other end.
+// The deepest point may lie under no face although the solid continues there. There are two such cases:
+// - - A sharp tip is pressed into the corner of floor and wall. Above the tip there is the wall, not the floor. The solid continues
+//   below the wall, and so does the contact with the floor.
+// - - A thin rod stands deep in the floor. Above its tip the floor is outside the body's box, and its triangles are unknown.
+// The contact may only continue as far as the solid: beyond a low wall the plane of the floor is in the air. Where the body leaves
+// that plane it must be in the solid. Then a known face lies between that point and the other end of the body.
 void MeshContactSearch::find_beyond_rim(SupportProbe& probe, std::size_t p) {
   const CoplanarPatch& patch = surface_.patches()[p];
   const PatchSupport& support = supports_[p];
@@ -205,7 +202,7 @@ void MeshContactSearch::find_beyond_rim(SupportProbe& probe, std::size_t p) {
   if (goes_on_unknown || goes_on_behind_wall) beyond_rim_.add(contact);
 }
 
-// Among nearly parallel contacts the deepest is added, whatever the order of the triangles.
+// Adds the deepest of nearly parallel contacts, whatever the order of the triangles.
 void MeshContactSearch::add_beyond_rim() {
   beyond_rim_.sort();
   for (const SurfaceContact& contact : beyond_rim_.contacts()) {
@@ -213,13 +210,13 @@ void MeshContactSearch::add_beyond_rim() {
   }
 }
 
-// Whether all triangles at a point are known: the caller found those in the body's box.
+// Whether all triangles at a point are known. The caller found the triangles in the body's box.
 bool MeshContactSearch::has_complete_neighbourhood(const SupportProbe& probe, const Vector3& point) const {
   return box_.contains(probe.rotation().transpose() * point, surface_.rounding());
 }
 
-// The body's point may lie under a face while the body is beside the solid: a rod that leans against a sheet's border from below.
-// The line from the point to the opposite end of the body lies in the body; where it leaves the solid it meets the surface.
+// The body's point may lie under a face while the body is beside the solid: a rod leans against the border of a sheet from below.
+// The segment from the point to the opposite end of the body lies in the body. Where it leaves the solid it meets the surface.
 bool MeshContactSearch::touches_surface(SupportProbe& probe, const SurfaceContact& contact) const {
   const Vector3 top = probe.deepest(-contact.normal).point;
   if (!(contact.normal.dot(top - contact.surface_point) > 0)) return false;  // the whole body is behind the plane
@@ -227,8 +224,9 @@ bool MeshContactSearch::touches_surface(SupportProbe& probe, const SurfaceContac
          overlaps(meet_face(probe, surface_.faces()[at(contact.face)]), contact.gap);
 }
 
-// Whether a face and the body, that meet as found, overlap so that there may be a contact with this gap. Within the tolerance the
-// query does not tell from which side the body touches: one that touches an edge from outside is far below the planes of its faces.
+// Whether a face and a body with the proximity `found` overlap, so that a contact with this gap is possible. Within the tolerance
+// the query cannot tell on which side the body touches. A body that touches an edge from outside is far below the planes of its
+// faces.
 bool MeshContactSearch::overlaps(const Proximity& found, double gap) const {
   return found.status != Status::Apart && found.gap <= 0 && (found.gap < -touch() || gap >= -touch());
 }
@@ -239,11 +237,10 @@ Proximity MeshContactSearch::meet_face(SupportProbe& probe, const Face& face) co
   return found;
 }
 
-// If no normal is that of a maximum, takes the shortest translation out of one of the faces that the body crosses. This happens
-// to a body that has sunk and comes out of the solid at the foot of a wall only, or one that comes down across an inner corner:
-// the surface recedes there under its deepest point. It does not count where the body is behind the face, as it may be at the
-// border of a sheet.
-void MeshContactSearch::find_way_up(SupportProbe& probe) {
+// If no normal is a maximum, takes the shortest translation out of a face that the body crosses. This happens to a body that has
+// sunk and leaves the solid only at the foot of a wall. It also happens to a body on a concave corner, where the surface recedes
+// under its deepest point. A body behind the face, as at the border of a sheet, is ignored.
+void MeshContactSearch::find_shortest_exit(SupportProbe& probe) {
   const Vector3 centre = probe.rotation() * box_.centre;
   std::optional<SurfaceContact> shortest;
   for (std::size_t f = 0; f < surface_.faces().size(); ++f) {
@@ -253,11 +250,11 @@ void MeshContactSearch::find_way_up(SupportProbe& probe) {
     const Proximity found = meet_face(probe, face);
     if (!overlaps(found, support.gap)) continue;
     const bool is_in_front = face.normal.dot(centre - face.vertices[0]) > surface_.rounding();
-    // If the body has a flat side, point1 may be any point of it.
+    // On a flat side of the body, point1 is not unique.
     const Vector3 opposite = found.point2 - found.gap * found.normal;
     if (!is_in_front && !surface_.exits_solid(centre, found.point1) && !surface_.exits_solid(centre, opposite)) continue;
     shortest = contact_at(static_cast<int>(f), face.normal, support.gap, support.deepest);
-    // Where the body lies flat on the face, its deepest point may be beside that.
+    // If the body lies flat on the face, its support point may not be over the face.
     if (!(found.normal.dot(-face.normal) >= 1 - kAligned) || surface_.is_over(face, support.deepest)) continue;
     shortest->place = found.contact + face.normal.dot(support.deepest - found.contact) * face.normal;
   }

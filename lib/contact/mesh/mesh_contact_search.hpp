@@ -1,4 +1,4 @@
-// The search for the contacts of a body with a triangle surface, behind MeshContacts.
+// The search for the contacts of a body with a triangle surface, the implementation of MeshContacts.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace supernormal {
 
-/// Does what MeshContacts says (supernormal/contact/mesh_contacts.hpp).
+/// Implements MeshContacts; see there for the contract (supernormal/contact/mesh_contacts.hpp).
 class MeshContactSearch {
  public:
   std::span<const MeshContact> find(const Shape& shape, const Pose& pose, std::span<const MeshTriangle> triangles,
@@ -33,7 +33,7 @@ class MeshContactSearch {
     bool is_over = false;  // whether the point is over the patch itself
   };
 
-  /// What was found at vertex k of a face, with a normal that may be that of an edge there.
+  /// The solution at vertex k of a face. Its normal may belong to an edge there.
   struct VertexContact {
     int face;
     int k;
@@ -73,7 +73,7 @@ class MeshContactSearch {
   bool touches_surface(SupportProbe& probe, const SurfaceContact& contact) const;
   bool overlaps(const Proximity& found, double gap) const;
   Proximity meet_face(SupportProbe& probe, const Face& face) const;
-  void find_way_up(SupportProbe& probe);
+  void find_shortest_exit(SupportProbe& probe);
   std::span<const MeshContact> to_world(const Vector3& origin);
 
   BodyBox box_;
@@ -82,9 +82,9 @@ class MeshContactSearch {
   Settings settings_;
   Surface surface_;
   std::vector<PatchSupport> supports_;     // one for each patch
-  std::vector<char> settled_;              // for each corner: whether a contact there is found, or ruled out
-  std::vector<VertexContact> near_edges_;  // undecided until the contacts of the edges are known
-  std::vector<Vector3> hull_;              // points whose hull is solved for
+  std::vector<char> settled_;              // per vertex: whether its contact is found or ruled out
+  std::vector<VertexContact> near_edges_;  // pending until the contacts of the edges are known
+  std::vector<Vector3> hull_;              // the points of the current hull
   DistinctContacts found_;
   DistinctContacts beyond_rim_;  // candidates for contacts beyond the rim of a patch
   std::vector<MeshContact> contacts_;

@@ -8,11 +8,11 @@
 namespace supernormal {
 namespace {
 
-// Normals within this angle (radians) are those of triangles in one plane, but for rounding of their coordinates.
+// Triangles whose normals are within this angle (rad) are coplanar, up to rounding of their coordinates.
 constexpr double kLevel = 1e-5;
 
-// Width of a crack between triangles that were meant to meet, and how far their vertices are from one plane, relative to the
-// longest side of a triangle; and relative to the distance of a corner.
+// Width of a crack between triangles that should meet, and the distance of their vertices from one plane. Relative to the longest
+// side of a triangle, or to the distance of a manifold point.
 constexpr double kCrack = 1e-6;
 
 double longest_side(const MeshTriangle& triangle) {
@@ -20,11 +20,11 @@ double longest_side(const MeshTriangle& triangle) {
   return std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
 }
 
-/// The plane of a contact with a face, with the point of it under the body's deepest as its origin.
+/// The plane of a contact with a face. The origin is the point under the deepest point of the body.
 struct Floor {
   Vector3 normal;  // unit, out of the surface
   Vector3 origin;  // m, world frame
-  double height;   // m; triangles farther from the plane than this, and a crack, are not the floor
+  double height;   // m; a triangle farther from the plane than this, plus a crack, is not floor
 
   bool has(const MeshTriangle& triangle) const {
     const Vector3 a = triangle.vertices[0] - origin;
@@ -43,7 +43,7 @@ struct Stretch {
   double border = 0;  // `to` without the crack
 };
 
-/// The part of the segment from the origin to `corner` that is over the triangle or in a crack beside it, as shares of it; from >
+/// The part of the segment from the origin to `corner` over the triangle or an adjacent crack, as fractions of the segment. from >
 /// to if there is none.
 Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vector3& corner) {
   Stretch stretch{0, 1, 1};
@@ -52,7 +52,7 @@ Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vec
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3 start = triangle.vertices[k] - floor.origin;
     const Vector3 inward = floor.normal.cross(triangle.vertices[(k + 1) % 3] - triangle.vertices[k]).normalized();
-    // The line is on the inner side, inward.(share way - start) >= 0, or outside by less than a crack.
+    // The line is inside, inward.(share way - start) >= 0, or outside by less than a crack.
     const double slope = inward.dot(way);
     const double offset = inward.dot(start);
     if (slope > 0) {
@@ -67,7 +67,7 @@ Stretch stretch_over(const Floor& floor, const MeshTriangle& triangle, const Vec
   return stretch;
 }
 
-/// How far the floor reaches from the origin towards `corner`, as a share of the way.
+/// How far the floor extends from the origin towards `corner`, as a fraction of the segment.
 double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangles, const Vector3& corner) {
   double reached = 0;
   double border = 0;
@@ -88,8 +88,8 @@ double share_on_floor(const Floor& floor, std::span<const MeshTriangle> triangle
 
 }  // namespace
 
-// Corners in the air are drawn in towards the middle of those on the floor and the contact: from the contact alone, which may be on
-// the border, all of them would end there.
+// Manifold points in the air are drawn in towards the mean of the contact and the points on the floor. The contact itself may lie
+// on the border: drawn in towards it, they would all end there.
 void draw_in_corners(ContactManifold& manifold, std::span<const MeshTriangle> triangles) {
   if (manifold.corner_count == 0) return;
   const double depth = -manifold.deepest.gap;

@@ -1,4 +1,4 @@
-// Which triangles of a surface count.
+// Validation of triangles.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace supernormal {
 
-/// Whether the coordinates can be computed with: finite and within kMaxLength.
+/// Whether the coordinates are finite and within kMaxLength.
 inline bool is_usable(const MeshTriangle& triangle) {
   return std::all_of(triangle.vertices.begin(), triangle.vertices.end(),
                      [](const Vector3& vertex) { return (vertex.array().abs() <= kMaxLength).all(); });

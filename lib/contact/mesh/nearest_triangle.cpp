@@ -9,7 +9,7 @@
 namespace supernormal {
 namespace {
 
-/// The supporting planes of the body that were evaluated last: a triangle beyond one of them is at least that far away.
+/// The last evaluated supporting planes of the body. A triangle beyond one of them is at least that far away.
 class SupportingPlanes {
  public:
   void add(const Vector3& normal, double offset) {
@@ -17,7 +17,7 @@ class SupportingPlanes {
     ++count_;
   }
 
-  /// A lower bound of the gap of the triangle.
+  /// A lower bound of the gap to the triangle.
   double distance(const MeshTriangle& triangle) const {
     double largest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < std::min(count_, planes_.size()); ++i) {

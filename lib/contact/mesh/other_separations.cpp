@@ -1,5 +1,5 @@
-// Shorter separating translations for deep overlaps of sharp bodies, where the gap has several maxima over the normals of one
-// edge or vertex.
+// Shorter separating translations for deep overlaps of sharp bodies. There the gap has several maxima over the normals of one edge
+// or vertex.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -8,13 +8,14 @@
 #include "contact/mesh/mesh_contact_search.hpp"
 
 namespace supernormal {
-// Searches every part that the body touches for a shorter separating translation than the known one: on the edges wherever one is
-// possible, at the vertices of a convex part by solving for its hull. Of 20 000 random pairs of bodies with exponents 1.02...200
-// and convex meshes, apart or overlapping by up to 10 %, 23 have a minimum translation that is found here only.
+// Searches every part that the body touches for a separating translation shorter than the known one. Edges are searched wherever a
+// shorter one is possible. At the vertices of a convex part the hull of the part is solved. Of 20 000 random pairs of bodies with
+// exponents 1.02...200 and convex meshes, apart or overlapping by up to 10 %, 23 have a minimum translation that only this search
+// finds.
 //
-// There is none for an overlap by less than the ball that rolls inside the body. The estimate of the smallest radius of curvature
-// is no such bound: it leaves out vertices, where the radius vanishes at one normal alone, and an edge of a mesh has no radius of
-// its own that would make up for that.
+// An overlap below the radius of the ball that rolls inside the body needs no search. The estimated smallest radius of curvature is
+// no such bound. It ignores vertices, where the radius vanishes at a single normal, and an edge of a mesh has no radius of its own
+// to compensate.
 void MeshContactSearch::find_other_separations(SupportProbe& probe) {
   double depth = found_.contacts().empty() ? std::numeric_limits<double>::infinity() : 0;
   for (const SurfaceContact& contact : found_.contacts()) depth = std::max(depth, -contact.gap);
@@ -30,8 +31,8 @@ void MeshContactSearch::find_other_separations(SupportProbe& probe) {
   }
 }
 
-// Empty if there is nothing to look for: about a single plane everything is known. A part with no contact is apart from the body
-// if one of its planes is; if none is, its contact may have been missed.
+// Empty if no search is needed: a single plane has one normal. A part without a contact is apart if one of its planes is. If none
+// is, its contact may have been missed.
 std::optional<double> MeshContactSearch::depth_cutoff(int part) const {
   int patch_count = 0;
   double largest = -std::numeric_limits<double>::infinity();

@@ -1,23 +1,23 @@
-// The support points of a body in the frame of the surface that it touches.
+// Support points of a body in the frame of the surface that it touches.
 #pragma once
 
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
 
-/// The body's point that reaches furthest against a normal of the surface: its deepest if the body is over a plane with it.
+/// The point of the body farthest against a normal of the surface: the deepest point over a plane with this normal.
 struct DeepestPoint {
   Vector3 point;      ///< m
   double height = 0;  ///< m; normal . point
 };
 
-/// Evaluates support points and counts the evaluations. The frame has the directions of the world and the body's origin, so that
-/// distance from the world's origin costs no digits and the normals of a level floor stay exact.
+/// Evaluates support points and counts the evaluations. The frame has the axes of the world and the origin of the body. So a large
+/// distance from the world's origin costs no digits, and the normals of a level floor stay exact.
 class SupportProbe {
  public:
   SupportProbe(const Shape& shape, const Matrix3& rotation) : shape_(&shape), rotation_(rotation) {}
 
-  /// `normal` is of unit length, out of the surface. The operations are those of find_plane_proximity(), in the same order.
+  /// `normal`: unit, out of the surface. Does the operations of find_plane_proximity() in the same order, for equal digits.
   DeepestPoint deepest(const Vector3& normal) {
     Jet jet;
     shape_->evaluate(-(rotation_.transpose() * normal), Order::Point, jet);

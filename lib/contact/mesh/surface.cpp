@@ -9,27 +9,27 @@
 namespace supernormal {
 namespace {
 
-// A triangle whose height is less than this share of its longest side has no reliable normal.
+// A triangle whose height is less than this fraction of its longest side has no reliable normal.
 constexpr double kNoHeight = 1e-12;
 
-// Normals that differ by less than this (radians) are equal but for rounding.
+// Normals that differ by less than this (rad) are equal up to rounding.
 constexpr double kFlat = 1e-12;
 
-// Vertices of neighbours differ by rounding, most of all where a program keeps them as floats, and so do those of a vertex and an
-// edge that it was laid on: by up to this share of a triangle's longest side.
+// Adjacent vertices differ by rounding, most of all where a program stores floats. So do a vertex and the edge on which it was
+// placed. The tolerance is this fraction of a triangle's longest side.
 constexpr double kSeam = 1e-6;
 
-// Normals within this angle (radians) are those of triangles in one plane, but for seams.
+// Triangles with normals within this angle (rad) are coplanar, up to seams.
 constexpr double kLevel = 1e-5;
 
-// A triangle counts as no larger than this, in units of the body's size, so that cracks which a body might notice stay.
+// Upper limit of a triangle's size in body sizes, so that cracks which the body might notice remain.
 constexpr double kLargestFace = 1e3;
 
-// Cells of the hash table of vertices, in the largest seam: few vertices are so near to the border of a cell that another one has
-// to be looked at.
+// Cell size of the hash table of vertices, in the largest seam. Few vertices are close enough to the border of a cell for a second
+// lookup.
 constexpr double kCell = 16;
 
-// Hashes a point; -0 and 0 have the same hash, as they are equal.
+// Hashes a point. -0 and 0 have the same hash because they are equal.
 std::uint64_t hash(const Vector3& v) {
   std::uint64_t h = 0;
   for (int i = 0; i < 3; ++i) {
@@ -39,7 +39,7 @@ std::uint64_t hash(const Vector3& v) {
   return h;
 }
 
-// Whether the face stands out of the tangent plane by more than the contact tolerance and what is level but for seams.
+// Whether the face rises out of the tangent plane by more than the contact tolerance and the seams.
 bool rises(const Face& face, const Vector3& normal, const Vector3& from, double contact_tolerance) {
   return std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vector3& vertex) {
     const Vector3 reach = vertex - from;
@@ -75,7 +75,7 @@ void Surface::append(const MeshTriangle& triangle, const Vector3& origin, double
     edges[at(k)] = face.vertices[at(next_corner(k))] - face.vertices[at(k)];
     longest = std::max(longest, edges[at(k)].norm());
   }
-  const Vector3 area = edges[0].cross(edges[1]);  // twice the area, along the normal
+  const Vector3 area = edges[0].cross(edges[1]);  // twice the area times the normal
   const double length = area.norm();
   if (!(length > kNoHeight * longest * longest) || !std::isfinite(length)) return;
   face.normal = area / length;
@@ -111,7 +111,7 @@ void Surface::number_corners() {
   }
 }
 
-// Looks in the other cells that are within a seam of the vertex: nearly always none. Returns -1 if there is no such vertex yet.
+// Looks for the vertex in the other cells within a seam, of which there are usually none. Returns -1 if it is new.
 int Surface::find_corner_beside(const Vector3& in_cell, const Vector3& own, double seam, std::size_t f, std::size_t k) const {
   Vector3 step;
   for (int axis = 0; axis < 3; ++axis) {
@@ -165,15 +165,15 @@ void Surface::match_edges() {
   }
 }
 
-// The neighbour of a face is the one that goes along the edge the other way. Where several do, it is the flattest of them: a face
-// that stands out beside it is found when a contact is checked.
+// The neighbour of a face traverses the edge in the opposite direction. Of several such faces the flattest is taken. The others are
+// found when a contact is checked.
 void Surface::match_uses(std::span<EdgeUse> uses) {
   for (const EdgeUse& use : uses) {
     Face& face = faces_[at(use.face)];
     double best = -std::numeric_limits<double>::infinity();
     for (const EdgeUse& other : uses) {
       const Face& candidate = faces_[at(other.face)];
-      // The face itself, or one wound differently.
+      // The face itself, or one with the opposite winding.
       if (other.face == use.face || candidate.corner[at(other.side)] == face.corner[at(use.side)]) continue;
       const double flatness = face.normal.dot(candidate.normal);
       if (flatness <= best) continue;
@@ -216,7 +216,7 @@ void Surface::grow_patch(int seed) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (face.convexity[k] != EdgeConvexity::Flat) continue;
       Face& neighbour = faces_[at(face.neighbour[k])];
-      // Many nearly flat edges make a bend, so the normal is compared with the first one.
+      // Many nearly flat edges make a bend: compare the normal with the first one.
       if (neighbour.patch >= 0 || (neighbour.normal - normal).norm() > 2 * kFlat) continue;
       neighbour.patch = number;
       faces_[at(last)].next_in_patch = face.neighbour[k];
@@ -286,7 +286,7 @@ bool Surface::touches(const Face& face, const Vector3& point) const {
   return true;
 }
 
-// Whether `point` is behind a face that touches `at`, and not in its plane but for a seam.
+// Whether `point` is behind a face that touches `at`, and not in its plane up to a seam.
 bool Surface::is_behind(const Face& face, const Vector3& at, const Vector3& point) const {
   const Vector3 reach = point - at;
   return face.normal.dot(reach) < -(rounding_ + kLevel * reach.norm());
@@ -305,7 +305,7 @@ bool Surface::violates_normal_cone(const Vector3& normal, const Vector3& at, con
   });
 }
 
-// The share of the segment, 0...1, at which the face is met; infinite if it is not.
+// The fraction of the segment, 0...1, at which it meets the face. Infinite if it does not.
 double Surface::share_to(const Face& face, const Vector3& start, const Vector3& end) const {
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const double height1 = face.normal.dot(start - face.vertices[0]);

@@ -9,8 +9,7 @@
 
 namespace supernormal {
 
-/// Calls find_proximity() with the triangle, two-sided, as the second body. `vertices` are in m, in the frame that the pose
-/// refers to.
+/// Calls find_proximity() with the two-sided triangle as body 2. `vertices`: m, in the frame of the pose.
 Proximity find_triangle_proximity(const Shape& shape, const Pose& pose, const std::array<Vector3, 3>& vertices,
                                   const Settings& settings, const Vector3* first_normal = nullptr);
 

@@ -1,4 +1,4 @@
-// Contacts at the vertices of a surface, found over the normals between those of the faces there.
+// Contacts at the vertices of a surface: maxima of the gap over the normal cone between the normals of the faces.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace supernormal {
 namespace {
 
-// A normal is known to the root of the tolerance of its gap, radians: within this angle it may be that of an edge or a face.
+// A normal is known to the square root of its gap's tolerance. Within this angle, rad, it may belong to an edge or a face.
 constexpr double kNearEdgeNormal = 1e-5;
 
 double angle_at(const Face& face, int k) {
@@ -21,8 +21,7 @@ double angle_at(const Face& face, int k) {
 
 }  // namespace
 
-// Solves for the hull of the triangles at the vertex, not for the point alone, whose gap may be larger still along normals that
-// the surface does not have.
+// Solves the hull of the triangles at the vertex. The gap of the vertex alone may be larger at normals outside the normal cone.
 void MeshContactSearch::find_on_vertex(SupportProbe& probe, int f, int k, const Vector3& start) {
   const int corner = surface_.faces()[at(f)].corner[at(k)];
   if (settled_[at(corner)] != 0) return;
@@ -38,12 +37,12 @@ void MeshContactSearch::find_on_vertex(SupportProbe& probe, int f, int k, const 
     near_edges_.push_back({f, k, found});
     return;
   }
-  // If the normal is not one of the vertex, another edge may lead to another maximum.
+  // If the normal is outside the normal cone, another edge may lead to another maximum.
   settled_[at(corner)] = is_apart || add_at_vertex(probe, f, k, found) ? 1 : 0;
 }
 
-// The normal does not tell whether a contact is that of the vertex or of an edge there: a body whose side is nearly parallel to the
-// edge has nearly the same normal at both. The contact is that of the vertex if the edge has none of its own.
+// The normal does not decide between a vertex and its edges: a body with a side nearly parallel to the edge has nearly the same
+// normal at both. The contact belongs to the vertex if the edge has none.
 void MeshContactSearch::add_near_edges(SupportProbe& probe) {
   for (const VertexContact& contact : near_edges_) {
     const int corner = surface_.faces()[at(contact.face)].corner[at(contact.k)];
@@ -53,7 +52,7 @@ void MeshContactSearch::add_near_edges(SupportProbe& probe) {
   near_edges_.clear();
 }
 
-// Whether a face or an edge at the corner, of which `normal` is a normal, has a contact that is no deeper.
+// Whether a face or an edge at the vertex `corner`, with this normal in its normal cone, has a contact that is no deeper.
 bool MeshContactSearch::is_found_beside(int corner, const Vector3& normal, double gap) const {
   const std::vector<SurfaceContact>& contacts = found_.contacts();
   return std::any_of(contacts.begin(), contacts.end(), [&](const SurfaceContact& contact) {
@@ -61,7 +60,7 @@ bool MeshContactSearch::is_found_beside(int corner, const Vector3& normal, doubl
     const Face& face = surface_.faces()[at(contact.face)];
     if (contact.crease < 0) return is_corner_of_patch(corner, face.patch) && (contact.normal - normal).norm() <= kNearEdgeNormal;
     const int side = contact.crease - surface_.corner_count() - 3 * contact.face;
-    if (side < 0) return false;  // the contact of a vertex
+    if (side < 0) return false;  // a contact of a vertex
     const int next = next_corner(side);
     const Vector3 edge = face.vertices[at(next)] - face.vertices[at(side)];
     return (face.corner[at(side)] == corner || face.corner[at(next)] == corner) &&
@@ -99,7 +98,7 @@ Proximity MeshContactSearch::solve_for_hull(SupportProbe& probe, const Vector3& 
   return found;
 }
 
-// Returns false when the normal is not one of the surface there, or when that cannot be decided.
+// Returns false if the normal is outside the normal cone of the surface, or if this cannot be decided.
 bool MeshContactSearch::add_at_vertex(SupportProbe& probe, int f, int k, const Proximity& found) {
   const Face& face = surface_.faces()[at(f)];
   const Vector3& vertex = face.vertices[at(k)];
@@ -119,8 +118,8 @@ bool MeshContactSearch::add_at_vertex(SupportProbe& probe, int f, int k, const P
   return true;
 }
 
-// The angle-weighted mean of the normals at a vertex tells outside from inside (Baerentzen, Aanaes: Signed distance computation
-// using the angle weighted pseudonormal, IEEE TVCG 11, 2005).
+// The angle-weighted mean normal of a vertex separates outside from inside (Baerentzen, Aanaes: Signed distance computation using
+// the angle weighted pseudonormal, IEEE TVCG 11, 2005).
 bool MeshContactSearch::is_outside_at(int corner, const Vector3& normal) const {
   Vector3 mean = Vector3::Zero();
   for (const Face& face : surface_.faces()) {

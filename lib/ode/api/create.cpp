@@ -33,7 +33,7 @@ extern "C" dGeomID snCreateSuperovoid(dSpaceID space, dReal a, dReal b, dReal c,
 
 extern "C" dGeomID snCreateCapsule(dSpaceID space, dReal radius, dReal length) {
   return guarded("snCreateCapsule", dGeomID{}, [&] {
-    // The core takes a radius of 0, the segment; a geom must have an inside.
+    // The core accepts radius 0 (a segment). A geom must have an interior.
     supernormal::require_in("radius", radius, supernormal::kMinLength, supernormal::kMaxLength, "m");
     supernormal::require_in("length", length, 0, supernormal::kMaxLength, "m");
     return create_geom(space, std::make_unique<Body>(std::make_shared<supernormal::Capsule>(radius, length / 2)));
@@ -45,7 +45,7 @@ extern "C" dGeomID snCreateConvex(dSpaceID space, const snShape* shape) {
     auto body = std::make_unique<Body>(make_user_shape(shape));
     Body& alive = *body;
     const dGeomID geom = create_geom(space, std::move(body));
-    alive.set_release_callback(shape->release, shape->user);  // from here on the geom calls release: a refused call must not
+    alive.set_release_callback(shape->release, shape->user);  // only now: a refused call must not call release
     return geom;
   });
 }

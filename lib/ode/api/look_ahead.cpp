@@ -13,13 +13,13 @@
 namespace supernormal::ode {
 namespace {
 
-// The longest time that bodies are looked ahead of, s: far beyond any step, and short enough that no way is infinite.
+// Longest look-ahead time, s: far beyond any step, and short enough to keep displacements finite.
 constexpr double kLongestTime = 1e6;
 
 double require_time(double time) { return require_in("time", time, 0, kLongestTime, "s"); }
 
-/// With a normal velocity that the surface has already, the gap may close as much faster.
-void turn_into_constraint(dContact& contact, double step) {
+/// Lets the contact close its gap within one step. A normal velocity of the surface (motionN) is added.
+void to_motion_constraint(dContact& contact, double step) {
   if (!(contact.geom.depth < 0)) return;
   const double of_surface = (contact.surface.mode & dContactMotionN) != 0 ? double{contact.surface.motionN} : 0;
   const double motion = of_surface + double{contact.geom.depth} / step;
@@ -42,7 +42,7 @@ extern "C" int snGeomSetLookAhead(dGeomID geom, dReal time) {
   return guarded("snGeomSetLookAhead", 0, [&] {
     Body& body = require_body(geom);
     body.set_look_ahead(require_time(time));
-    dGeomMoved(geom);  // the bounding box is another
+    dGeomMoved(geom);  // the bounding box changes
     return 1;
   });
 }
@@ -57,7 +57,7 @@ extern "C" int snSetDefaultLookAhead(dReal time) {
 extern "C" void snContactLookAhead(dContact* contact, dReal step) {
   guarded("snContactLookAhead", 0, [&] {
     require_not_null("contact", contact);
-    turn_into_constraint(*contact, require_positive("step", step, "s"));
+    to_motion_constraint(*contact, require_positive("step", step, "s"));
     return 1;
   });
 }

@@ -14,12 +14,11 @@ namespace {
 
 constexpr double kMaxRelativeError = 0.01;
 
-// Rounding error of a centre of mass by quadrature, in units of the last place of the largest half-extent; a few are seen.
+// Rounding error of a centre of mass by quadrature, in ulps of the largest half-extent. A few ulps are observed.
 constexpr double kCentroidUnits = 64;
 
 void require_usable(const MassProperties& properties) {
-  // Faces and edges of a user-defined body have no normals of their own by which quadrature could find them, so their volume may
-  // be missing.
+  // Quadrature samples normals. The normals of a user shape's faces and edges have measure zero, so their volume may be missing.
   if (properties.relative_error > kMaxRelativeError) {
     throw std::domain_error("the volume of the geom, " + to_text(properties.volume) + " m^3, is uncertain by " +
                             to_text(100 * properties.relative_error) +
@@ -31,15 +30,15 @@ void require_usable(const MassProperties& properties) {
   throw std::invalid_argument("the volume of the geom is " + to_text(properties.volume) + " m^3, but must be in (0, inf)");
 }
 
-// dBodySetMass aborts when the centre of mass is 2e-16 m from the origin, whatever the size of the body. One that is the origin to
-// rounding is the origin.
+// dBodySetMass aborts when the centre of mass is 2e-16 m from the origin, whatever the size of the body. A centre within rounding
+// of the origin is therefore set to the origin.
 Vector3 without_rounding(const Vector3& centroid, const Shape& shape) {
   const double rounding = kCentroidUnits * std::numeric_limits<double>::epsilon() * shape.half_extents().maxCoeff();
   return centroid.cwiseAbs().maxCoeff() <= rounding ? Vector3(0, 0, 0) : centroid;
 }
 
-// ODE's inertia tensor is about the origin of the frame that the centre of mass is given in, not about that centre
-// (dMassTranslate and dMassCheck show it): tr(S) 1 - S with the second moment S about the origin.
+// The inertia tensor of ODE is about the origin of the frame in which the centre of mass is given, not about the centre of mass
+// (see dMassTranslate and dMassCheck). It is tr(S) 1 - S with the second moment S about the origin.
 void set_mass(dMass* mass, const Shape& shape, const MassProperties& properties, double density) {
   const Matrix3& S = properties.second_moment;
   const Matrix3 inertia = density * (S.trace() * Matrix3::Identity() - S);
@@ -48,7 +47,7 @@ void set_mass(dMass* mass, const Shape& shape, const MassProperties& properties,
   dMassSetParameters(&result, to_real(density * properties.volume), to_real(c.x()), to_real(c.y()), to_real(c.z()),
                      to_real(inertia(0, 0)), to_real(inertia(1, 1)), to_real(inertia(2, 2)), to_real(inertia(0, 1)),
                      to_real(inertia(0, 2)), to_real(inertia(1, 2)));
-  // dMassCheck accepts infinite values, so they are refused here.
+  // dMassCheck accepts infinite values; refuse them here.
   const bool is_finite =
       std::isfinite(result.mass) && std::isfinite(result.I[0]) && std::isfinite(result.I[5]) && std::isfinite(result.I[10]);
   if (!is_finite || dMassCheck(&result) == 0) {

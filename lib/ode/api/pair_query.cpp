@@ -18,7 +18,7 @@
 namespace supernormal::ode {
 namespace {
 
-// The core's result for two geoms, ours first.
+// The result of the core for two geoms. Body 1 is ours.
 Proximity query(dGeomID ours, dGeomID collider, Goal goal) {
   require_body(ours);
   PairQuery* const pair_query = find_query(dGeomGetClass(collider));
@@ -51,7 +51,7 @@ void write(const Impact& impact, bool swapped, snImpact& out) {
   out.time = to_real(impact.time);
   out.hits = impact.may_hit() ? 1 : 0;
   from_vector(swapped ? Vector3(-then.normal) : then.normal, out.normal);
-  // Where faces touch, witness points may be any two, but the contact is a point of both bodies.
+  // Where faces touch, the witness points are not unique. The contact point lies in both bodies.
   const Vector3 half = 0.5 * then.gap * then.normal;
   const Vector3 point1 = impact.may_hit() ? Vector3(then.contact - half) : then.point1;
   const Vector3 point2 = impact.may_hit() ? Vector3(then.contact + half) : then.point2;
@@ -65,10 +65,10 @@ void write(const Impact& impact, bool swapped, snImpact& out) {
 void require_velocities_in_range(dGeomID geom, double horizon) {
   const dBodyID body = dGeomGetBody(geom);
   if (body == nullptr) return;
-  const double most_turn = kMaxMotion / std::max(1.0, horizon);  // the angle of the turn is in the range, too
+  const double max_angular_speed = kMaxMotion / std::max(1.0, horizon);  // the angle of rotation must be in range, too
   for (int axis = 0; axis < 3; ++axis) {
     require_in("linear velocity", dBodyGetLinearVel(body)[axis], -kMaxMotion, kMaxMotion, "m/s");
-    require_in("angular velocity", dBodyGetAngularVel(body)[axis], -most_turn, most_turn, "rad/s");
+    require_in("angular velocity", dBodyGetAngularVel(body)[axis], -max_angular_speed, max_angular_speed, "rad/s");
   }
 }
 

@@ -33,7 +33,7 @@ extern "C" int snGeomSupport(dGeomID geom, const dVector3 direction, dVector3 po
     require_not_null("direction", direction);
     require_not_null("point", point);
     const Vector3 normal = require_finite("direction", to_vector(direction));
-    const double scale = normal.cwiseAbs().maxCoeff();  // the square of a very long or short vector is out of range
+    const double scale = normal.cwiseAbs().maxCoeff();  // the square of a very long or short vector overflows or underflows
     if (scale == 0) throw std::invalid_argument("direction = (0, 0, 0), but must have a length");
     const Pose pose = pose_of(geom);
     const Vector3 boundary_point = body.shape().point(pose.rotation.transpose() * (normal / scale).normalized());

@@ -21,7 +21,7 @@ std::mutex class_mutex;
 std::atomic<int> live_geoms{0};
 int last_class_number = -1;  // class number before the last snClose; guarded by class_mutex
 
-// Another program may call dCreateGeom(snGeomClass()): a geom with class data of zeros, which every callback must accept.
+// Another program may call dCreateGeom(snGeomClass()). The class data of this geom are zero, and every callback must accept them.
 void destroy_geom_data(dGeomID geom) {
   Body* const body = static_cast<ClassData*>(dGeomGetClassData(geom))->body;
   if (body == nullptr) return;
@@ -49,12 +49,11 @@ int register_class() {
                            ", and other code has registered all of them");
 }
 
-// ODE must be initialised. If another client kept it open, our class has outlived our own snClose.
+// ODE must be initialised. Our class outlives snClose if another client keeps ODE open.
 int register_class_once() {
   if (last_class_number >= 0 && class_table_is_marked()) return last_class_number;
   const int number = register_class();
-  // The table is filled at once, so that the first dCollide of a pair, which may happen in two threads at a time, finds nothing
-  // to write.
+  // Fill the table now. Two threads may collide the first pair at once, and then dCollide must not write to the table.
   set_colliders(number);
   mark_class_table();
   return number;

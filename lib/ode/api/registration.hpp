@@ -1,4 +1,4 @@
-// Registration of this library's geometry class with ODE, and the reference on ODE that keeps it alive.
+// Registration of our geometry class with ODE, and the reference count on ODE that keeps the class alive.
 #pragma once
 
 #include <ode/ode.h>
@@ -9,11 +9,11 @@ namespace supernormal::ode {
 
 class Body;
 
-/// Our class number; registers the class first if that has not happened yet. Any thread may call it. Throws std::runtime_error
-/// when ODE has another precision than this library, cannot be initialised or has no free user class.
+/// The number of our class. The first call registers the class. Thread-safe. Throws std::runtime_error when ODE has another
+/// precision than this library, cannot be initialised or has no free user class.
 int require_geom_class();
 
-/// Creates a geom of our class in `space` (or in none, when 0) that owns `body`.
+/// Creates a geom of our class that owns `body`. Adds it to `space` unless that is null.
 dGeomID create_geom(dSpaceID space, std::unique_ptr<Body> body);
 
 }  // namespace supernormal::ode

@@ -1,4 +1,4 @@
-// Solver settings of one geom and of all.
+// Solver settings of one geom, and the defaults of new geoms.
 #include <stdexcept>
 #include <string>
 

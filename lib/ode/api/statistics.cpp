@@ -1,4 +1,4 @@
-// Reads and resets this thread's counts.
+// Reads and resets the counters of this thread.
 #include "ode/runtime/statistics.hpp"
 
 #include "ode/support/last_error.hpp"

@@ -1,4 +1,4 @@
-// Meshes of geoms, for programs in C.
+// Triangle meshes of geoms, for C programs.
 #include <algorithm>
 #include <limits>
 #include <memory>

@@ -10,8 +10,8 @@
 namespace supernormal::ode {
 namespace {
 
-constexpr std::size_t kJobsAtOnce = 16;  // some 20 µs: waiting for a lock is short beside it, and the last thread is soon done
-constexpr std::size_t kPrefetch = 8;     // how many pairs ahead entries are prefetched
+constexpr std::size_t kJobsAtOnce = 16;  // some 20 µs: the wait for a lock is short beside it, and no thread ends much later
+constexpr std::size_t kPrefetch = 8;     // pairs between the prefetch of an entry and its use
 
 bool is_solid_pair(dGeomID g1, dGeomID g2) {
   const dBodyID body = dGeomGetBody(g1);
@@ -20,26 +20,26 @@ bool is_solid_pair(dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-int Batch::collide(dSpaceID space, int room, const BatchCallbacks& callbacks) {
-  room_ = room;
-  room_of_job_ = std::min(room, ContactManifold::kMaxCorners);
+int Batch::collide(dSpaceID space, int max_contacts, const BatchCallbacks& callbacks) {
+  max_contacts_ = max_contacts;
+  max_contacts_of_job_ = std::min(max_contacts, ContactManifold::kMaxCorners);
   callbacks_ = &callbacks;
   has_run_out_ = false;
   items_.clear();
   jobs_.clear();
   other_contacts_.clear();
-  dSpaceCollide(space, this, name_pair);
+  dSpaceCollide(space, this, list_pair);
   if (has_run_out_) throw std::bad_alloc();
   for (std::size_t i = 0; i < items_.size(); ++i) prepare(i);
   solve_jobs();
   return report(callbacks);
 }
 
-// ODE calls this function, and no exception may cross ODE.
-void Batch::name_pair(void* self, dGeomID g1, dGeomID g2) {
+// ODE calls this function. No exception may pass through ODE.
+void Batch::list_pair(void* self, dGeomID g1, dGeomID g2) {
   auto& batch = *static_cast<Batch*>(self);
   if (dGeomIsSpace(g1) != 0 || dGeomIsSpace(g2) != 0) {
-    dSpaceCollide2(g1, g2, self, name_pair);
+    dSpaceCollide2(g1, g2, self, list_pair);
     return;
   }
   if (batch.callbacks_->wanted != nullptr && batch.callbacks_->wanted(batch.callbacks_->data, g1, g2) == 0) return;
@@ -57,7 +57,7 @@ void Batch::add_item(dGeomID g1, dGeomID g2) {
   if (is_ours) jobs_.push_back({BodyPair(g1, g2), {}});
 }
 
-// Items are prepared in ODE's order, because the entries that the table of warm starts drops depend on the order.
+// Items are prepared in the order of ODE, because the warm-start table evicts entries by the order of calls.
 void Batch::prepare(std::size_t item) {
   if (const std::size_t ahead = item + kPrefetch; ahead < items_.size() && items_[ahead].is_ours) {
     prefetch_entry(jobs_[items_[ahead].index].pair.key());
@@ -65,7 +65,7 @@ void Batch::prepare(std::size_t item) {
   Item& current = items_[item];
   if (current.is_ours) {
     Job& job = jobs_[current.index];
-    job.remembered = reserve_entry(job.pair.key());
+    job.cached = reserve_entry(job.pair.key());
   } else {
     current.count = collide_one_by_one(current);
   }
@@ -73,15 +73,15 @@ void Batch::prepare(std::size_t item) {
 
 int Batch::collide_one_by_one(Item& item) {
   item.index = other_contacts_.size();
-  other_contacts_.resize(item.index + static_cast<std::size_t>(room_));
-  const int count = dCollide(item.g1, item.g2, room_, &other_contacts_[item.index], sizeof(dContactGeom));
+  other_contacts_.resize(item.index + static_cast<std::size_t>(max_contacts_));
+  const int count = dCollide(item.g1, item.g2, max_contacts_, &other_contacts_[item.index], sizeof(dContactGeom));
   other_contacts_.resize(item.index + static_cast<std::size_t>(count));
   return count;
 }
 
 void Batch::solve_jobs() {
-  const std::size_t room = jobs_.size() * static_cast<std::size_t>(room_of_job_);
-  if (job_contacts_.size() < room) job_contacts_.resize(room);
+  const std::size_t contacts = jobs_.size() * static_cast<std::size_t>(max_contacts_of_job_);
+  if (job_contacts_.size() < contacts) job_contacts_.resize(contacts);
   statistics_ = {};
   const int chunks = static_cast<int>((jobs_.size() + kJobsAtOnce - 1) / kJobsAtOnce);
   if (pool_) {
@@ -108,12 +108,12 @@ void Batch::solve_some(void* self, int chunk) {
 void Batch::solve_job(std::size_t index) {
   Job& job = jobs_[index];
   const auto [g1, g2] = job.pair.geoms();
-  dContactGeom* const first = &job_contacts_[index * static_cast<std::size_t>(room_of_job_)];
+  dContactGeom* const first = &job_contacts_[index * static_cast<std::size_t>(max_contacts_of_job_)];
   try {
-    const ContactManifold manifold = job.pair.solve(job.remembered, room_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
-    job.count = write_contacts(manifold, {g1, g2, room_of_job_, first, sizeof(dContactGeom)});
+    const ContactManifold manifold = job.pair.solve(job.cached, max_contacts_ > 1 ? Goal::Contacts : Goal::OneContact, job.last);
+    job.count = write_contacts(manifold, {g1, g2, max_contacts_of_job_, first, sizeof(dContactGeom)});
   } catch (...) {
-    job.is_refused = true;  // a user-defined body threw: the pair is collided once more where the error can be reported
+    job.is_refused = true;  // a user shape threw: collide the pair again where the error can be reported
   }
 }
 
@@ -126,7 +126,7 @@ int Batch::report(const BatchCallbacks& callbacks) {
         item.is_ours = false;
         item.count = collide_one_by_one(item);
       } else {
-        job.last.remember(job.pair.key());
+        job.last.store(job.pair.key());
         item.count = job.count;
       }
     }
@@ -139,7 +139,7 @@ int Batch::report(const BatchCallbacks& callbacks) {
 }
 
 const dContactGeom* Batch::contacts_of(const Item& item) const {
-  return item.is_ours ? &job_contacts_[item.index * static_cast<std::size_t>(room_of_job_)] : &other_contacts_[item.index];
+  return item.is_ours ? &job_contacts_[item.index * static_cast<std::size_t>(max_contacts_of_job_)] : &other_contacts_[item.index];
 }
 
 }  // namespace supernormal::ode

@@ -14,26 +14,28 @@
 
 namespace supernormal::ode {
 
-/// The callbacks of the program.
+/// The callbacks of the caller.
 struct BatchCallbacks {
   void* data;
   snPairFilter* wanted;  ///< null: all pairs
   snContactsCallback* contacts;
 };
 
-/// A run has three parts: ODE names the pairs; pairs of ours get their last normals from this thread's table, in order, and the
-/// others their contacts from dCollide; then pairs of ours are solved, on several threads, each from its own input. So the
-/// results are those of one dCollide after the other, whichever thread does what and when.
+/// Collides all pairs of a space. A run has three phases:
+/// 1. ODE lists the pairs.
+/// 2. In the order of ODE: a pair of our bodies gets its warm start from this thread's table. Any other pair is passed to dCollide.
+/// 3. The pairs of our bodies are solved in parallel, each from its own input.
+/// So the results equal sequential calls of dCollide, whatever the scheduling of the threads.
 class Batch {
  public:
   explicit Batch(int threads) : pool_(std::in_place, threads) {}
   Batch(snParallelFor* run, void* pool) : run_(run), run_pool_(pool) {}
 
   /// Returns the number of contacts.
-  int collide(dSpaceID space, int room, const BatchCallbacks& callbacks);
+  int collide(dSpaceID space, int max_contacts, const BatchCallbacks& callbacks);
 
  private:
-  /// A pair, in ODE's order. For a pair of ours `index` is that of its job, for others that of its first contact.
+  /// A pair, in the order of ODE. `index` is the job of a pair of our bodies. For other pairs it is the first contact.
   struct Item {
     dGeomID g1, g2;
     bool is_ours;
@@ -42,13 +44,13 @@ class Batch {
   };
   struct Job {
     BodyPair pair;
-    Remembered remembered;
+    CachedNormal cached;
     LastNormal last{};
     int count = 0;
     bool is_refused = false;  ///< an exception was thrown
   };
 
-  static void name_pair(void* self, dGeomID g1, dGeomID g2);
+  static void list_pair(void* self, dGeomID g1, dGeomID g2);
   void add_item(dGeomID g1, dGeomID g2);
   void prepare(std::size_t item);
   void solve_jobs();
@@ -62,14 +64,14 @@ class Batch {
   snParallelFor* run_ = nullptr;
   void* run_pool_ = nullptr;
 
-  int room_ = 0;         // room for the contacts of a dCollide
-  int room_of_job_ = 0;  // no pair of ours has more contacts than this
+  int max_contacts_ = 0;         // most contacts of a pair
+  int max_contacts_of_job_ = 0;  // most contacts of a pair of our bodies
   const BatchCallbacks* callbacks_ = nullptr;
-  bool has_run_out_ = false;  // memory has run out in a callback of ODE
+  bool has_run_out_ = false;  // memory ran out in a callback of ODE
   std::vector<Item> items_;
   std::vector<Job> jobs_;
-  std::vector<dContactGeom> job_contacts_;    // room_of_job_ contacts for each job
-  std::vector<dContactGeom> other_contacts_;  // contacts of the other pairs, one after the other
+  std::vector<dContactGeom> job_contacts_;    // max_contacts_of_job_ contacts for each job
+  std::vector<dContactGeom> other_contacts_;  // contacts of the other pairs, consecutive
   std::mutex statistics_mutex_;
   snStatistics statistics_{};  // statistics of the jobs
 };

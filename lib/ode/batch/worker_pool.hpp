@@ -9,19 +9,19 @@
 
 namespace supernormal::ode {
 
-/// Runs a task many times in parallel: on its own threads and on the calling one.
+/// Runs a task many times in parallel, on its own threads and on the calling thread.
 class WorkerPool {
  public:
   using Task = void (*)(void* context, int index);
 
-  /// `threads` in [1, ...] includes the calling one.
+  /// `threads` >= 1 includes the calling thread.
   explicit WorkerPool(int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Calls task(context, i) once for every i in [0, count) and returns when all are done. One call at a time. The task must not
-  /// throw.
+  /// Calls task(context, i) once for every i in [0, count). Returns when all calls have returned. Only one run at a time. The task
+  /// must not throw.
   void run(int count, Task task, void* context);
 
  private:
@@ -31,7 +31,7 @@ class WorkerPool {
 
   std::mutex mutex_;
   std::condition_variable begins_, ends_;
-  // These members are guarded by the mutex.
+  // The mutex guards these members.
   unsigned round_ = 0;
   int busy_ = 0;
   bool stops_ = false;

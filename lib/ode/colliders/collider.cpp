@@ -16,7 +16,7 @@ template <PairQuery kQuery>
 int collide_by(dGeomID ours, dGeomID collider, int flags, dContactGeom* contacts, int skip) {
   return guarded("dCollide", 0, [&] {
     const ContactArray out{ours, collider, flags, contacts, skip};
-    const ContactManifold manifold = kQuery(ours, collider, out.room() > 1 ? Goal::Contacts : Goal::OneContact);
+    const ContactManifold manifold = kQuery(ours, collider, out.max_contacts() > 1 ? Goal::Contacts : Goal::OneContact);
     if (manifold.deepest.status == Status::InvalidInput) refuse_pair(ours, collider);
     return write_contacts(manifold, out);
   });
@@ -28,7 +28,7 @@ struct Collider {
   PairQuery* query;
 };
 
-// ODE's own classes without spaces and dGeomTransform, which ODE resolves itself.
+// The geometry classes of ODE, except spaces and dGeomTransform, which ODE resolves itself.
 constexpr std::array<Collider, 9> kColliders = {{
     {dSphereClass, collide_by<query_sphere>, query_sphere},
     {dBoxClass, collide_by<query_box>, query_box},

@@ -1,6 +1,6 @@
-// The queries and colliders of our geoms with every class of geom: one file each in convex/, trimesh/ and heightfield/. A new
-// class needs such a file with a query, a collider of its own if it has several contacts, and a line in the table of
-// collider.cpp.
+// Queries and colliders of our geoms with every geometry class. Each class has one file in convex/, trimesh/ or heightfield/.
+// To add a class, add a file with a query and a line in the table of collider.cpp. A class with several contacts also needs its own
+// collider.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,9 +10,9 @@
 
 namespace supernormal::ode {
 
-/// A query finds the proximity of a geom of ours and a collider (the other geom of the pair, of any class) in the world frame,
-/// with the normal from ours to the collider, and for Goal::Contacts the corners of the overlap. It counts itself in the
-/// statistics and throws what the core throws.
+/// A query finds the proximity of a geom of ours and a collider (the other geom of the pair, of any class). Frame: world. The
+/// normal points from ours to the collider. For Goal::Contacts the result includes the contact manifold. A query counts itself in
+/// the statistics. Throws like the core.
 using PairQuery = ContactManifold(dGeomID ours, dGeomID collider, Goal goal);
 
 PairQuery query_body;  // both geoms are ours
@@ -26,19 +26,19 @@ PairQuery query_ray;
 PairQuery query_trimesh;
 PairQuery query_heightfield;
 
-/// The dColliderFn for a geom of ours and a collider, in this order: ODE swaps the contacts when it was called with the other
-/// order. Colliders that only write the contacts of their query need no such function (see collide_by in collider.cpp).
+/// The dColliderFn of a geom of ours and a collider, in this order. ODE swaps the contacts of a call in the other order. A collider
+/// that only writes the contacts of its query uses collide_by in collider.cpp instead.
 dColliderFn collide_with_ray;
 dColliderFn collide_with_trimesh;
 dColliderFn collide_with_heightfield;
 
-/// The dGetColliderFnFn of our class: 0 for unknown classes; ODE then asks the other class, if it is a user's.
+/// The dGetColliderFnFn of our class. Returns null for an unknown class: ODE then asks the other class, if that is a user class.
 dColliderFn* find_collider(int collider_class);
 
-/// Null for unknown classes.
+/// Returns null for an unknown class.
 PairQuery* find_query(int collider_class);
 
-/// Enters our colliders for all of ODE's own classes, and for our own class, into ODE's table.
+/// Registers our colliders with ODE, for the geometry classes of ODE and for our own.
 void set_colliders(int our_class);
 
 }  // namespace supernormal::ode

@@ -10,7 +10,7 @@
 namespace supernormal::ode {
 namespace {
 
-// ODE's assertions abort on a normal that is not a unit vector or not a number, so every contact is checked here.
+// ODE asserts that the normal is finite and a unit vector. Check every contact here.
 bool is_contact(const Proximity& proximity, double reach) {
   if (proximity.status == Status::Apart || proximity.status == Status::InvalidInput) return false;
   const bool is_within_reach = proximity.gap <= reach && std::isfinite(proximity.gap);
@@ -18,10 +18,9 @@ bool is_contact(const Proximity& proximity, double reach) {
   return is_within_reach && unit_normal && proximity.contact.allFinite();
 }
 
-/// Writes one contact, which must satisfy is_contact(), after the `count` that are there, if there is room, and returns how many
-/// are there now.
+/// Writes one contact, which must satisfy is_contact(), after the first `count`, if the array is not full. Returns the new count.
 int append_contact(const Proximity& proximity, const ContactArray& out, int count, int side2) {
-  if (count >= out.room()) return count;
+  if (count >= out.max_contacts()) return count;
   auto* const place = reinterpret_cast<char*>(out.first) + std::ptrdiff_t{count} * out.skip;
   dContactGeom& contact = *reinterpret_cast<dContactGeom*>(place);
   from_vector(proximity.contact, contact.pos);
@@ -36,7 +35,7 @@ int append_contact(const Proximity& proximity, const ContactArray& out, int coun
   return count + 1;
 }
 
-/// Writes the corners of a reduced manifold from number `first` on; the deepest point, number 0, if there are none.
+/// Writes the points of a reduced manifold from number `first` on. A manifold without points has its deepest point as number 0.
 int append_from(int first, const ContactManifold& manifold, const ContactArray& out, int count, int side2) {
   Proximity contact = manifold.deepest;
   if (!is_contact(contact, manifold.reach)) return count;
@@ -50,12 +49,13 @@ int append_from(int first, const ContactManifold& manifold, const ContactArray& 
   return count;
 }
 
-/// Distributes the room for contacts: one for each manifold, and a fair share of the rest for its other corners.
-class Shares {
+/// Distributes max_contacts: one contact for each manifold, and an equal share of the rest for its other points.
+class ContactBudget {
  public:
-  Shares(std::size_t manifolds, int room) : left_(static_cast<int>(manifolds)), spare_(std::max(0, room - left_)) {}
+  ContactBudget(std::size_t manifolds, int max_contacts)
+      : left_(static_cast<int>(manifolds)), spare_(std::max(0, max_contacts - left_)) {}
 
-  /// The room for the next manifold.
+  /// The number of contacts for the next manifold.
   int next(const ContactManifold& manifold) {
     const int wanted = std::max(0, reduced_to(manifold, ContactManifold::kMaxCorners).corner_count - 1);
     const int share = std::min(wanted, (spare_ + left_ - 1) / left_);
@@ -72,15 +72,15 @@ class Shares {
 }  // namespace
 
 int write_contacts(const ContactManifold& manifold, const ContactArray& out, int side2) {
-  return append_from(0, reduced_to(manifold, out.room()), out, 0, side2);
+  return append_from(0, reduced_to(manifold, out.max_contacts()), out, 0, side2);
 }
 
 int write_contacts(std::span<LocatedManifold> manifolds, const ContactArray& out) {
   int count = 0;
-  Shares shares(manifolds.size(), out.room());
-  // The deepest contact of each manifold comes first, so that the deepest of all is the first contact.
+  ContactBudget budget(manifolds.size(), out.max_contacts());
+  // Write the deepest contact of each manifold first. Then the deepest contact of all is contact 0.
   for (LocatedManifold& located : manifolds) {
-    located.manifold = reduced_to(located.manifold, shares.next(located.manifold));
+    located.manifold = reduced_to(located.manifold, budget.next(located.manifold));
     ContactManifold first = located.manifold;
     first.corner_count = std::min(first.corner_count, 1);
     count = append_from(0, first, out, count, located.side2);

@@ -1,4 +1,4 @@
-// Conversion of the results of queries to dContactGeoms.
+// Conversion of query results to dContactGeom.
 #pragma once
 
 #include <ode/ode.h>
@@ -11,32 +11,32 @@
 
 namespace supernormal::ode {
 
-/// The array that dCollide wants to have filled.
+/// The array that dCollide has to fill.
 struct ContactArray {
-  dGeomID o1, o2;  ///< in the order in which the collider got them
-  int flags;       ///< low 16 bits: room for so many contacts
+  dGeomID o1, o2;  ///< in the order of the collider's arguments
+  int flags;       ///< the low 16 bits are max_contacts
   dContactGeom* first;
-  int skip;  ///< bytes from one contact to the next
+  int skip;  ///< stride between contacts in bytes
 
-  int room() const { return flags & 0xffff; }
+  int max_contacts() const { return flags & 0xffff; }
 };
 
-/// The manifold of one contact of a pair: with a mesh there are several.
+/// One manifold of a pair. A pair with a mesh has several.
 struct LocatedManifold {
   ContactManifold manifold;
-  int side2 = -1;  ///< the part of o2 that it is with (the triangle of a mesh); -1 where geoms have no parts
+  int side2 = -1;  ///< which part of o2 touches (the triangle of a mesh); -1 if o2 has no parts
 };
 
-/// Writes the contacts of the manifold as reduced_to() the room if the geoms touch or overlap, and returns how many were written;
-/// `side2` as in LocatedManifold. This is the one place where the normal changes from the core's direction (o1 to o2) to ODE's
+/// Reduces the manifold to max_contacts and writes its contacts if the geoms touch or overlap. Returns how many were written.
+/// `side2`: see LocatedManifold. Only here does the normal change from the direction of the core (o1 to o2) to the direction of ODE
 /// (into o1).
 ///
-/// A query that ended without convergence gives a contact as well: whatever its normal n, moving the bodies apart by -s(n) along
-/// n does separate them, so that the depth errs on the safe side, and without a contact they would fall through each other.
+/// An unconverged query gives a contact, too. For any normal n, a displacement of -s(n) along n separates the bodies, so the depth
+/// is an upper bound. Without a contact the bodies would fall through each other.
 int write_contacts(const ContactManifold& manifold, const ContactArray& out, int side2 = -1);
 
-/// The same for several manifolds, deepest first, among which the room beyond one contact each is shared evenly. They are reduced
-/// in place.
+/// The same for several manifolds, deepest first. Each manifold gets one contact. The rest of max_contacts is shared evenly.
+/// Reduces the manifolds in place.
 int write_contacts(std::span<LocatedManifold> manifolds, const ContactArray& out);
 
 }  // namespace supernormal::ode

@@ -1,4 +1,4 @@
-// The purpose of a query of a pair.
+// The purpose of a pair query.
 #pragma once
 
 #include "supernormal/proximity/proximity.hpp"
@@ -8,12 +8,12 @@ namespace supernormal::ode {
 /// The purpose of a query. Colliders need overlaps only: they stop at the first normal that proves separation.
 enum class Goal {
   OneContact,  ///< the deepest point
-  Contacts,    ///< the contacts of the overlap
+  Contacts,    ///< the contact manifold
   Distance,
-  CertifiedDistance,  ///< with a proof that the depth of overlapping bodies is the smallest
+  CertifiedDistance,  ///< with a proof that the depth of overlapping bodies is minimal
 };
 
-/// Whether the query is one of dCollide.
+/// Whether dCollide asks.
 inline bool is_for_contacts(Goal goal) { return goal == Goal::OneContact || goal == Goal::Contacts; }
 
 inline Settings for_goal(Settings settings, Goal goal) {

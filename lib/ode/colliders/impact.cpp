@@ -16,11 +16,11 @@
 namespace supernormal::ode {
 namespace {
 
-// A piece of a way is as long as so many sizes of the body, and there are no more than so many.
+// Length of a piece of a path, in sizes of the body, and the most pieces.
 constexpr double kPieceSizes = 8;
 constexpr double kMostPieces = 1000;
 
-/// A geom of ours on its way.
+/// A moving geom of ours.
 struct Mover {
   const Body& body;
   Motion motion;
@@ -50,7 +50,7 @@ Impact meet_convex(const Mover& mover, dGeomID collider, double horizon) {
   return mover.meet(collider, Polytope(vertices.points()), vertices.pose(), horizon);
 }
 
-// The segment is read without the geom's rotation, of which dGeomRaySet writes only one column.
+// The rotation of the geom is not read, because dGeomRaySet writes only one column of it.
 Impact meet_ray(const Mover& mover, dGeomID collider, double horizon) {
   dVector3 start, along;
   dGeomRayGet(collider, start, along);
@@ -102,19 +102,19 @@ Impact find_impact(dGeomID ours, dGeomID collider, double horizon) {
   }
 }
 
-// As seen from the surface, the body has the difference of the velocities, turns about its own centre, and the surface about its
-// own, which is no farther from a point of the body than `far`.
-Way::Way(const Motion& body, const Motion& surface, double reach, double horizon)
+// Relative to the surface, the body moves with the difference of the velocities and rotates about its own centre. The rotation of
+// the surface about its own centre adds to this: the body's points stay within `far` of that centre.
+Path::Path(const Motion& body, const Motion& surface, double reach, double horizon)
     : body_(body), surface_(surface), horizon_(horizon) {
   const auto centre = [](const Motion& motion) { return Vector3(motion.pose.position + motion.pose.rotation * motion.centre); };
   const double speed = (body.velocity - surface.velocity).norm();
   const double far = (centre(body) - centre(surface)).norm() + reach + speed * horizon;
-  const double way = horizon * (speed + body.angular_velocity.norm() * reach + surface.angular_velocity.norm() * far);
-  pieces_ = static_cast<int>(std::clamp(std::ceil(way / (kPieceSizes * reach)), 1.0, kMostPieces));
-  travel_ = way / pieces_;
+  const double length = horizon * (speed + body.angular_velocity.norm() * reach + surface.angular_velocity.norm() * far);
+  pieces_ = static_cast<int>(std::clamp(std::ceil(length / (kPieceSizes * reach)), 1.0, kMostPieces));
+  travel_ = length / pieces_;
 }
 
-Motion Way::later(const Motion& motion, double time) {
+Motion Path::later(const Motion& motion, double time) {
   Motion then = motion;
   then.pose = pose_at(motion, time);
   return then;

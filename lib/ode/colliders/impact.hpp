@@ -1,4 +1,4 @@
-// When two geoms will meet, with the velocities of their bodies.
+// Time of impact of two geoms that move with the velocities of their bodies.
 #pragma once
 
 #include <ode/ode.h>
@@ -9,27 +9,26 @@
 
 namespace supernormal::ode {
 
-/// The motion of a geom that has this pose: that of its body, about the body's centre of mass; at rest without a body.
+/// The motion of a geom with this pose: its body moves it about the centre of mass. Without a body it rests.
 Motion motion_of(dGeomID geom, const Pose& pose);
 
 /// The first impact of a geom of ours (body 1) and a collider. Throws std::invalid_argument when the pair is not supported.
 Impact find_impact(dGeomID ours, dGeomID collider, double horizon);
 
-/// A geom of ours on its way past a surface of triangles.
+/// The first impact of a geom of ours with a surface of triangles.
 Impact find_trimesh_impact(dGeomID ours, dGeomID collider, double horizon);
 Impact find_heightfield_impact(dGeomID ours, dGeomID collider, double horizon);
 
-/// The way of a body past a surface, in pieces that are no longer than a few of its sizes: so few triangles are near each.
-class Way {
+/// The path of a body past a surface, in pieces no longer than a few of its sizes. So few triangles are near each piece.
+class Path {
  public:
-  /// `reach` (m): a ball of this radius about the body's centre of mass holds the body.
-  Way(const Motion& body, const Motion& surface, double reach, double horizon);
+  /// `reach` (m): radius of a ball about the body's centre of mass that contains the body.
+  Path(const Motion& body, const Motion& surface, double reach, double horizon);
 
-  /// m; no point of the body comes farther in one piece, as seen from the surface.
+  /// The farthest that any point of the body moves relative to the surface in one piece, m.
   double travel() const { return travel_; }
 
-  /// Calls find(body, surface, duration) for one piece after the other, with the motions at the start of each, up to the first
-  /// impact.
+  /// Calls find(body, surface, duration) for each piece in turn, with the motions at its start, until the first impact.
   template <typename Find>
   Impact first(Find find) const {
     Impact all;

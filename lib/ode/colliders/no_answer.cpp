@@ -11,7 +11,7 @@ namespace supernormal::ode {
 namespace {
 
 void require_usable_pose(dGeomID geom) {
-  // These have no pose, or may have none; ODE ends the program where it is asked for.
+  // These have no pose, or may have none. ODE aborts when asked for it.
   if (dGeomGetClass(geom) == dPlaneClass || dGeomGetClass(geom) == dHeightfieldClass) return;
   const Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
   if (is_usable(pose)) return;

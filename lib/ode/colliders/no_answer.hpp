@@ -1,11 +1,11 @@
-// Why two geoms have no answer.
+// The reason why a query of two geoms is refused.
 #pragma once
 
 #include <ode/ode.h>
 
 namespace supernormal::ode {
 
-/// Throws std::invalid_argument with the reason why the core, which answers Status::InvalidInput, cannot compute with two geoms.
+/// Throws std::invalid_argument with the reason why the core answers Status::InvalidInput for two geoms.
 [[noreturn]] void refuse_pair(dGeomID ours, dGeomID collider);
 
 }  // namespace supernormal::ode

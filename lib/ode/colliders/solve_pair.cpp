@@ -23,13 +23,13 @@ BodyAhead moving(const PosedShape& posed) {
   return {posed.shape, posed.pose, motion_ahead_of(posed.geom, posed.pose.position, posed.shape.bounding_radius())};
 }
 
-/// Solves for two shapes. `last.pose` must be set; the remembered normals are in the frame with the attitude `frame`, and `size`
-/// is passed on to recall_normal(). Contacts are looked for `time` ahead.
+/// Solves two shapes. `last.pose` must be set. The cached normal is in a frame with the orientation `frame`. `size` goes to
+/// find_cached_normal(). Contacts are predicted `time` (s) ahead.
 ContactManifold solve(const PosedShape& one, const PosedShape& other, const Settings& settings, Goal goal, double time,
-                      const Matrix3& frame, double size, const Remembered& remembered, LastNormal& last) {
+                      const Matrix3& frame, double size, const CachedNormal& cached, LastNormal& last) {
   Vector3 first_normal;
-  const bool is_warm = recall_normal(remembered, last.pose, size, first_normal);
-  // The solver takes the normal in the frame of the first shape.
+  const bool is_warm = find_cached_normal(cached, last.pose, size, first_normal);
+  // The solver expects the normal in the frame of the first shape.
   if (is_warm && &frame != &one.pose.rotation) first_normal = one.pose.rotation.transpose() * (frame * first_normal);
   const bool looks_ahead = time > 0 && is_for_contacts(goal);
   const Settings asked = for_goal(settings, looks_ahead ? Goal::Distance : goal);
@@ -61,7 +61,7 @@ BodyPair::BodyPair(dGeomID g1, dGeomID g2)
 
 PairKey BodyPair::key() const { return PairKey::of_bodies(body1_->serial(), body2_->serial()); }
 
-ContactManifold BodyPair::solve(const Remembered& remembered, Goal goal, LastNormal& last) const {
+ContactManifold BodyPair::solve(const CachedNormal& cached, Goal goal, LastNormal& last) const {
   const Pose pose1 = pose_of(geom1_);
   const Pose pose2 = pose_of(geom2_);
   last.pose = RelativePose::of(pose1, pose2);
@@ -69,7 +69,7 @@ ContactManifold BodyPair::solve(const Remembered& remembered, Goal goal, LastNor
   const PosedShape one{geom1_, body1_->shape(), pose1};
   const PosedShape other{geom2_, body2_->shape(), pose2};
   ContactManifold manifold = ode::solve(one, other, combined(body1_->settings(), body2_->settings()), goal, time, pose1.rotation,
-                                        std::min(body1_->size(), body2_->size()), remembered, last);
+                                        std::min(body1_->size(), body2_->size()), cached, last);
   if (is_swapped_) {
     manifold.deepest.normal = -manifold.deepest.normal;
     manifold.deepest.point1.swap(manifold.deepest.point2);
@@ -88,7 +88,7 @@ ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goa
   const PosedShape other{collider.geom, collider.shape, collider.pose};
   ContactManifold manifold =
       solve(one, other, body.settings(), goal, time, collider.pose.rotation, body.size(), reserve_entry(key), last);
-  last.remember(key);
+  last.store(key);
   return manifold;
 }
 

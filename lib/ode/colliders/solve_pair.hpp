@@ -1,5 +1,5 @@
-// Pairs that are solved as two shapes of the core, each from its last normal: our bodies among themselves, and our bodies with
-// those of ODE's own geoms that are shapes of the core.
+// Pairs that are solved as two shapes of the core with a warm start: our bodies with each other, and our bodies with the geoms of
+// ODE that are convex shapes.
 #pragma once
 
 #include <ode/ode.h>
@@ -17,30 +17,30 @@ namespace supernormal::ode {
 
 class Body;
 
-/// The result that the table of warm starts stores from a query.
+/// What a query stores in the warm-start table.
 struct LastNormal {
   bool is_known = false;  ///< false: the query had no result
   RelativePose pose;
   Vector3 normal = Vector3::UnitX();
 
-  void remember(const PairKey& key) const {
+  void store(const PairKey& key) const {
     if (is_known) fill_entry(key, pose, normal);
   }
 };
 
-/// A pair of our bodies. Body 1 of the query is the older one, whatever the caller's order: spaces pass a pair now in one order
-/// and now in the other, and both give the same digits this way.
+/// A pair of our bodies. Body 1 of the query is the older body, whatever the order of the arguments. Spaces pass a pair in either
+/// order, and both orders give the same digits.
 class BodyPair {
  public:
-  /// Throws std::invalid_argument when one of them is empty (dCreateGeom).
+  /// Throws std::invalid_argument when a geom is empty (dCreateGeom).
   BodyPair(dGeomID g1, dGeomID g2);
 
   PairKey key() const;
   std::pair<dGeomID, dGeomID> geoms() const { return is_swapped_ ? std::pair(geom2_, geom1_) : std::pair(geom1_, geom2_); }
 
-  /// The result as seen from g1. It reads nothing but the two geoms and changes nothing but this thread's statistics: pairs may
-  /// be solved on several threads while no geom moves.
-  ContactManifold solve(const Remembered& remembered, Goal goal, LastNormal& last) const;
+  /// The result as seen from g1. Reads only the two geoms and changes only the statistics of this thread: pairs may be solved in
+  /// parallel while no geom moves.
+  ContactManifold solve(const CachedNormal& cached, Goal goal, LastNormal& last) const;
 
  private:
   dGeomID geom1_, geom2_;
@@ -49,7 +49,7 @@ class BodyPair {
   bool is_swapped_;
 };
 
-/// One of ODE's own geoms as a shape of the core.
+/// A geom of ODE as a shape of the core.
 struct ColliderShape {
   dGeomID geom;
   const Shape& shape;
@@ -57,10 +57,10 @@ struct ColliderShape {
   std::uint32_t kind;  ///< collider_kind()
 };
 
-/// Solves the pair of a body of ours and such a collider, from its last normal if there is one, and counts the query.
+/// Solves the pair of a body of ours and such a collider, with a warm start if a normal is cached. Counts the query.
 ///
-/// The remembered normals are in the collider's own frame, and the key is the direction in which our body is seen from there: on
-/// a floor made of a dBox or rolling along a wall a body has the same normal and nearly the same place, however it turns.
+/// The cached normal is in the frame of the collider. The key is the direction from there to our body. A body on a dBox floor, or
+/// rolling along a wall, keeps its normal and nearly its place, however it rotates.
 ContactManifold solve_pair(dGeomID ours, const ColliderShape& collider, Goal goal);
 
 }  // namespace supernormal::ode

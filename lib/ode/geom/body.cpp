@@ -60,7 +60,7 @@ void Body::set_rounding(double radius) { set_shape(core_, radius); }
 void Body::set_shape(std::shared_ptr<const Shape> core, double rounding) {
   std::shared_ptr<const Shape> shape = core;
   if (rounding != 0) shape = std::make_shared<Rounded>(core, rounding);  // the constructor refuses an invalid radius
-  // These may throw, as they call a user's callbacks, so nothing else has changed yet.
+  // These calls run user callbacks and may throw. Nothing has changed before them.
   const double size = shape->half_extents().minCoeff();
   size_ = size;
   core_ = std::move(core);

@@ -19,14 +19,14 @@ struct SuperellipsoidParameters {
   double epsilon = 2;
 };
 
-/// The same with |x/(a X)| and |y/(b Y)|, X = 1 + taper_x z/c, Y = 1 + taper_y z/c.
+/// The same equation with |x/(a X)| and |y/(b Y)|, X = 1 + taper_x z/c, Y = 1 + taper_y z/c.
 struct SuperovoidParameters {
   SuperellipsoidParameters straight;
   double taper_x = 0;
   double taper_y = 0;
 };
 
-/// The C++ object behind a geom. Nothing in it depends on where the geom is.
+/// The C++ object behind a geom. It does not depend on the pose.
 class Body {
  public:
   explicit Body(const SuperellipsoidParameters& parameters);
@@ -38,20 +38,20 @@ class Body {
   Body& operator=(const Body&) = delete;
   Body& operator=(Body&&) = delete;
 
-  /// The shape with its rounding.
+  /// The shape, rounding included.
   const Shape& shape() const { return *shape_; }
 
   /// The smallest half-extent of shape(), m.
   double size() const { return size_; }
 
-  /// The number 1, 2, ... of the shape, in the order of creation and of changes; never used again in this process (unless 2^32
-  /// shapes wrap it around). What is kept under it, in any thread, is of this shape alone.
+  /// The serial number of the shape: 1, 2, ... in the order of creation and change. It is unique in the process, up to 2^32 shapes.
+  /// Data cached under it, in any thread, belong to this shape only.
   std::uint32_t serial() const { return serial_; }
 
   const Settings& settings() const { return settings_; }
   void set_settings(const Settings& settings) { settings_ = settings; }
 
-  /// s; contacts of pairs that may meet within this time are found too; 0: overlaps only.
+  /// Contacts that may occur within this time (s) are found, too; 0: overlaps only.
   double look_ahead() const { return look_ahead_; }
   void set_look_ahead(double time) { look_ahead_ = time; }
 
@@ -59,12 +59,12 @@ class Body {
   const SuperellipsoidParameters* superellipsoid() const { return std::get_if<SuperellipsoidParameters>(&parameters_); }
   const SuperovoidParameters* superovoid() const { return std::get_if<SuperovoidParameters>(&parameters_); }
 
-  /// These setters leave the body as it was when they throw.
+  /// Strong guarantee: a setter that throws leaves the body unchanged.
   void set_superellipsoid(const SuperellipsoidParameters& parameters);
   void set_superovoid(const SuperovoidParameters& parameters);
   void set_rounding(double radius);
 
-  /// `release` is called once, when the body dies; it may be null.
+  /// Calls `release` once, from the destructor; null: no callback.
   void set_release_callback(void (*release)(void*), void* user) {
     release_ = release;
     user_ = user;
@@ -73,11 +73,11 @@ class Body {
  private:
   void set_shape(std::shared_ptr<const Shape> core, double rounding);
 
-  std::shared_ptr<const Shape> core_;  // the shape without rounding
+  std::shared_ptr<const Shape> core_;  // without rounding
   std::shared_ptr<const Shape> shape_;
   double rounding_ = 0;                                                                      // m
   double size_;                                                                              // m
-  std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // monostate: a user-defined body
+  std::variant<std::monostate, SuperellipsoidParameters, SuperovoidParameters> parameters_;  // monostate: a user shape
   Settings settings_;
   double look_ahead_;  // s
   std::uint32_t serial_;
@@ -85,16 +85,15 @@ class Body {
   void* user_ = nullptr;
 };
 
-/// The memory that ODE keeps for a geom of ours: all zeros at first, aligned as malloc does it, and neither constructed nor
-/// destroyed.
+/// The class data of a geom of ours in ODE. Initially zero, aligned as by malloc, neither constructed nor destroyed.
 struct ClassData {
   Body* body;
 };
 
-/// The geom's body; null when the geom is null, of another class, or came from dCreateGeom(snGeomClass()), which leaves it empty.
+/// The body of the geom. Null if the geom is null, of another class, or empty: created by dCreateGeom(snGeomClass()).
 Body* find_body(dGeomID geom) noexcept;
 
-/// The geom's body; throws std::invalid_argument where find_body() returns null.
+/// The body of the geom. Throws std::invalid_argument where find_body() returns null.
 Body& require_body(dGeomID geom);
 
 }  // namespace supernormal::ode

@@ -16,17 +16,17 @@
 namespace supernormal::ode {
 namespace {
 
-// Rounding error of a support function, a rotated direction and a sum, in units of dReal's last place.
+// Rounding error of a support function, a rotated direction and a sum, in ulps of dReal.
 constexpr double kRoundingUnits = 8;
 
 double rounding_of(double magnitude) { return kRoundingUnits * double{std::numeric_limits<dReal>::epsilon()} * magnitude; }
 
-/// Widens the box to where the body may be met within the time for which it looks ahead.
+/// Widens the box to where the body may touch within its look-ahead time.
 void cover_motion(const Body& body, const MotionAhead& motion, BoundingBox& box) {
   const double near = nearness(motion, body.look_ahead(), body.size());
-  const Vector3 way = body.look_ahead() * motion.velocity;
-  box.low += way.cwiseMin(0) - Vector3::Constant(near);
-  box.high += way.cwiseMax(0) + Vector3::Constant(near);
+  const Vector3 displacement = body.look_ahead() * motion.velocity;
+  box.low += displacement.cwiseMin(0) - Vector3::Constant(near);
+  box.high += displacement.cwiseMax(0) + Vector3::Constant(near);
 }
 
 int write_finite_aabb(dGeomID geom, dReal* aabb) {
@@ -59,8 +59,8 @@ bool is_above_plane(dGeomID geom, const Body& body, const Pose& pose, dGeomID pl
   return gap - reach > rounding_of(pose.position.lpNorm<1>() + std::abs(double{plane[3]}) + std::abs(gap));
 }
 
-// Tries one separating plane, perpendicular to the line from the body's origin to the nearest point of the box (which is then the
-// box's support point, also when the box reaches to infinity).
+// Tests one separating plane. It is perpendicular to the line from the body's origin to the nearest point of the box. That point is
+// the support point of the box, even if the box is infinite.
 bool is_outside_box(const Body& body, const Pose& pose, const dReal* aabb) {
   Vector3 nearest;
   for (int axis = 0; axis < 3; ++axis) {
@@ -75,7 +75,7 @@ bool is_outside_box(const Body& body, const Pose& pose, const dReal* aabb) {
 
 }  // namespace
 
-// ODE's hash space aborts on a NaN, but accepts a box without bounds. Such a body is then refused by the colliders.
+// The hash space of ODE aborts on NaN but accepts an infinite box. The colliders then refuse such a body.
 void compute_aabb(dGeomID geom, dReal aabb[6]) {
   if (guarded("dGeomGetAABB", 0, [&] { return write_finite_aabb(geom, aabb); }) != 0) return;
   for (int axis = 0; axis < 3; ++axis) {
@@ -87,13 +87,13 @@ void compute_aabb(dGeomID geom, dReal aabb[6]) {
 int test_aabb(dGeomID geom, dGeomID other, dReal other_aabb[6]) {
   return guarded("dSpaceCollide", 1, [&] {
     const int other_class = dGeomGetClass(other);
-    // For two of ours the collider's first evaluation is a better test than this: in a pile of 500 grains the test spared a tenth
-    // of the near callbacks and no time.
+    // Between two of our bodies, the first evaluation of the collider is the better test. In a pile of 500 grains this test saved a
+    // tenth of the near callbacks and no time.
     if (other_class == geom_class()) return 1;
     const Body& body = require_body(geom);
     const Pose pose = pose_of(geom);
     if (other_class == dPlaneClass) return is_above_plane(geom, body, pose, other) ? 0 : 1;
-    // The box of a body that looks ahead covers its way, and the plane that this test tries does not.
+    // With look-ahead the box covers the displacement of the body, but the tested plane does not.
     return body.look_ahead() == 0 && is_outside_box(body, pose, other_aabb) ? 0 : 1;
   });
 }

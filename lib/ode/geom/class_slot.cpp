@@ -7,15 +7,15 @@
 namespace supernormal::ode {
 namespace {
 
-// ODE cannot be asked how many of its four user classes are taken, and a fifth registration ends in dDebug, which calls the
-// debug handler and then abort(). So the handler must not return: it jumps back to us. Between the two there is only
-// dCreateGeomClass, which tests the number before it does anything, and dDebug; neither holds a lock or has a destructor to run.
-thread_local std::jmp_buf* way_back = nullptr;
+// ODE does not report how many of its four user classes are taken. A fifth registration calls dDebug, which calls the debug handler
+// and then abort(). So the handler must not return: it jumps back. The jump crosses only dCreateGeomClass, which tests the number
+// first, and dDebug. Neither holds a lock or has a destructor to run.
+thread_local std::jmp_buf* return_point = nullptr;
 dMessageFunction* other_handler = nullptr;
 
 extern "C" void on_debug(int number, const char* message, va_list arguments) {
-  if (way_back != nullptr) std::longjmp(*way_back, 1);  // NOLINT(modernize-avoid-setjmp-longjmp)
-  // Another thread's failure in the meantime has the consequences that it would have without us. ODE aborts after it.
+  if (return_point != nullptr) std::longjmp(*return_point, 1);  // NOLINT(modernize-avoid-setjmp-longjmp)
+  // Meanwhile, a failure in another thread has its usual consequences. ODE aborts afterwards.
   if (other_handler != nullptr) {
     other_handler(number, message, arguments);
     return;
@@ -25,8 +25,8 @@ extern "C" void on_debug(int number, const char* message, va_list arguments) {
   std::fputc('\n', stderr);
 }
 
-// The entry (dPlaneClass, dPlaneClass) of ODE's table of colliders is empty, because two planes always touch: a place for a mark
-// that nobody misses. dInitODE2 clears the table when it really initialises.
+// The entry (dPlaneClass, dPlaneClass) in the collider table of ODE is empty, because ODE does not collide planes. We put a mark
+// there. dInitODE2 clears the table when it really initialises.
 thread_local bool mark_was_met = false;
 
 extern "C" int meet_mark(dGeomID /*plane1*/, dGeomID /*plane2*/, int /*flags*/, dContactGeom* /*contacts*/, int /*skip*/) {
@@ -42,10 +42,10 @@ int take_class_slot(const dGeomClass& geom_class) {
   dSetDebugHandler(on_debug);
   volatile int number = -1;
   if (setjmp(here) == 0) {  // NOLINT(modernize-avoid-setjmp-longjmp,cert-err52-cpp)
-    way_back = &here;
+    return_point = &here;
     number = dCreateGeomClass(&geom_class);
   }
-  way_back = nullptr;
+  return_point = nullptr;
   dSetDebugHandler(other_handler);
   return number;
 }

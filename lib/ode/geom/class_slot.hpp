@@ -1,17 +1,17 @@
-// ODE's table of user classes: taking a slot of it, and finding out whether ours is still registered.
+// The user classes of ODE: takes a slot, and tests whether our class is still registered.
 #pragma once
 
 #include <ode/ode.h>
 
 namespace supernormal::ode {
 
-/// Calls dCreateGeomClass, but returns -1 instead of calling abort() when the process has no slot left. ODE must be initialised.
+/// Calls dCreateGeomClass. Returns -1 instead of calling abort() when all slots are taken. ODE must be initialised.
 int take_class_slot(const dGeomClass& geom_class);
 
-/// Leaves a mark in ODE that vanishes when ODE is closed for good, by its last dCloseODE, and with it all user classes.
+/// Marks the class table of ODE. The last dCloseODE removes the mark together with all user classes.
 void mark_class_table();
 
-/// Whether the mark is still there: the classes registered before it are still registered.
+/// Whether the mark is still there. If so, the classes registered before it are, too.
 bool class_table_is_marked();
 
 }  // namespace supernormal::ode

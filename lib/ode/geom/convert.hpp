@@ -1,4 +1,4 @@
-// Conversions between ODE's types and the core's: dReal may be float, the core is double throughout.
+// Conversions between the types of ODE and of the core. dReal may be float; the core uses double.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,12 +13,12 @@ inline dReal to_real(double value) { return static_cast<dReal>(value); }
 
 inline Vector3 to_vector(const dReal* v) { return Vector3(v[0], v[1], v[2]); }
 
-/// Writes the three coordinates; a fourth one (dVector3 has it) is left alone.
+/// Writes three coordinates. The fourth one of a dVector3 is left unchanged.
 inline void from_vector(const Vector3& v, dReal* out) {
   for (int i = 0; i < 3; ++i) out[i] = to_real(v[i]);
 }
 
-/// Reads a row-major matrix with rows of four, as ODE keeps rotations, without correcting it.
+/// Reads a row-major matrix with rows of four, the layout of rotations in ODE. Does not correct it.
 inline Matrix3 to_rotation(const dReal* R) {
   Matrix3 rotation;
   for (int row = 0; row < 3; ++row) {
@@ -27,14 +27,13 @@ inline Matrix3 to_rotation(const dReal* R) {
   return rotation;
 }
 
-/// The rotation of a placeable geom, orthonormal to rounding (rotation.hpp).
+/// The rotation of a placeable geom, orthonormal to rounding (see rotation.hpp).
 inline Matrix3 rotation_of(dGeomID geom) { return orthonormal(to_rotation(dGeomGetRotation(geom)), geom); }
 
-/// The current pose of a placeable geom. It is read anew in every call: inside a dGeomTransform ODE swaps the pose for the time
-/// of the call.
+/// The current pose of a placeable geom. Do not cache it: inside a dGeomTransform ODE replaces the pose during a call.
 inline Pose pose_of(dGeomID geom) {
   Pose pose{to_vector(dGeomGetPosition(geom)), to_rotation(dGeomGetRotation(geom))};
-  if (!is_orthonormal(pose.rotation)) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare; otherwise nothing is copied
+  if (!is_orthonormal(pose.rotation)) pose.rotation = nearest_rotation(pose.rotation, geom);  // rare; otherwise no copy
   return pose;
 }
 

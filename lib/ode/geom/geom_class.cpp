@@ -7,7 +7,7 @@ namespace {
 
 std::atomic<int> class_number{-1};
 
-/// The name for messages; null for classes that are not ODE's own, and for spaces and dGeomTransform.
+/// The name for messages. Null for user classes, spaces and dGeomTransform.
 const char* builtin_name(int number) {
   switch (number) {
     case dSphereClass:

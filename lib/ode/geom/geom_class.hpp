@@ -1,4 +1,4 @@
-// The number of the one geometry class of this library inside ODE, and the names of all classes.
+// The number of our geometry class in ODE, and the names of all classes.
 #pragma once
 
 #include <ode/ode.h>
@@ -7,10 +7,10 @@
 
 namespace supernormal::ode {
 
-/// Our class number; -1 while the class is not registered.
+/// The number of our class; -1 while it is not registered.
 int geom_class() noexcept;
 
-/// Changes what geom_class() returns.
+/// Sets the result of geom_class().
 void set_geom_class(int number) noexcept;
 
 /// A name for messages: "a dBox", "a geom of this library's class", ...

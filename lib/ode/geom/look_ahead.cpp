@@ -11,7 +11,7 @@ namespace {
 
 std::atomic<double> default_time{0};
 
-/// 1/m^2; the inverse of the inertia tensor times the mass, in the world frame.
+/// The inverse of the inertia tensor times the mass, world frame, 1/m^2.
 Matrix3 turning_of(dBodyID body, const dMass& mass) {
   const Matrix3 rotation = to_rotation(dBodyGetRotation(body));
   return double{mass.mass} * (rotation * to_rotation(mass.I).inverse() * rotation.transpose());
@@ -33,8 +33,8 @@ Vector3 acceleration_of(dBodyID body, const dMass& mass) {
   return acceleration;
 }
 
-// The body's centre moves straight on, and the origin of the geom about it: along the tangent, and beside it by no more than twice
-// its distance from the centre times the angle.
+// The centre of the body moves in a straight line. The origin of the geom moves about it along the tangent. It deviates from the
+// tangent by at most twice its distance from the centre times the angle.
 MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius) {
   MotionAhead motion;
   motion.centre = origin;

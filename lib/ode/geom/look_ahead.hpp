@@ -1,4 +1,4 @@
-// Contacts before overlap: the default time, and how geoms move.
+// Contacts before overlap: the default look-ahead time, and the motion of geoms.
 #pragma once
 
 #include <ode/ode.h>
@@ -7,15 +7,15 @@
 
 namespace supernormal::ode {
 
-/// s; look_ahead() of bodies that are created from now on. Any thread may read and set it.
+/// The look_ahead() of new bodies, s. Thread-safe.
 double default_look_ahead();
 void set_default_look_ahead(double time);
 
-/// m/s^2; what gravity and the forces that were added since the last step do to a body of this mass.
+/// The acceleration of a body by gravity and by the forces added since the last step, m/s^2.
 Vector3 acceleration_of(dBodyID body, const dMass& mass);
 
-/// The motion of a geom, about the point `origin` (m, world frame) of it, beyond which it reaches by no more than `radius` (m). A
-/// geom without a body stands still, and so does one whose body sleeps.
+/// The motion of a geom about its point `origin` (m, world frame), which is within `radius` (m) of all its points. A geom without a
+/// body rests, and so does one with a disabled body.
 MotionAhead motion_ahead_of(dGeomID geom, const Vector3& origin, double radius);
 
 }  // namespace supernormal::ode

@@ -10,10 +10,10 @@
 namespace supernormal::ode {
 namespace {
 
-// A rotation that was typed with three decimals is near enough, and one that was scaled or sheared by a per cent is not.
+// A rotation typed with three decimals is accepted. A scale or shear of one per cent is not.
 constexpr double kNearRotation = 1e-2;
 
-// A step squares the error of a rotation: below this, one more step leaves only rounding.
+// A step squares the error of a rotation. Below this error, one more step leaves only rounding.
 constexpr double kLastError = 1e-8;
 
 // The squares of entries larger than this would overflow.
@@ -31,7 +31,7 @@ std::string matrix_text(const Matrix3& R) {
 
 }  // namespace
 
-// Newton's iteration for the orthogonal factor of the polar decomposition, without its inverse (Newton-Schulz).
+// Newton-Schulz iteration for the orthogonal factor of the polar decomposition: no inverse is needed.
 Matrix3 nearest_rotation(const Matrix3& R, dGeomID geom) {
   if (!all_finite(R)) return R;
   const bool is_near = all_within(R, kLargestEntry) && rotation_error(R) <= kNearRotation;

@@ -5,11 +5,11 @@
 
 namespace supernormal::ode {
 
-/// The settings of geoms that are created from now on; any thread may read and set them.
+/// The settings of new geoms. Thread-safe.
 Settings default_settings();
 void set_default_settings(const Settings& settings);
 
-/// The tighter tolerance and the larger limit of both; their solver if they agree on one, the hybrid if not.
+/// The settings of a pair: the tighter tolerance and the larger limit. The solver is the common one, or the hybrid if they differ.
 Settings combined(const Settings& settings1, const Settings& settings2);
 
 }  // namespace supernormal::ode

@@ -40,8 +40,8 @@ std::shared_ptr<const Shape> make_user_shape(const snShape* shape) {
   const auto checked = std::make_shared<CallbackShape>(
       [copy](const Vector3& n) { return double{copy.support(copy.user, to_direction(n).data())}; }, point, wrap_hessian(copy));
   if constexpr (std::is_same_v<dReal, double>) return checked;
-  // In single precision the functions see the rounded direction, and support() returns a rounded length. Only n.r belongs to the
-  // point r: the other value differs from it by more than the depth of contacts with a body that is much smaller.
+  // In single precision the callbacks see a rounded direction, and support() returns a rounded length. Only n.r is consistent with
+  // the point r. The callback's value can differ from it by more than the depth of contacts with a much smaller body.
   return std::make_shared<CallbackShape>([point](const Vector3& n) { return n.dot(point(n)); }, point, wrap_hessian(copy));
 }
 

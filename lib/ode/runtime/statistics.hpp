@@ -1,4 +1,4 @@
-// Counts of what this thread's queries did.
+// Counters of the queries of this thread.
 #pragma once
 
 #include "supernormal/proximity/proximity.hpp"
@@ -6,20 +6,20 @@
 
 namespace supernormal::ode {
 
-/// Counts a pair of bodies that was solved; `warm`: it started from a remembered normal.
+/// Counts a pair that was solved. `warm`: it used a cached normal.
 void count_query(const Proximity& result, bool warm) noexcept;
 
-/// Counts a pair that was settled without iteration.
+/// Counts a pair with a closed form: no iteration.
 void count_closed_form() noexcept;
 
-/// Counts a contact that was given; `status`: how its query ended.
+/// Counts a contact that was written. `status`: how its query ended.
 void count_contact(Status status) noexcept;
 
-/// The counts of this thread so far.
+/// The counters of this thread.
 snStatistics thread_statistics() noexcept;
 
-/// Replaces this thread's counts and returns the old ones: jobs that are done for another thread are taken out here and added
-/// there.
+/// Replaces the counters of this thread and returns the old ones. A job for another thread moves its counts to that thread with
+/// these two functions.
 snStatistics exchange_statistics(const snStatistics& statistics) noexcept;
 void add_statistics(const snStatistics& more) noexcept;
 

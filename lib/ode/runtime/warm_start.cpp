@@ -11,22 +11,22 @@
 namespace supernormal::ode {
 namespace {
 
-// An entry has 64 bytes: a line of the processor's cache.
+// An entry has 64 bytes: one cache line.
 struct Entry {
   PairKey key;
-  Remembered remembered;
+  CachedNormal cached;
 };
 static_assert(sizeof(Entry) == 64);
 
 constexpr double kSimilarOffset = 0.5;                         // relative to the size of the bodies
-constexpr int kAttitudeUnit = 1 << 14;                         // the number of units of RelativePose::Attitude in 1
+constexpr int kOrientationUnit = 1 << 14;                      // units of RelativePose::Orientation in 1
 constexpr double kLeastTrace = 1 + 2 * 0.8775825618903727162;  // 1 + 2 cos(0.5): the trace of a rotation by half a radian
 constexpr unsigned kCellBits = 13;                             // bits of PairKey::collider that hold the direction
 
-// The table is a set-associative cache: a pair has one set, which holds the four last used pairs, latest first. Two pairs that
-// share a slot of a direct-mapped table would push each other out at every step. Counts on lattices of neighbours: all of the
-// 7560 near pairs of 1000 bodies and of the 85 000 of 10 000 are kept, 98 % of the 168 000 of 20 000; of 98 000 pairs of 20 000
-// bodies at random, 93 %. It takes up to 16 MB for each thread that collides.
+// The table is a set-associative cache. A pair has one set, which holds the four most recently used pairs, latest first. In a
+// direct-mapped table, two pairs with a common slot would evict each other at every step. Measured on lattices of neighbours: the
+// table keeps all 7560 near pairs of 1000 bodies, all 85 000 of 10 000, and 98 % of the 168 000 of 20 000. Of 98 000 random pairs
+// of 20 000 bodies it keeps 93 %. It takes up to 16 MB for each thread that collides.
 constexpr std::size_t kWays = 4;
 constexpr std::size_t kSets = std::size_t{1} << 16;
 using Set = std::array<Entry, kWays>;
@@ -36,30 +36,30 @@ struct Free {
 };
 
 std::atomic<bool> enabled{true};
-thread_local std::unique_ptr<Set[], Free> table;  // all zeros at first, which no key matches
+thread_local std::unique_ptr<Set[], Free> table;  // initially zero, which matches no key
 
-// The sets of a body lie together, and beside those of the bodies that were made before and after it: a scene touches the part of
-// the table that its bodies use, and few pages at a time. Adding a constant to all serial numbers renumbers the sets and changes
-// nothing else, so that a scene built for the second time in a process runs as the first.
+// The sets of a body are adjacent, and next to the sets of the bodies created before and after it. So a scene touches few pages of
+// the table at a time. Adding a constant to all serial numbers permutes the sets and changes nothing else: a scene built twice in a
+// process runs identically.
 constexpr std::size_t kSetsPerBody = 20;
-constexpr unsigned kSpreadBits = 6;  // over the sets of the next three bodies, too: old bodies have more pairs
+constexpr unsigned kSpreadBits = 6;  // the sets of the next three bodies are used, too: old bodies have more pairs
 std::size_t set_index(const PairKey& key) {
   const std::uint32_t hash = key.collider * 0x9e3779b1U;  // odd; 2^32 / golden ratio
   return (key.body * kSetsPerBody + (hash >> (32U - kSpreadBits))) % kSets;
 }
 
-/// Rounds a number within [-2, 2) to units of 2^-14, by taking the last bits of its sum with a number whose last place is this
-/// unit. Any other number, infinities and NaN are allowed too, but give arbitrary results.
+/// Rounds a number in [-2, 2) to units of 2^-14. Adds a number whose ulp is this unit, and takes the last bits of the sum. Any
+/// other number, infinity and NaN included, gives an arbitrary result.
 std::int16_t to_units(double value) {
-  constexpr double kLastPlaceIsUnit = 3 * 0x1p51 / kAttitudeUnit;
+  constexpr double kLastPlaceIsUnit = 3 * 0x1p51 / kOrientationUnit;
   return static_cast<std::int16_t>(std::bit_cast<std::uint64_t>(value + kLastPlaceIsUnit));
 }
 
-/// Whether the angle between two attitudes is at most half a radian: the trace of R^T R' is 1 + 2 cos of that angle. Unknown pairs
-/// have attitudes of zeros, which are similar to no attitude.
-bool is_similar(const RelativePose::Attitude& a, const RelativePose::Attitude& b) {
-  constexpr auto kLeast = static_cast<std::int32_t>(kLeastTrace * kAttitudeUnit * kAttitudeUnit);
-  std::uint32_t trace = 0;  // within 3 kAttitudeUnit^2 for rotations; the core refuses other matrices
+/// Whether the angle t between two orientations is at most half a radian. The trace of R^T R' is 1 + 2 cos t. The orientation of an
+/// unknown pair is zero, which is similar to none.
+bool is_similar(const RelativePose::Orientation& a, const RelativePose::Orientation& b) {
+  constexpr auto kLeast = static_cast<std::int32_t>(kLeastTrace * kOrientationUnit * kOrientationUnit);
+  std::uint32_t trace = 0;  // at most 3 kOrientationUnit^2 for rotations; the core refuses other matrices
   for (std::size_t k = 0; k < a.size(); ++k) trace += static_cast<std::uint32_t>(a[k] * b[k]);
   return static_cast<std::int32_t>(trace) >= kLeast;
 }
@@ -95,36 +95,37 @@ RelativePose RelativePose::of(const Pose& frame, const Pose& other) {
   const Matrix3 to_frame = frame.rotation.transpose();
   relative.offset.noalias() = to_frame * (other.position - frame.position);
   const Matrix3 rotation = to_frame * other.rotation;
-  for (std::size_t k = 0; k < relative.attitude.size(); ++k) relative.attitude[k] = to_units(rotation.data()[k]);
+  for (std::size_t k = 0; k < relative.orientation.size(); ++k) relative.orientation[k] = to_units(rotation.data()[k]);
   return relative;
 }
 
 void set_warm_start(bool on) noexcept { enabled.store(on, std::memory_order_relaxed); }
 
-Remembered reserve_entry(const PairKey& key) noexcept {
+CachedNormal reserve_entry(const PairKey& key) noexcept {
   if (!enabled.load(std::memory_order_relaxed)) return {};
   if (!table) {
     table.reset(static_cast<Set*>(std::calloc(kSets, sizeof(Set))));
     if (!table) return {};
   }
   Set& set = table[set_index(key)];
-  if (same(set.front().key, key)) return set.front().remembered;  // this is nearly always so
+  if (same(set.front().key, key)) return set.front().cached;  // the usual case
   const auto known = std::find_if(set.begin(), set.end(), [&](const Entry& entry) { return same(entry.key, key); });
   const Entry entry = known == set.end() ? Entry{key, {}} : *known;
-  const auto last = known == set.end() ? known - 1 : known;  // the oldest is dropped
+  const auto last = known == set.end() ? known - 1 : known;  // the least recently used pair is evicted
   std::move_backward(set.begin(), last, last + 1);
   set.front() = entry;
-  return entry.remembered;
+  return entry.cached;
 }
 
 void prefetch_entry(const PairKey& key) noexcept {
   if (table) __builtin_prefetch(&table[set_index(key)], 1);
 }
 
-bool recall_normal(const Remembered& remembered, const RelativePose& pose, double size, Vector3& normal) noexcept {
-  const auto& [direction, offset, attitude] = remembered;
+bool find_cached_normal(const CachedNormal& cached, const RelativePose& pose, double size, Vector3& normal) noexcept {
+  const auto& [direction, offset, orientation] = cached;
   const Vector3 moved = pose.offset - Vector3(offset[0], offset[1], offset[2]);
-  const bool found = moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size && is_similar(pose.attitude, attitude);
+  const bool found =
+      moved.squaredNorm() <= kSimilarOffset * kSimilarOffset * size * size && is_similar(pose.orientation, orientation);
   if (found) normal = Vector3(direction[0], direction[1], direction[2]);
   return found;
 }
@@ -133,12 +134,12 @@ void fill_entry(const PairKey& key, const RelativePose& pose, const Vector3& nor
   if (!table || !enabled.load(std::memory_order_relaxed)) return;
   for (Entry& entry : table[set_index(key)]) {
     if (!same(entry.key, key)) continue;
-    Remembered& remembered = entry.remembered;
+    CachedNormal& cached = entry.cached;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      remembered.normal[axis] = normal[static_cast<int>(axis)];
-      remembered.offset[axis] = static_cast<float>(pose.offset[static_cast<int>(axis)]);
+      cached.normal[axis] = normal[static_cast<int>(axis)];
+      cached.offset[axis] = static_cast<float>(pose.offset[static_cast<int>(axis)]);
     }
-    remembered.attitude = pose.attitude;
+    cached.orientation = pose.orientation;
     return;
   }
 }

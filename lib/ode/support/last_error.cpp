@@ -6,7 +6,7 @@
 namespace supernormal::ode {
 namespace {
 
-thread_local std::array<char, 512> text{};  // longer texts are cut
+thread_local std::array<char, 512> text{};  // longer texts are truncated
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The reason why a call was refused, and the fence that keeps exceptions out of C.
+// The error of the last refused call, and the guard that keeps exceptions out of C.
 #pragma once
 
 #include <exception>
@@ -6,14 +6,14 @@
 
 namespace supernormal::ode {
 
-/// Remembers "function: message" for this thread. Allocates nothing, so that it also reports that memory has run out.
+/// Stores "function: message" for this thread. Does not allocate, so it can also report that memory ran out.
 void set_last_error(const char* function, const char* message) noexcept;
 
-/// The text of this thread's last set_last_error(); "" if there was none.
+/// The text of the last set_last_error() in this thread; "" if there was none.
 const char* last_error() noexcept;
 
-/// Wraps the work of every function that C or ODE calls: returns what `work` returns, or, when it throws, `refusal` with the
-/// exception's text as the last error. ODE is compiled without exceptions; one that crossed it would leave its spaces locked.
+/// Wraps every function that C or ODE calls. Returns the result of `work`. If `work` throws, returns `refusal` and stores the
+/// exception text as the last error. ODE is compiled without exceptions: one that passed through it would leave its spaces locked.
 template <typename Result, typename Work>
 Result guarded(const char* function, Result refusal, Work&& work) noexcept {
   try {

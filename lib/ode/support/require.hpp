@@ -1,4 +1,4 @@
-// Refusals that the C interface adds to those of the core.
+// Argument checks that the C interface adds to the checks of the core.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ inline void require_not_null(const char* name, const void* pointer) {
   if (pointer == nullptr) throw std::invalid_argument(std::string(name) + " = NULL, but must point to something");
 }
 
-/// Refuses values that are not positive and finite, NaN included.
+/// Refuses any value that is not positive and finite, NaN included.
 inline double require_positive(const char* name, double value, const char* unit) {
   if (value > 0 && std::isfinite(value)) return value;
   throw std::invalid_argument(std::string(name) + " = " + to_text(value) + " " + unit + " is outside (0, inf) " + unit);
@@ -26,7 +26,7 @@ inline Vector3 require_finite(const char* name, const Vector3& value) {
                               to_text(value.z()) + ") is not finite");
 }
 
-/// Refuses a point (m) outside of the range that can be computed with, and names the coordinate and the range.
+/// Refuses a point (m) outside the valid range. The message names the coordinate and the range.
 inline Vector3 require_place(const Vector3& point) {
   const char* const names[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) require_in(names[axis], point[axis], -kFarthest, kFarthest, "m");

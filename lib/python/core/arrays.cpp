@@ -54,7 +54,7 @@ std::vector<py::ssize_t> leading_shape(const py::array& array, const std::vector
 
 Eigen::Vector3d require_direction(Name name, const Eigen::Vector3d& vector) {
   if (!vector.allFinite()) throw std::invalid_argument(name.text() + " = " + vector_text(vector.data(), 3) + " is not finite");
-  const double scale = vector.cwiseAbs().maxCoeff();  // the square of a very long or short vector is out of range
+  const double scale = vector.cwiseAbs().maxCoeff();  // the square of a very long or short vector overflows or underflows
   if (scale == 0) throw std::invalid_argument(name.text() + " = (0, 0, 0), but must have a length");
   return (vector / scale).normalized();
 }

@@ -1,4 +1,4 @@
-// Queries of N pairs and of N rays, on all cores.
+// Queries of N pairs and N rays on all cores.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -26,7 +26,7 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-/// The number of pairs: that of the arguments which are sequences, all of which must agree.
+/// The number of pairs: the common length of all arguments that are sequences.
 class PairCount {
  public:
   void add(const char* name, std::size_t count) {
@@ -45,7 +45,7 @@ class PairCount {
   std::size_t count_ = 1;
 };
 
-/// A Shape for all pairs, Shapes, or a sequence of Shape.
+/// One Shape for all pairs, or Shapes, or a sequence of Shape.
 class ShapesArgument {
  public:
   ShapesArgument(const char* name, const py::object& argument, PairCount& count) {
@@ -71,7 +71,7 @@ class ShapesArgument {
   std::shared_ptr<ShapeSequence> shapes_;
 };
 
-/// A Pose for all pairs, or Poses.
+/// One Pose for all pairs, or Poses.
 class PosesArgument {
  public:
   PosesArgument(const char* name, const py::object& argument, PairCount& count) {
@@ -93,7 +93,7 @@ class PosesArgument {
   std::shared_ptr<Poses> poses_;
 };
 
-/// Vectors: one (3,) for all, or (N, 3).
+/// Vectors: (3,) for all pairs, or (N, 3).
 class VectorsArgument {
  public:
   VectorsArgument(const char* name, Doubles values, PairCount& count) : name_(name), values_(std::move(values)) {
@@ -213,33 +213,43 @@ std::unique_ptr<RayHits> ray_hits(const py::object& shapes, const py::object& po
 }
 
 constexpr const char* kProximitiesDoc =
-    R"(The results of find_proximities(), as arrays with an entry for each of the N pairs, in the world's frame.)";
+    R"(The results of find_proximities(), as arrays with one entry for each of the N pairs. Frame: world.)";
 
 constexpr const char* kFindProximitiesDoc =
-    R"(find_proximity() of N pairs on all cores, without the interpreter's lock; bit for bit the same results.
+    R"(find_proximity() of N pairs on all cores, without the interpreter's lock. The results are bit for bit the same.
 
-shapes1, shapes2: a Shape for all pairs, Shapes, or a sequence of N Shape. poses1, poses2: a Pose for all pairs, or Poses.
-first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0, or None. threads: in [0, 256], 0 for as many as the machine
-has. Raises what find_proximity() does, with the number of the pair; ValueError too when the arguments differ in length.)";
+shapes1, shapes2: one Shape for all pairs, or Shapes, or a sequence of N Shape.
+poses1, poses2: one Pose for all pairs, or Poses.
+first_normals: (N, 3) or (3,), in the frame of body 1, any length but 0; or None.
+threads: in [0, 256]; 0: one for each core.
+
+Raises the errors of find_proximity(), with the index of the pair. Raises ValueError when the arguments differ in length.)";
 
 constexpr const char* kRayHitsDoc =
-    R"(The results of find_ray_hits(), as arrays with an entry for each of the N rays, in the world's frame; NaN where none hits.)";
+    R"(The results of find_ray_hits(), as arrays with one entry for each of the N rays. Frame: world.
+
+Numbers are NaN for rays without a hit.)";
 
 constexpr const char* kFindRayHitsDoc =
-    R"(find_ray_hit() of N rays on all cores, without the interpreter's lock; bit for bit the same results.
+    R"(find_ray_hit() of N rays on all cores, without the interpreter's lock. The results are bit for bit the same.
 
-shapes: a Shape for all rays, Shapes, or a sequence of N Shape; poses: a Pose for all rays, or Poses. origins: (N, 3) or (3,), m;
-directions: (N, 3) or (3,), any length but 0; length: m, of all rays, in [0, inf]. threads: in [0, 256], 0 for as many as the machine
-has. Raises what find_ray_hit() does, with the number of the ray; ValueError too when the arguments differ in length.)";
+shapes: one Shape for all rays, or Shapes, or a sequence of N Shape.
+poses: one Pose for all rays, or Poses.
+origins: (N, 3) or (3,), m.
+directions: (N, 3) or (3,), any length but 0.
+length: m, of all rays, in [0, inf].
+threads: in [0, 256]; 0: one for each core.
 
-/// Makes a column of a result an attribute: the array itself, not a copy.
+Raises the errors of find_ray_hit(), with the index of the ray. Raises ValueError when the arguments differ in length.)";
+
+/// Makes a column of a result an attribute, without a copy.
 template <typename Result, typename ColumnType>
 void bind_column(py::class_<Result>& type, const char* name, ColumnType Result::*column, const char* doc) {
   type.def_property_readonly(
       name, [column](const Result& self) { return (self.*column).array(); }, doc);
 }
 
-/// Binds copies and __repr__ of a result of so many `what`, by its columns.
+/// Binds the copies and __repr__ of a result with these columns. `what` is the plural of an entry.
 template <typename Result, typename... Columns>
 void bind_columns(py::class_<Result>& type, const char* what, Columns... columns) {
   bind_copies(
@@ -263,16 +273,16 @@ void bind_batch(py::module_& m) {
   bind_columns(pairs, "pairs", &Proximities::gap, &Proximities::error, &Proximities::normal, &Proximities::point1,
                &Proximities::point2, &Proximities::contact, &Proximities::evaluations, &Proximities::status,
                &Proximities::is_global, &Proximities::global_error);
-  bind_column(pairs, "gap", &Proximities::gap, "(N,), m; distance when positive, minus the penetration depth when negative");
-  bind_column(pairs, "error", &Proximities::error, "(N,), m; estimate of the error of the gap; a bound where is_global");
+  bind_column(pairs, "gap", &Proximities::gap, "(N,), m; signed distance: minus the penetration depth if negative");
+  bind_column(pairs, "error", &Proximities::error, "(N,), m; estimated error of the gap; an upper bound if is_global");
   bind_column(pairs, "normal", &Proximities::normal, "(N, 3), unit, from body 1 to body 2");
   bind_column(pairs, "point1", &Proximities::point1, "(N, 3), m; on the boundary of body 1");
   bind_column(pairs, "point2", &Proximities::point2, "(N, 3), m; on the boundary of body 2");
   bind_column(pairs, "contact", &Proximities::contact, "(N, 3), m; where a contact force acts");
   bind_column(pairs, "evaluations", &Proximities::evaluations, "(N,) of int32; evaluations of the gap function");
   bind_column(pairs, "status", &Proximities::status, "(N,) of uint8; compare with members of Status");
-  bind_column(pairs, "is_global", &Proximities::is_global, "(N,) of bool; whether the gap is proved to be the largest");
-  bind_column(pairs, "global_error", &Proximities::global_error, "(N,), m; the proved bound on what a larger gap would add");
+  bind_column(pairs, "is_global", &Proximities::is_global, "(N,) of bool; whether the gap is the proved global maximum");
+  bind_column(pairs, "global_error", &Proximities::global_error, "(N,), m; proved upper bound of the global maximum minus the gap");
   m.def("find_proximities", &proximities, kFindProximitiesDoc, py::arg("shapes1"), py::arg("poses1"), py::arg("shapes2"),
         py::arg("poses2"), py::arg("settings") = Settings(), py::arg("first_normals") = py::none(), py::arg("threads") = 0);
 

@@ -1,4 +1,4 @@
-// The shapes that are made of others, of points, or of a program's functions.
+// Shapes composed of other shapes, of points or of user functions.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -26,7 +26,7 @@ namespace {
 
 using ShapePointer = std::shared_ptr<Shape>;
 
-/// A Polytope refers to points: these go with it.
+/// A Polytope refers to its points: store them together.
 struct PolytopeAndPoints {
   explicit PolytopeAndPoints(std::vector<Vector3> vertices) : points(std::move(vertices)), polytope(points) {}
 
@@ -50,7 +50,7 @@ py::array_t<double> points_of(const Polytope& self) {
   return out;
 }
 
-/// A function of Python's that C++ may call, copy and destroy on any thread, with or without the interpreter's lock.
+/// A Python function that C++ may call, copy and destroy on any thread, with or without the interpreter's lock.
 class PythonFunction {
  public:
   PythonFunction(const char* name, py::function function)
@@ -61,7 +61,7 @@ class PythonFunction {
 
   const py::function& function() const { return *function_; }
 
-  /// Calls it with a unit vector (3,), and reads `count` numbers of the result, in the order of the array.
+  /// Calls the function with a unit vector (3,). Reads `count` numbers of the result in array order.
   template <std::size_t kCount>
   std::array<double, kCount> call(const Vector3& n) const {
     const HoldingTheLock lock;
@@ -90,7 +90,7 @@ class PythonFunction {
   std::shared_ptr<py::function> function_;
 };
 
-/// The functions that a CallbackShape is made of.
+/// The functions of a CallbackShape.
 struct Functions {
   PythonFunction point;
   std::optional<PythonFunction> support, hessian;
@@ -101,7 +101,7 @@ struct Functions {
   }
 };
 
-/// Those of all that live. It is read and changed with the interpreter's lock, and stays until the process has ended.
+/// The functions of all living CallbackShapes. Access needs the interpreter's lock. The map is never destroyed.
 std::unordered_map<const CallbackShape*, Functions>& functions_of() {
   static auto* const map = new std::unordered_map<const CallbackShape*, Functions>;
   return *map;
@@ -132,24 +132,25 @@ std::shared_ptr<CallbackShape> make_callback_shape(py::function point, std::opti
   return {shape.release(), &delete_callback_shape};
 }
 
-/// A shape that another one is made of, and keeps.
+/// A part of a composed shape. The pointer keeps the whole alive.
 template <typename Whole>
 ShapePointer part_of(const std::shared_ptr<Whole>& whole, const Shape& part) {
   return {whole, const_cast<Shape*>(&part)};  // NOLINT(cppcoreguidelines-pro-type-const-cast): Python has no const
 }
 
 constexpr const char* kCallbackDoc =
-    R"(A convex body that a program describes by functions of the unit normal n, (3,), in the body's frame.
+    R"(A convex body defined by functions of the unit normal n, (3,), in the body's frame.
 
-point(n): (3,), m: the boundary point with outward normal n; of a flat face, any of its points.
-support(n): m: the support function h(n) = n . point(n); taken from point where it is None.
+point(n): (3,), m: the boundary point with outward normal n; for a flat face, any of its points.
+support(n): m: the support function h(n) = n . point(n). None: computed from point.
 hessian(n): (3, 3), m: the second derivatives of h; symmetric, hessian(n) @ n = 0. None: solvers estimate the radii of curvature.
 
-The functions must be pure. They are called with the interpreter's lock, from whatever thread asks, so that a batch of such shapes
-uses one core. They are tried in 26 directions; ValueError, with the direction, the value and what was expected, unless the results
-are finite and belong to a convex body with a size in [1e-30, 1e30] m. What a function raises later ends the query and is raised.)";
+The functions must be pure. They are called with the interpreter's lock, from the thread that queries the shape, so a batch of
+such shapes uses one core. The constructor tests them in 26 directions. It raises ValueError, with the direction, the value and
+the expected value, unless all results are finite and belong to a convex body of a size in [1e-30, 1e30] m. An exception in a
+later call ends the query and propagates.)";
 
-/// A property of `Class` by a function of the shared pointer.
+/// A property of `Class` from a function of the shared pointer.
 template <typename Class, typename Get>
 auto property_of(const Get& get) {
   return py::cpp_function([get](const py::object& self) { return get(unwrapped<Class>(self)); });
@@ -158,12 +159,12 @@ auto property_of(const Get& get) {
 void bind_polytope(py::module_& m) {
   py::class_<Polytope, Shape, std::shared_ptr<Polytope>> type(
       m, "Polytope",
-      "The convex hull of points: a point, a segment, a triangle or a solid. The origin should be near its middle.\n\n"
+      "The convex hull of points: a point, a segment, a triangle or a solid. The origin should be near its centre.\n\n"
       "points: (N, 3), m, N >= 1, within 1e30; ValueError otherwise.");
   type.def(py::init(&make_polytope), py::arg("points"))
       .def_property_readonly("points", &points_of, "(N, 3), m; a copy")
       .def("__repr__", [](const Polytope& self) { return "Polytope(of " + std::to_string(self.points().size()) + " points)"; });
-  // The numbers of an array are no value that == compares; their bytes are one.
+  // == does not compare arrays by value. It does compare their bytes.
   bind_value(
       type, [](const std::shared_ptr<Polytope>& self) { return py::make_tuple(points_of(*self).attr("tobytes")()); },
       [](const py::tuple& of) {
@@ -207,7 +208,7 @@ void bind_linear_image(py::module_& m) {
       "The points matrix @ p of all points p of a shape.\n\n"
       "matrix: (3, 3), with singular values in [1e-30, 1e30] and a ratio of at most 1e12; ValueError otherwise.");
   type.def(py::init<ShapePointer, Matrix3>(), py::arg("shape").none(false), py::arg("matrix"))
-      .def_property_readonly("shape", property_of<decltype(type)>(shape), "Shape: the shape whose image this is")
+      .def_property_readonly("shape", property_of<decltype(type)>(shape), "Shape: the original shape")
       .def_property_readonly(
           "matrix", [](const LinearImage& self) { return self.matrix(); }, "(3, 3)");
   bind_value(

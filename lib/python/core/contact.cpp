@@ -66,32 +66,33 @@ ContactManifold make_manifold(const py::tuple& of) {
 }
 
 constexpr const char* kManifoldDoc =
-    R"(The deepest point of an overlap and, where the bodies are flat, the corners of the region on which they rest. Points are in the
-world's frame. It is a continuous function of the poses, and symmetric under swapping the bodies.)";
+    R"(The deepest point of an overlap and, where the bodies are flat, the corners of their contact region. Frame: world.
+
+The manifold is a continuous function of the poses. Swapping the bodies does not change it.)";
 
 constexpr const char* kContactsDoc =
-    R"(The contacts that a simulator with room for so many gets: points (K, 3), m, and depths (K,), m, as a tuple.
+    R"(The contacts for a simulator that accepts at most `room` contacts: points (K, 3), m, and depths (K,), m, as a tuple.
 
-room: in [1, inf); ValueError otherwise. Round bodies have one contact, flat ones up to four corners, deepest first. None if the bodies
-are apart. The normal of all is deepest.normal.)";
+room: in [1, inf); ValueError otherwise. Round bodies have one contact; flat bodies have up to four corners, deepest first. Bodies
+that are apart have none. All contacts have the normal deepest.normal.)";
 
-constexpr const char* kFindManifoldDoc = R"(The contact manifold of two bodies whose proximity is known.
+constexpr const char* kFindManifoldDoc = R"(The contact manifold of two bodies with a known proximity.
 
-proximity: what find_proximity() returned for the same bodies and poses.)";
+proximity: the result of find_proximity() for the same bodies and poses.)";
 
 constexpr const char* kFindPlaneDoc = R"(The contact manifold of a body and a plane.
 
-proximity: what find_plane_proximity() returned for the same body and pose.)";
+proximity: the result of find_plane_proximity() for the same body and pose.)";
 
 constexpr const char* kCurvatureDoc =
     R"(The curvature tensor of the boundary at the point with this outward normal, 1/m: (3, 3), the inverse of the Hessian.
 
-normal: (3,), world's frame, any length but 0; ValueError otherwise.)";
+normal: (3,), world frame, any length but 0; ValueError otherwise.)";
 
 constexpr const char* kContactCurvatureDoc =
     R"(The principal relative curvatures of two bodies at a contact, 1/m: (smaller, larger).
 
-The gap grows as (smaller x^2 + larger y^2) / 2 about the contact. normal: (3,), world's frame, from body 1 to body 2, any length but
+The gap grows as (smaller x^2 + larger y^2) / 2 about the contact. normal: (3,), world frame, from body 1 to body 2, any length but
 0; ValueError otherwise.)";
 
 }  // namespace
@@ -100,11 +101,11 @@ void bind_contact(py::module_& m) {
   py::class_<ContactManifold> type(m, "ContactManifold", kManifoldDoc);
   type.def_property_readonly(
           "deepest", [](const ContactManifold& self) { return self.deepest; }, "Proximity: the deepest point")
-      .def_property_readonly("corner_points", &corner_points, "(K, 3), m, K = 0 or 4; some may be at the same place")
-      .def_property_readonly("corner_depths", &corner_depths, "(K,), m; depth of the overlap at the corners, 0 where there is none")
-      .def_readonly("margin", &ContactManifold::margin, "m; the bodies are apart by no more than this at a corner")
-      .def_readonly("same_place", &ContactManifold::same_place, "m; corners that are nearer to each other are one contact")
-      .def_readonly("evaluations", &ContactManifold::evaluations, "boundary points that finding the corners took")
+      .def_property_readonly("corner_points", &corner_points, "(K, 3), m, K = 0 or 4; some may coincide")
+      .def_property_readonly("corner_depths", &corner_depths, "(K,), m; depth of the overlap at the corners, at least 0")
+      .def_readonly("margin", &ContactManifold::margin, "m; upper bound of the gap between the bodies at a corner")
+      .def_readonly("same_place", &ContactManifold::same_place, "m; corners closer than this are one contact")
+      .def_readonly("evaluations", &ContactManifold::evaluations, "boundary points evaluated to find the corners")
       .def("contacts", &contacts, py::arg("room") = 8, kContactsDoc)
       .def("__repr__", [](const ContactManifold& self) {
         return "ContactManifold(deepest=" + py::repr(py::cast(self.deepest)).cast<std::string>() + ", of " +

@@ -12,7 +12,7 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-/// The IntEnums by name. The interpreter keeps them until it ends: they cannot be asked of the module while that is being made.
+/// The IntEnums by name, kept until the interpreter ends. The module cannot be asked for them while it is being built.
 std::map<std::string, py::handle>& int_enums() {
   static std::map<std::string, py::handle> types;
   return types;
@@ -46,11 +46,11 @@ void bind_enums(py::module_& m) {
   add_int_enum(m, "Status",
                "How a query ended.\n\n"
                "CONVERGED: the error is within the tolerance.\n"
-               "APART: stopped early, as asked: the bodies are separated by `gap` or more.\n"
-               "STALLED: no further ascent in double precision although the error exceeds the tolerance.\n"
+               "APART: stopped early, as requested. The bodies are apart by at least `gap`.\n"
+               "STALLED: no further ascent is possible in double precision, but the error exceeds the tolerance.\n"
                "EVALUATION_LIMIT: Settings.max_evaluations reached.\n"
                "DIVERGED: an unguarded solver left the domain.\n"
-               "INVALID_INPUT: a shape gave a number that is not finite. Queries raise ValueError instead of returning it.",
+               "INVALID_INPUT: a shape returned a number that is not finite. Queries raise ValueError instead.",
                {{"CONVERGED", number(Status::Converged)},
                 {"APART", number(Status::Apart)},
                 {"STALLED", number(Status::Stalled)},
@@ -59,11 +59,11 @@ void bind_enums(py::module_& m) {
                 {"INVALID_INPUT", number(Status::InvalidInput)}});
   add_int_enum(m, "ImpactStatus",
                "How the search for an impact ended.\n\n"
-               "APART: no impact until the horizon: proved.\n"
-               "HITS: the gap comes within the tolerance at `time`, and not before: proved.\n"
+               "APART: no impact until the horizon (proved).\n"
+               "HITS: the gap falls to the tolerance at `time`, and not before (proved).\n"
                "OVERLAPPING: the bodies overlap by more than the tolerance at time 0.\n"
-               "NOT_CONVERGED: a limit was reached, or a query has stalled; there is no impact before `apart_until`.\n"
-               "INVALID_INPUT: a number is not finite. Queries raise ValueError instead of returning it.",
+               "NOT_CONVERGED: a limit was reached, or a query stalled. There is no impact before `apart_until`.\n"
+               "INVALID_INPUT: a number is not finite. Queries raise ValueError instead.",
                {{"APART", number(ImpactStatus::Apart)},
                 {"HITS", number(ImpactStatus::Hits)},
                 {"OVERLAPPING", number(ImpactStatus::Overlapping)},

@@ -1,5 +1,5 @@
-// Solver, Status and ImpactStatus are IntEnums of Python, so that they compare with the integers of NumPy arrays. Every file that
-// passes one includes this.
+// Solver, Status and ImpactStatus are IntEnums in Python, so they compare with integers in NumPy arrays. Include this file wherever
+// one of them is passed.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -9,7 +9,7 @@
 
 namespace supernormal::python {
 
-/// The member of the IntEnum `name` of supernormal._core with the value; ValueError if there is none.
+/// The member with this value of the IntEnum `name` of supernormal._core. Raises ValueError if there is none.
 pybind11::object enum_member(const char* name, int value);
 
 template <typename Enum>
@@ -31,7 +31,7 @@ struct EnumName<ImpactStatus> {
 
 namespace pybind11::detail {
 
-/// Converts between an enum of C++ and the IntEnum of the same name.
+/// Converts between a C++ enum and the IntEnum of the same name.
 template <typename Enum>
 struct IntEnumCaster {
   using Names = supernormal::python::EnumName<Enum>;

@@ -1,4 +1,4 @@
-// The time at which two moving bodies meet.
+// The time of impact of two moving bodies.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -58,21 +58,32 @@ Impact plane_time_of_impact(const Shape& shape, const Motion& motion, const Vect
 
 constexpr const char* kMotionDoc = R"(The motion of a body with constant velocities.
 
-pose: at time 0. velocity: (3,), m/s, of the centre. angular_velocity: (3,), rad/s, in the world's frame. centre: (3,), m, in the body's
-frame: what it turns about, such as its centre of mass. Numbers within 1e75; ValueError otherwise.)";
+pose: at time 0.
+velocity: (3,), m/s, of the centre.
+angular_velocity: (3,), rad/s, in the world frame.
+centre: (3,), m, in the body's frame: the centre of rotation, such as the centre of mass.
+
+Raises ValueError when a number exceeds 1e75 in magnitude.)";
 
 constexpr const char* kImpactDoc = "The first impact of two moving bodies, or the proof that there is none.";
 
 constexpr const char* kFindDoc = R"(The first time in [0, horizon] at which two bodies in steady motion meet, to the tolerance.
 
-None is missed, however fast the bodies turn: that they are apart before is proved. Bodies that touch at time 0 hit at 0, unless they part.
-horizon: s, in [0, 1e30]. Of the settings, tolerance, solver and max_evaluations are used. first_normal: (3,), in the frame of body 1, any
-length but 0: where the first query starts. ValueError for what is out of range, for a body that turns by more than 1e75 rad, and when a
-shape delivers a number that is not finite.)";
+No impact is missed, however fast the bodies rotate: it is proved that they are apart before. Bodies that touch at time 0 hit at 0,
+unless they separate.
 
-constexpr const char* kPlaneDoc = R"(The same for a body and the half-space plane_normal . x <= plane_offset, which stands still.
+horizon: s, in [0, 1e30].
+settings: tolerance, solver and max_evaluations are used.
+first_normal: (3,), in the frame of body 1, any length but 0: the start of the first query.
 
-plane_normal: (3,), world's frame, any length but 0, out of the half-space, made a unit vector; plane_offset: m.)";
+Raises ValueError when an argument is out of range, when a body rotates by more than 1e75 rad, or when a shape returns a number
+that is not finite.)";
+
+constexpr const char* kPlaneDoc =
+    R"(find_time_of_impact() for a body and the half-space plane_normal . x <= plane_offset, which is at rest.
+
+plane_normal: (3,), world frame, out of the half-space, any length but 0; it is normalised.
+plane_offset: m.)";
 
 void bind_motion(py::module_& m) {
   py::class_<Motion> type(m, "Motion", kMotionDoc);
@@ -105,12 +116,12 @@ void bind_impact(py::module_& m) {
   bind_motion(m);
   py::class_<Impact> type(m, "Impact", kImpactDoc);
   type.def_readonly("status", &Impact::status, "ImpactStatus")
-      .def_readonly("time", &Impact::time, "s; of the impact; the horizon if there is none; apart_until if not converged")
-      .def_readonly("apart_until", &Impact::apart_until, "s; the bodies are apart before this time, but for a touch at time 0")
+      .def_readonly("time", &Impact::time, "s; time of impact; the horizon if there is none; apart_until if not converged")
+      .def_readonly("apart_until", &Impact::apart_until, "s; the bodies are apart before this time, except for a touch at time 0")
       .def_property_readonly(
-          "proximity", [](const Impact& self) { return self.proximity; }, "Proximity at `time`; apart: one that proves it")
+          "proximity", [](const Impact& self) { return self.proximity; }, "Proximity at `time`; if apart, it proves this")
       .def_readonly("evaluations", &Impact::evaluations, "evaluations of the gap function; with a plane, of the support function")
-      .def_property_readonly("may_hit", &Impact::may_hit, "Whether there is an impact, or none is excluded.")
+      .def_property_readonly("may_hit", &Impact::may_hit, "Whether there is an impact, or it cannot be excluded.")
       .def("__repr__", [](const Impact& self) {
         return "Impact(status=" + py::cast(self.status).attr("name").cast<std::string>() + ", time=" + to_text(self.time) +
                ", evaluations=" + std::to_string(self.evaluations) + ")";

@@ -1,8 +1,8 @@
-// Taking the interpreter's lock, and giving it back meanwhile, in threads that may outlive the interpreter.
+// Acquires and releases the interpreter's lock in threads that may outlive the interpreter.
 //
-// Python before 3.14 ends a daemon thread that asks for the lock while the interpreter ends: by pthread_exit(), which unwinds the
-// stack. Destructors and `catch (...)` on the way turn that into abort(). Here such a thread waits for the end of the process, as
-// it does from Python 3.14 on.
+// A daemon thread may ask for the lock while the interpreter ends. Python before 3.14 then calls pthread_exit(), which unwinds the
+// stack. Destructors and `catch (...)` turn this into abort(). Here such a thread waits for the end of the process, as in Python
+// 3.14.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,31 +15,31 @@ namespace supernormal::python {
 /// Never returns.
 [[noreturn]] void wait_for_the_end_of_the_process() noexcept;
 
-/// Calls `work`, which needs the interpreter's lock or asks for it.
+/// Calls `work`, which needs or requests the interpreter's lock.
 template <typename Work>
 auto outlive_the_interpreter(const Work& work) {
   try {
     return work();
   } catch (const std::exception&) {
-    throw;  // Python's exceptions too
+    throw;  // Python exceptions, too
   } catch (...) {
     wait_for_the_end_of_the_process();
   }
 }
 
-/// Whether this thread has the lock: also while it ends the interpreter.
+/// Whether this thread holds the lock, also while it ends the interpreter.
 inline bool has_the_lock() {
   PyThreadState* const own = PyGILState_GetThisThreadState();
   return own != nullptr && own == pybind11::detail::get_thread_state_unchecked();
 }
 
-/// pybind11::gil_scoped_acquire: has the lock while it lives.
+/// Like pybind11::gil_scoped_acquire: holds the lock during its lifetime.
 class HoldingTheLock {
  public:
   HoldingTheLock() {
-    // What the program still has when it ends is destroyed by the thread that ends the interpreter.
+    // The thread that ends the interpreter already holds the lock when it destroys the program's objects.
     if (has_the_lock()) return;
-    // Where a thread has no state yet, pybind11 makes one in an interpreter that may be gone.
+    // For a thread without a state, pybind11 creates one in an interpreter that may be gone.
     if (Py_IsInitialized() == 0) wait_for_the_end_of_the_process();
     outlive_the_interpreter([this] { lock_.emplace(); });
   }
@@ -48,7 +48,7 @@ class HoldingTheLock {
   std::optional<pybind11::gil_scoped_acquire> lock_;
 };
 
-/// pybind11::gil_scoped_release: gives the lock away while it lives.
+/// Like pybind11::gil_scoped_release: releases the lock during its lifetime.
 class WithoutTheLock {
  public:
   WithoutTheLock() : state_(PyEval_SaveThread()) {}

@@ -6,8 +6,8 @@
 namespace supernormal::python {
 namespace {
 
-// An object without its __init__: of __new__() alone, or used by a subclass's __init__ before that calls super().__init__().
-// pybind11 allocates it when a function takes it and leaves it without a value, unless its class allocates by itself.
+// An object is unmade before its __init__: after __new__() alone, or in a subclass's __init__ before super().__init__(). When a
+// function takes it, pybind11 allocates it without constructing a value, unless its class has its own allocator.
 void* refuse_unmade_object(std::size_t /*size*/) {
   throw pybind11::type_error("an object is used before its __init__() was called; a subclass calls super().__init__() first");
 }
@@ -25,7 +25,8 @@ void refuse_unmade_objects(const pybind11::module_& m) {
 
 PYBIND11_MODULE(_core, m) {
   using namespace supernormal::python;
-  m.doc() = "Smooth convex bodies: shapes, signed distance, contacts and rays. Import `supernormal`, which has all of it.";
+  m.doc() =
+      "Smooth convex bodies: shapes, signed distance, contacts and rays. Import `supernormal` instead; it exports everything.";
   bind_enums(m);
   bind_poses(m);
   bind_settings(m);

@@ -29,8 +29,8 @@ class Loop {
   Loop(std::ptrdiff_t count, int threads, const std::function<void(std::ptrdiff_t)>& body)
       : count_(count), chunk_(std::clamp<std::ptrdiff_t>(count / (8 * threads), 1, kLongestChunk)), body_(body) {}
 
-  /// Chunks are handed out in order and always ended, or ended by an exception: so all before the smallest i that throws are done,
-  /// and which i that is does not depend on the threads.
+  /// Chunks are taken in order, and each is finished or ends with an exception. So all iterations before the smallest i that throws
+  /// are finished, and this i does not depend on the threads.
   void work(const std::function<void()>& between_chunks = {}) {
     for (;;) {
       const std::ptrdiff_t begin = next_.fetch_add(chunk_);
@@ -45,7 +45,7 @@ class Loop {
     }
   }
 
-  /// Throws what the loop threw.
+  /// Rethrows the exception of the loop.
   void finish() const {
     if (!failure_) return;
     try {
@@ -80,7 +80,7 @@ int number_of_threads(std::ptrdiff_t count, int threads) {
   return static_cast<int>(std::clamp<std::ptrdiff_t>(count, 1, threads));
 }
 
-/// Raises KeyboardInterrupt, or what a program's handler of signals raises, now and then.
+/// Periodically raises KeyboardInterrupt, or whatever a signal handler of the program raises.
 class SignalWatch {
  public:
   void look() {

@@ -1,4 +1,4 @@
-// Pose and Poses, from a rotation matrix or a quaternion. What the core requires of a rotation is checked here, once.
+// Pose and Poses, from a rotation matrix or a quaternion. They validate rotations once, as the core requires.
 #include "poses.hpp"
 
 #include <pybind11/eigen.h>
@@ -23,11 +23,11 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-// Rotations computed in double precision are within this error, and are used unchanged, bit for bit. Flat faces are sensitive to
-// more (lib/ode/geom/rotation.hpp, whose limits these are).
+// Rotations computed in double precision are within this error, and are used unchanged, bit for bit. Flat faces tolerate no more.
+// The limits equal those in lib/ode/geom/rotation.hpp.
 constexpr double kRoundedRotation = 1e-14;
 
-// A rotation that was typed with three decimals is near enough, and one that was scaled or sheared by a per cent is not.
+// A rotation typed with three decimals is accepted. A scale or shear of one per cent is not.
 constexpr double kNearRotation = 1e-2;
 
 constexpr double kUnitQuaternion = 1e-6;
@@ -41,7 +41,7 @@ Matrix3 require_rotation(Name name, const Matrix3& R) {
     throw std::invalid_argument(name.text() + " = " + vector_text(rows.data(), 9) + " (by rows), whose columns are not, to " +
                                 to_text(kNearRotation) + ", unit vectors at right angles and right-handed");
   }
-  // The orthogonal factor of the polar decomposition is the nearest rotation.
+  // The nearest rotation is the orthogonal factor of the polar decomposition.
   const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
@@ -55,12 +55,12 @@ Matrix3 require_quaternion(Name name, const double* q) {
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
-void refuse_two_attitudes(bool rotation, bool quaternion) {
+void refuse_two_orientations(bool rotation, bool quaternion) {
   if (rotation && quaternion) throw std::invalid_argument("rotation and quaternion are both given; give one of them");
 }
 
 Pose make_pose(const Vector3& position, const std::optional<Matrix3>& rotation, const std::optional<Eigen::Vector4d>& quaternion) {
-  refuse_two_attitudes(rotation.has_value(), quaternion.has_value());
+  refuse_two_orientations(rotation.has_value(), quaternion.has_value());
   Pose pose;
   pose.position = require_place({"position"}, position);
   if (rotation) pose.rotation = require_rotation({"rotation"}, *rotation);
@@ -75,7 +75,7 @@ void require_as_many(const char* name, py::ssize_t count, py::ssize_t wanted) {
 }
 
 Poses make_poses(const Doubles& position, const std::optional<Doubles>& rotation, const std::optional<Doubles>& quaternion) {
-  refuse_two_attitudes(rotation.has_value(), quaternion.has_value());
+  refuse_two_orientations(rotation.has_value(), quaternion.has_value());
   const py::ssize_t count = require_rows("position", position, {3});
   if (rotation) require_as_many("rotation", require_rows("rotation", *rotation, {3, 3}), count);
   if (quaternion) require_as_many("quaternion", require_rows("quaternion", *quaternion, {4}), count);
@@ -113,19 +113,18 @@ py::object are_equal(const Poses& self, const py::object& other) {
   return py::bool_(std::ranges::equal(self.poses, other.cast<const Poses&>().poses, is_same));
 }
 
-constexpr const char* kPoseDoc = R"(The position and attitude of a body: x_world = rotation @ x_body + position.
+constexpr const char* kPoseDoc = R"(The position and orientation of a body: x_world = rotation @ x_body + position.
 
 position: (3,), m, each coordinate within 1e150.
-rotation: (3, 3), orthonormal and right-handed. It is used unchanged where it is so to 1e-14; where it is so to 1e-2 only, the
-nearest rotation is taken.
+rotation: (3, 3), orthonormal and right-handed. Within 1e-14 it is used unchanged. Within 1e-2 the nearest rotation is used.
 quaternion: (4,), w, x, y, z, of unit length to 1e-6; instead of a rotation.
 
-Raises ValueError when a number is out of range, when the matrix is no rotation, or when both attitudes are given.)";
+Raises ValueError when a number is out of range, when the matrix is not a rotation, or when both are given.)";
 
 constexpr const char* kPosesDoc = R"(N poses, for find_proximities() and find_ray_hits().
 
-position: (N, 3), m; rotation: (N, 3, 3) or None; quaternion: (N, 4), w, x, y, z, or None. Requirements and errors are those of
-Pose; a message names the entry.)";
+position: (N, 3), m; rotation: (N, 3, 3) or None; quaternion: (N, 4), w, x, y, z, or None. The requirements and errors are the same
+as for Pose. A message names the entry.)";
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Poses as Python programs give them.
+// Poses in Python programs.
 #pragma once
 
 #include <vector>

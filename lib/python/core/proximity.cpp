@@ -41,27 +41,35 @@ Proximity plane_proximity(const Shape& shape, const Pose& pose, const Vector3& p
   return require_answer(find_plane_proximity(shape, pose, normal, plane_offset));
 }
 
-constexpr const char* kSettingsDoc = R"(When a solver is to stop. Out of range, the query raises ValueError.
+constexpr const char* kSettingsDoc =
+    R"(The solver of a query, and when it stops. A query raises ValueError when a setting is out of range.
 
-solver: the method. tolerance: the largest error of the gap, relative to the smallest half-extent of the two bodies, in [1e-15, 1].
-max_evaluations: of the gap function, in [1, 1000000]. stop_when_apart: end with Status.APART at the first normal that proves
-separation. certify_depth: search on until the depth of overlapping bodies is proved the smallest: Proximity.is_global.)";
+solver: the method.
+tolerance: the largest error of the gap, relative to the smallest half-extent of the two bodies, in [1e-15, 1].
+max_evaluations: of the gap function, in [1, 1000000].
+stop_when_apart: stop with Status.APART at the first normal that proves separation.
+certify_depth: search until the depth of overlapping bodies is proved minimal: Proximity.is_global.)";
 
-constexpr const char* kProximityDoc = "The common normal of two bodies, in the world's frame.";
+constexpr const char* kProximityDoc = "The common normal of two bodies. Frame: world.";
 
 constexpr const char* kFindDoc = R"(The gap, common normal and witness points of two bodies, apart or overlapping.
 
-pose1, pose2: of the bodies in the world. first_normal: (3,), in the frame of body 1, any length but 0: where the solver starts, such
-as the normal of an earlier, similar pose. For bodies apart or touching every start leads to the same answer. Overlapping bodies may
-have several local maxima of the gap function; then the one that it leads to is followed, and without it the highest is looked for.
+pose1, pose2: of the bodies in the world.
+first_normal: (3,), in the frame of body 1, any length but 0: the start of the solver, such as the normal of a similar earlier
+pose.
 
-Raises ValueError for settings or a first normal out of range, and when a shape delivers a number that is not finite.)";
+For bodies apart or touching, every start leads to the same result. For overlapping bodies the gap function may have several local
+maxima. With a first normal the solver follows the maximum to which it leads. Without one it searches for the highest.
+
+Raises ValueError for settings or a first normal out of range, and when a shape returns a number that is not finite.)";
 
 constexpr const char* kPlaneDoc =
-    R"(The proximity of a body and the half-space plane_normal . x <= plane_offset: explicit and exact.
+    R"(The proximity of a body and the half-space plane_normal . x <= plane_offset, in closed form.
 
-plane_normal: (3,), world's frame, any length but 0, out of the half-space, made a unit vector; plane_offset: m. ValueError
-otherwise.)";
+plane_normal: (3,), world frame, out of the half-space, any length but 0; it is normalised.
+plane_offset: m.
+
+Raises ValueError when an argument is out of range.)";
 
 }  // namespace
 
@@ -95,9 +103,9 @@ void bind_settings(py::module_& m) {
 
 void bind_proximity(py::module_& m) {
   py::class_<Proximity> type(m, "Proximity", kProximityDoc);
-  type.def_readonly("gap", &Proximity::gap, "m; distance when positive, minus the penetration depth when negative")
+  type.def_readonly("gap", &Proximity::gap, "m; signed distance: minus the penetration depth if negative")
       .def_readonly("error", &Proximity::error,
-                    "m; estimate of what is left to the local maximum of the gap; a bound where is_global")
+                    "m; estimated difference from the local maximum of the gap function; an upper bound if is_global")
       .def_property_readonly(
           "normal", [](const Proximity& self) { return self.normal; }, "(3,), unit, from body 1 to body 2")
       .def_property_readonly(
@@ -110,7 +118,7 @@ void bind_proximity(py::module_& m) {
       .def_readonly("status", &Proximity::status, "Status")
       .def_readonly("is_global", &Proximity::is_global, "Whether it is proved that no other normal has a larger gap.")
       .def_readonly("global_error", &Proximity::global_error,
-                    "m; proved: the largest value of the gap function lies within [gap, gap + global_error]")
+                    "m; proved: the global maximum of the gap function lies in [gap, gap + global_error]")
       .def("__repr__", [](const Proximity& self) {
         return "Proximity(gap=" + to_text(self.gap) + ", error=" + to_text(self.error) +
                ", normal=" + vector_text(self.normal.data(), 3) + ", status=" + status_name(self.status) +

@@ -1,4 +1,4 @@
-// The first point of a body on a ray.
+// The first hit of a ray on a body.
 #include <pybind11/eigen.h>
 
 #include <limits>
@@ -28,30 +28,33 @@ RayHit ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, cons
   return result;
 }
 
-constexpr const char* kHitDoc = "The point where a ray meets the boundary of a body, in the world's frame.";
+constexpr const char* kHitDoc = "The point where a ray meets the boundary of a body. Frame: world.";
 
 constexpr const char* kRayDoc =
-    R"(The first point of the boundary on a ray: where it enters the body or, from inside, where it leaves it.
+    R"(The first point of the boundary on a ray: where it enters the body or, from inside, where it leaves the body.
 
-origin: (3,), m, within 1e150; direction: (3,), any length but 0, made a unit vector; length: m, in [0, inf]. Of the settings,
-tolerance (of boundary_error, relative to the smallest half-extent) and max_evaluations are used. ValueError when one is out of
-range, or when the shape delivers a number that is not finite.)";
+origin: (3,), m, within 1e150.
+direction: (3,), any length but 0; it is normalised.
+length: m, in [0, inf].
+settings: tolerance (of boundary_error, relative to the smallest half-extent) and max_evaluations are used.
+
+Raises ValueError when an argument is out of range, or when the shape returns a number that is not finite.)";
 
 }  // namespace
 
 void bind_raycast(py::module_& m) {
   py::class_<RayHit> type(m, "RayHit", kHitDoc);
   type.def_readonly("hit", &RayHit::hit, "Whether the ray meets the boundary within its length.")
-      .def_readonly("from_inside", &RayHit::from_inside, "Whether the origin is inside, and the hit is where the ray leaves.")
+      .def_readonly("from_inside", &RayHit::from_inside, "Whether the origin is inside. The hit is then where the ray leaves.")
       .def_readonly("distance", &RayHit::distance, "m; along the ray")
       .def_readonly("distance_error", &RayHit::distance_error, "m; estimate")
-      .def_readonly("boundary_error", &RayHit::boundary_error, "m; bound on the distance of `point` from the boundary")
+      .def_readonly("boundary_error", &RayHit::boundary_error, "m; upper bound of the distance of `point` from the boundary")
       .def_property_readonly(
           "point", [](const RayHit& self) { return self.point; }, "(3,), m")
       .def_property_readonly(
           "normal", [](const RayHit& self) { return self.normal; }, "(3,), unit, outward, also from inside")
       .def_readonly("evaluations", &RayHit::evaluations, "evaluations of the support function")
-      .def_readonly("status", &RayHit::status, "Status; with any but CONVERGED, `hit` is what is known so far")
+      .def_readonly("status", &RayHit::status, "Status; unless CONVERGED, `hit` is preliminary")
       .def("__repr__", [](const RayHit& self) {
         if (!self.hit) return std::string("RayHit(hit=False)");
         return "RayHit(hit=True, distance=" + to_text(self.distance) + ", point=" + vector_text(self.point.data(), 3) +

@@ -17,7 +17,7 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-/// Calls write(i, direction) for each of the directions, which are made unit vectors.
+/// Calls write(i, direction) for each direction, normalised.
 template <typename Write>
 void for_each_direction(const Doubles& directions, const Write& write) {
   const py::ssize_t count = require_vectors("direction", directions);
@@ -52,7 +52,7 @@ py::array_t<double> hessian(const Shape& self, const Doubles& directions) {
   return out;
 }
 
-/// The extent along an axis of the world is the support function in its direction, seen from the body.
+/// The extent along a world axis is the support function in this direction, in the body's frame.
 py::array_t<double> bounding_box(const Shape& self, const Pose& pose) {
   py::array_t<double> out({py::ssize_t{2}, py::ssize_t{3}});
   for (int axis = 0; axis < 3; ++axis) {
@@ -80,12 +80,15 @@ py::array_t<double> signed_distance(const Shape& self, const Doubles& points, co
 }
 
 constexpr const char* kSignedDistanceDoc =
-    R"(The distance of points from the boundary, m: (...); positive outside, negative inside.
+    R"(The signed distance of points from the boundary, m: (...); positive outside, negative inside.
 
-point: (..., 3), m, in the world's frame, within 1e150; pose: of the body; threads: in [0, 256], 0 for as many as the machine has.
+point: (..., 3), m, in the world frame, within 1e150.
+pose: of the body.
+threads: in [0, 256]; 0: one for each core.
+
 Raises ValueError for points or settings out of range.)";
 
-constexpr const char* kTessellateDoc = R"(A closed mesh of the body whose edges are no farther than chord_error from the boundary.
+constexpr const char* kTessellateDoc = R"(A closed mesh of the body. Its edges are within chord_error of the boundary.
 
 chord_error: m, at least 1e-6 of the largest half-extent; ValueError otherwise.)";
 
@@ -115,24 +118,24 @@ void bind_shape_queries(py::class_<Shape, std::shared_ptr<Shape>>& shape) {
       .def("support", &support, py::arg("direction"),
            "The support function h(n), m: (...).\n\ndirection: (..., 3), body's frame, any length but 0; ValueError otherwise.")
       .def("point", &point, py::arg("direction"),
-           "The boundary points r(n) with these outward normals, m: (..., 3), body's frame.\n\n"
+           "The boundary points r(n) with these outward normals n, m: (..., 3), body's frame.\n\n"
            "direction: (..., 3), body's frame, any length but 0; ValueError otherwise.")
       .def("hessian", &hessian, py::arg("direction"),
-           "The Hessians of h at unit normals, m: (..., 3, 3); their eigenvalues across n are the radii of curvature.\n\n"
-           "direction: (..., 3), body's frame, any length but 0; ValueError otherwise, or when the shape has none.")
-      .def_property_readonly("has_hessian", &Shape::has_hessian, "Whether hessian() has an answer.")
+           "The Hessians of h at unit normals n, m: (..., 3, 3). Their eigenvalues perpendicular to n are the radii of "
+           "curvature.\n\n"
+           "direction: (..., 3), body's frame, any length but 0; ValueError otherwise, or if has_hessian is false.")
+      .def_property_readonly("has_hessian", &Shape::has_hessian, "Whether hessian() is available.")
       .def_property_readonly("half_extents", &Shape::half_extents, "(3,), m; half of the extent along the axes of the body's frame")
       .def_property_readonly("is_symmetric", &Shape::is_symmetric,
-                             "Whether the body is point-symmetric about its origin; False where it is not known.")
+                             "Whether the body is point-symmetric about its origin. False if unknown.")
       .def_property_readonly("rolling_radius", &Shape::rolling_radius,
-                             "m; a ball of this radius provably rolls freely inside the body; 0 where none is known")
+                             "m; a ball of this radius provably rolls freely inside the body; 0 if unknown")
       .def("bounding_box", &bounding_box, py::arg("pose") = Pose(),
-           "The smallest box along the world's axes, m: (2, 3), its lower and its upper corner.")
+           "The smallest axis-aligned box in the world frame, m: (2, 3), its lower and its upper corner.")
       .def("mass_properties", &Shape::mass_properties,
-           "Volume, centroid and second moments: closed forms where there are some, otherwise quadrature over the normals, whose\n"
-           "relative_error accounts for what lies behind flat faces.\n\nRaises ValueError when the shape delivers values that are "
-           "not\n"
-           "finite.")
+           "Volume, centroid and second moments: in closed form if there is one, otherwise by quadrature over the normals.\n"
+           "The relative_error of the quadrature accounts for the volume behind flat faces.\n\n"
+           "Raises ValueError when the shape returns a number that is not finite.")
       .def("surface_area", &surface_area, "m^2; accurate to 1e-3 for bodies with aspect ratios up to 5")
       .def(
           "projected_area",

@@ -1,4 +1,4 @@
-// Questions that every shape answers.
+// Queries of any shape.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -14,10 +14,10 @@ namespace supernormal::python {
 
 void bind_shape_queries(pybind11::class_<Shape, std::shared_ptr<Shape>>& shape);
 
-/// m^5; the tensor of inertia about the centroid, for a density of one.
+/// The inertia tensor about the centroid for density 1, m^5.
 Matrix3 central_inertia(const MassProperties& properties);
 
-/// (N, 3)
+/// Returns an array (N, 3).
 pybind11::array_t<double> rows_of(const std::vector<Vector3>& points);
 
 pybind11::array_t<std::uint32_t> triangles_of(const Tessellation& tessellation);

@@ -1,4 +1,4 @@
-// Shapes from arrays of parameters or from a list.
+// Sequences of shapes, from arrays of parameters or from a list.
 #include "shape_sequence.hpp"
 
 #include <pybind11/stl.h>
@@ -19,7 +19,7 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-/// A parameter of N shapes: a number for all of them or an array (N,).
+/// A parameter of N shapes: one number for all, or an array (N,).
 class Parameter {
  public:
   Parameter(const char* name, const Doubles& values, py::ssize_t count) : values_(values), stride_(values.ndim() == 0 ? 0 : 1) {
@@ -38,7 +38,7 @@ class Parameter {
   py::ssize_t stride_;
 };
 
-/// Makes `count` shapes by `make(i)`; a refusal names the entry.
+/// Makes `count` shapes by `make(i)`. An error names the entry.
 template <typename ShapeClass, typename Make>
 std::shared_ptr<ShapeSequence> make_shapes(py::ssize_t count, const Make& make) {
   const auto owner = std::make_shared<std::vector<ShapeClass>>();
@@ -84,8 +84,10 @@ std::shared_ptr<ShapeSequence> make_superovoids(const Doubles& half_axes, const 
 }
 
 constexpr const char* kDoc =
-    R"(N shapes, for find_proximities() and find_ray_hits(): from a sequence of Shape, or from arrays of parameters by
-spheres(), ellipsoids(), superellipsoids() and superovoids(). An entry is a Shape. A refusal (ValueError) names the entry.)";
+    R"(N shapes, for find_proximities() and find_ray_hits().
+
+The constructor takes a sequence of Shape. spheres(), ellipsoids(), superellipsoids() and superovoids() take arrays of parameters.
+An entry is a Shape. A ValueError names the entry.)";
 
 }  // namespace
 
@@ -114,7 +116,7 @@ void bind_shape_sequence(py::module_& m) {
       .def_static("superovoids", &make_superovoids, py::arg("half_axes"), py::arg("delta"), py::arg("epsilon"), py::arg("taper_x"),
                   py::arg("taper_y"),
                   "half_axes: (N, 3), m, in [1e-30, 1e30]; the others: (N,) or a number; exponents in [1.01, 1000]; tapers such "
-                  "that the body is convex, see Superovoid")
+                  "that the body is convex; see Superovoid")
       .def("__len__", &ShapeSequence::size)
       .def("__getitem__",
            [](const ShapeSequence& self, std::size_t i) {

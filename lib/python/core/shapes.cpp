@@ -1,4 +1,4 @@
-// Shape and the shapes that are given by their parameters.
+// Shape, and the shapes with explicit parameters.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -66,19 +66,22 @@ constexpr const char* kSuperovoidDoc =
     R"(A superellipsoid whose section grows or shrinks linearly along z: with X = 1 + taper_x z/c and Y = 1 + taper_y z/c,
 (|x/(a X)|^delta + |y/(b Y)|^delta)^(epsilon/delta) + |z/c|^epsilon = 1 in the body's frame.
 
-half_axes: (3,): a, b, c, m, in [1e-30, 1e30]; delta, epsilon in [1.01, 1000]; tapers such that the body is convex: both within
-max_taper(epsilon); equal for epsilon > 2; for epsilon <= 2 different tapers are bounded together. ValueError otherwise, with the
-condition that fails. With a taper the centroid is not the origin of the frame.)";
+half_axes: (3,): a, b, c, m, in [1e-30, 1e30].
+delta, epsilon: in [1.01, 1000].
+taper_x, taper_y: within max_taper(epsilon), such that the body is convex. For epsilon > 2 they must be equal. For epsilon <= 2
+different tapers are bounded together.
+
+Raises ValueError with the condition that fails. With a taper the centroid is not the origin of the frame.)";
 
 void bind_superovoid(py::module_& m) {
   ShapeBinding<Superovoid> type(m, "Superovoid", kSuperovoidDoc);
   type.def(py::init<const Vector3&, double, double, double, double>(), py::arg("half_axes"), py::arg("delta"), py::arg("epsilon"),
            py::arg("taper_x"), py::arg("taper_y"))
       .def_static("max_taper", &Superovoid::max_taper, py::arg("epsilon"),
-                  "The largest |taper| of a convex body whose section keeps its proportions: 2^(1/epsilon) (epsilon - 1)/epsilon.")
+                  "The largest |taper| of a convex body with equal tapers: 2^(1/epsilon) (epsilon - 1)/epsilon.")
       .def_property_readonly(
           "half_axes", [](const Superovoid& self) { return self.half_axes(); },
-          "(3,), m; those of the superellipsoid that is tapered")
+          "(3,), m; half-axes of the superellipsoid before the taper")
       .def_property_readonly("delta", &Superovoid::delta, "the exponent in the xy-section")
       .def_property_readonly("epsilon", &Superovoid::epsilon, "the exponent along z")
       .def_property_readonly("taper_x", &Superovoid::taper_x, "relative growth of the half-axis a from z = 0 to z = c")
@@ -131,9 +134,9 @@ void bind_mass_properties(py::module_& m) {
           "second_moment", [](const MassProperties& self) { return self.second_moment; },
           "(3, 3), m^5; the integral of x x^T about the origin of the frame")
       .def_property_readonly("inertia", &central_inertia,
-                             "(3, 3), m^5; the tensor of inertia about the centroid: times the density in kg/m^3 it is in kg m^2")
+                             "(3, 3), m^5; inertia tensor about the centroid for density 1; multiply by kg/m^3 for kg m^2")
       .def_readonly("relative_error", &MassProperties::relative_error,
-                    "estimate, for volume and moments relative to their size; 0 for closed forms");
+                    "estimated relative error of volume and moments; 0 for closed forms");
   bind_value(
       type, {"volume", "centroid", "second_moment", "relative_error"},
       [](const MassProperties& self) {
@@ -150,12 +153,12 @@ void bind_mass_properties(py::module_& m) {
 }
 
 void bind_tessellation(py::module_& m) {
-  py::class_<Tessellation> type(m, "Tessellation", "A closed mesh whose corners are boundary points of a body.");
+  py::class_<Tessellation> type(m, "Tessellation", "A closed mesh whose vertices are boundary points of a body.");
   type.def_property_readonly(
           "points", [](const Tessellation& self) { return rows_of(self.points); }, "(N, 3), m, in the body's frame")
       .def_property_readonly(
-          "normals", [](const Tessellation& self) { return rows_of(self.normals); }, "(N, 3), unit, outward; of the points")
-      .def_property_readonly("triangles", &triangles_of, "(M, 3) of uint32: indices of points, anticlockwise as seen from outside")
+          "normals", [](const Tessellation& self) { return rows_of(self.normals); }, "(N, 3), unit, outward; at the points")
+      .def_property_readonly("triangles", &triangles_of, "(M, 3) of uint32: indices of points, anticlockwise from outside")
       .def("__repr__", [](const Tessellation& self) {
         return "Tessellation(of " + std::to_string(self.points.size()) + " points and " + std::to_string(self.triangles.size()) +
                " triangles)";
@@ -172,8 +175,9 @@ void bind_tessellation(py::module_& m) {
 }
 
 constexpr const char* kShapeDoc =
-    R"(A convex body, given by its support function h(n) and the boundary point r(n) of each outward normal n. Shapes do not change
-once they are made, and any number of threads may use them.)";
+    R"(A convex body, defined by its support function h(n) and the boundary point r(n) for each outward normal n.
+
+Shapes are immutable. Any number of threads may use them.)";
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Objects that are what they are made of: they are compared, copied, pickled and printed by that.
+// Value objects: compared, copied, pickled and printed by their constructor arguments.
 #pragma once
 
 #include <pybind11/eigen.h>
@@ -12,33 +12,33 @@
 
 namespace supernormal::python {
 
-/// A vector, or a matrix by rows, as tuples, which compare by value.
+/// A vector, or a matrix by rows, as tuples. Tuples compare by value.
 inline pybind11::tuple plain(const Eigen::Vector3d& v) { return pybind11::make_tuple(v.x(), v.y(), v.z()); }
 inline pybind11::tuple plain(const Eigen::Matrix3d& M) {
   const auto row = [&](int i) { return plain(Eigen::Vector3d(M.row(i))); };
   return pybind11::make_tuple(row(0), row(1), row(2));
 }
 
-/// "Sphere(radius=1.0)", with the name of the object's own class.
+/// "Sphere(radius=1.0)", with the class name of the object.
 std::string call_text(const pybind11::handle& self, const std::vector<const char*>& names, const pybind11::tuple& arguments);
 
-/// What a program has added to an object of its own subclass; nothing for our classes.
+/// The attributes that a program added to an object of its own subclass. Empty for our classes.
 pybind11::dict attributes_of(const pybind11::handle& self);
 
-/// An object as arguments_of() functions take it: the shared pointer where its class has one, otherwise a reference.
+/// An object in the form for arguments_of() functions: the shared pointer if its class has one, otherwise a reference.
 template <typename Class>
 decltype(auto) unwrapped(const pybind11::handle& self) {
   using Type = typename Class::type;
   using Pointer = std::shared_ptr<Type>;
   if constexpr (std::is_same_v<typename Class::holder_type, Pointer>) {
-    self.cast<const Type&>();  // says what is wrong with an object that has no value
+    self.cast<const Type&>();  // raises the error for an object without a value
     return self.cast<Pointer>();
   } else {
     return self.cast<const Type&>();
   }
 }
 
-/// The function that makes a shared Made of a tuple of arguments of these types.
+/// The function that makes a shared Made from a tuple of arguments with these types.
 template <typename Made, typename... Types>
 auto constructor() {
   return [](const pybind11::tuple& of) {
@@ -47,8 +47,8 @@ auto constructor() {
   };
 }
 
-/// Binds copy.copy(), copy.deepcopy() and pickle. arguments_of(object) returns a tuple of what objects of Python the object is made
-/// of, and make(tuple) an object, or its shared pointer.
+/// Binds copy.copy(), copy.deepcopy() and pickle. arguments_of(object) returns a tuple of Python objects from which make(tuple)
+/// makes the object, or its shared pointer.
 template <typename Class, typename ArgumentsOf, typename Make>
 void bind_copies(Class& type, const ArgumentsOf& arguments_of, const Make& make) {
   namespace py = pybind11;
@@ -57,7 +57,7 @@ void bind_copies(Class& type, const ArgumentsOf& arguments_of, const Make& make)
       [make](const py::tuple& state) { return std::pair(make(state[0].cast<py::tuple>()), state[1].cast<py::dict>()); }));
 }
 
-/// Binds ==: objects of the same class are equal when their arguments are.
+/// Binds ==. Objects of the same class are equal if their arguments are.
 template <typename Class, typename ArgumentsOf>
 void bind_equality(Class& type, const ArgumentsOf& arguments_of) {
   namespace py = pybind11;
@@ -70,7 +70,7 @@ void bind_equality(Class& type, const ArgumentsOf& arguments_of) {
       py::arg("other"));
 }
 
-/// Binds all of these and hash(), for a class whose objects do not change.
+/// Binds copies, pickle, == and hash(), for an immutable class.
 template <typename Class, typename ArgumentsOf, typename Make>
 void bind_value(Class& type, const ArgumentsOf& arguments_of, const Make& make) {
   namespace py = pybind11;
@@ -81,7 +81,7 @@ void bind_value(Class& type, const ArgumentsOf& arguments_of, const Make& make) 
   });
 }
 
-/// The same, and repr() with the names of the arguments.
+/// The same, plus repr() with the names of the arguments.
 template <typename Class, typename ArgumentsOf, typename Make>
 void bind_value(Class& type, std::initializer_list<const char*> names, const ArgumentsOf& arguments_of, const Make& make) {
   bind_value(type, arguments_of, make);

@@ -1,4 +1,4 @@
-// The Python module supernormal._ode: the C interface for geoms that are named by their numbers, as PyODE's _id() gives them.
+// The Python module supernormal._ode: the C interface. Geoms are numbers, as returned by _id() of PyODE.
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -22,7 +22,7 @@ namespace py = pybind11;
 namespace supernormal::python {
 namespace {
 
-// PyODE has these as integers.
+// PyODE returns pointers as integers.
 using Number = std::uintptr_t;
 
 // NOLINTBEGIN(performance-no-int-to-ptr): the integers were pointers
@@ -33,7 +33,7 @@ Number number(dGeomID geom) { return reinterpret_cast<Number>(geom); }
 
 dReal real(double value) { return static_cast<dReal>(value); }
 
-/// Every refusal of the C interface becomes an exception with its message.
+/// Raises each error of the C interface as an exception with its message.
 template <typename Result>
 Result accepted(Result result) {
   if (result == Result{}) throw std::invalid_argument(snLastError());
@@ -118,7 +118,7 @@ auto support_point(Number g, const Vector3& direction) {
   return std::tuple(found[0], found[1], found[2]);
 }
 
-/// Whether nothing has been done with a new geom: all that a program can set is as dCreate… leaves it.
+/// Whether a new geom is unchanged: everything that a program can set is still as after dCreate….
 bool is_untouched(Number g) {
   const dReal* const p = dGeomGetPosition(geom(g));
   const dReal* const R = dGeomGetRotation(geom(g));
@@ -135,7 +135,7 @@ auto mass(Number g, double amount, bool is_total) {
   return std::tuple(m.mass, std::tuple(m.c[0], m.c[1], m.c[2]), std::tuple(m.I[0], m.I[5], m.I[10], m.I[1], m.I[2], m.I[6]));
 }
 
-/// The mesh of a geom, which is given back whatever happens.
+/// The mesh of a geom; releases it in its destructor.
 struct Mesh : snMesh {
   Mesh(Number g, double chord_error) : snMesh{} { accepted(snGeomTessellate(geom(g), real(chord_error), this)); }
   Mesh(const Mesh&) = delete;
@@ -215,8 +215,8 @@ void bind_library(py::module_& m) {
 }  // namespace supernormal::python
 
 PYBIND11_MODULE(_ode, m) {
-  m.doc() = "The C interface by the numbers of geoms and spaces. Import `supernormal.ode`, which has classes.";
-  py::module_::import("supernormal._core");  // where Shape is known
+  m.doc() = "The C interface, with geoms and spaces as numbers. Import `supernormal.ode` instead; it has classes.";
+  py::module_::import("supernormal._core");  // registers Shape
   supernormal::python::bind_geoms(m);
   supernormal::python::bind_library(m);
   supernormal::python::bind_slots(m);

@@ -34,7 +34,7 @@ dContact read_contact(const py::handle& contact, py::ssize_t offset) {
   return held;
 }
 
-/// The offset of the one word of `object`, behind the header of all objects, that is `word`.
+/// The offset of `word` in `object`, after the object header. Throws unless it occurs exactly once.
 py::ssize_t find_word(const py::handle& object, Word word, const char* what) {
   py::ssize_t found = 0;
   const py::ssize_t size = Py_TYPE(object.ptr())->tp_basicsize;
@@ -48,7 +48,7 @@ py::ssize_t find_word(const py::handle& object, Word word, const char* what) {
   return found;
 }
 
-/// `geom`: one of PyODE's own, in `space`, with the number `number`. Returns the offsets of the geom's number and of the space.
+/// `geom` is a PyODE geom in `space` with the number `number`. Returns the offsets of its number and of its space.
 std::pair<py::ssize_t, py::ssize_t> find_slots(const py::handle& geom, Word number, const py::handle& space) {
   return {find_word(geom, number, "its dGeomID"), find_word(geom, reinterpret_cast<Word>(space.ptr()), "its space")};
 }
@@ -61,8 +61,7 @@ void adopt(const py::handle& geom, std::pair<py::ssize_t, py::ssize_t> slots, Wo
   py::handle(reinterpret_cast<PyObject*>(before)).dec_ref();  // NOLINT(performance-no-int-to-ptr): a pointer was read as a word
 }
 
-/// `contact`: one whose parameters all differ from one another, those of `surface` and `geom`. Returns the offset of its dContact,
-/// which is the last that it holds.
+/// `contact` has parameters that all differ, in `surface` and `geom`. Returns the offset of its dContact, which is its last member.
 py::ssize_t find_contact(const py::handle& contact, double mu, double motion2, double depth, std::array<double, 3> fdir1) {
   const auto offset = Py_TYPE(contact.ptr())->tp_basicsize - static_cast<py::ssize_t>(sizeof(dContact));
   const auto is = [](dReal held, double wanted) { return held == static_cast<dReal>(wanted); };

@@ -1,12 +1,12 @@
 """Smooth convex bodies: shapes, signed distance, witness points, contacts and rays, with NumPy arrays in and out.
 
-Lengths are in metres, or in whatever unit a program uses throughout. Normals point from body 1 to body 2; a gap is positive when
-bodies are apart and negative when they overlap. Bad input raises ValueError with the parameter, its value and the valid range.
-`supernormal.ode` has the same bodies as geoms of PyODE.
+Lengths are in metres, or in any other unit that the program uses throughout. Normals point from body 1 to body 2. A gap is
+positive when the bodies are apart and negative when they overlap. Invalid input raises ValueError with the parameter, its value
+and the valid range. `supernormal.ode` has the same bodies as geoms of PyODE.
 """
 
 try:
-    import numpy as _numpy  # noqa: F401  # without it the next import fails and does not say why
+    import numpy as _numpy  # noqa: F401  # without NumPy the next import fails without a clear message
 except ImportError as _missing:
     raise ImportError("supernormal takes NumPy (Debian: python3-numpy)", name="numpy") from _missing
 

@@ -1,4 +1,4 @@
-"""Bodies of Supernormal in the worlds of PyODE (Debian: python3-pyode).
+"""Supernormal bodies in PyODE worlds (Debian: python3-pyode).
 
     import ode
     import supernormal.ode
@@ -8,11 +8,10 @@
     body = ode.Body(world)
     pebble.setBodyAndMass(body, 2650)
 
-The geoms derive from ode.GeomObject: setBody, getPosition, setCategoryBits ..., Space.collide, ode.collide and ContactJoint treat them
-as PyODE's own. Names follow PyODE; lengths are in metres or in whatever unit the world uses. What the C interface refuses raises
-ValueError with its message: the parameter, its value and the valid range. As with ODE's own geoms, they are not made, set or
-destroyed within near callbacks. ode.collide() does not raise: a geom whose pose is not finite, or whose functions raise, makes no
-contacts, and lastError() says why.
+The geoms derive from ode.GeomObject: setBody, getPosition, setCategoryBits ..., Space.collide, ode.collide and ContactJoint work as
+for the geoms of PyODE. Names follow PyODE. Lengths are in metres, or in the unit of the world. Invalid input raises ValueError with
+the parameter, its value and the valid range. As with all geoms of ODE, do not create, change or destroy them in near callbacks.
+ode.collide() does not raise. A geom whose pose is not finite, or whose functions raise, makes no contacts; see lastError().
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ try:
 except ImportError as _missing:
     raise ImportError("supernormal.ode takes PyODE (Debian: python3-pyode)", name="ode") from _missing
 
-from . import _ode  # finds ODE's library, which PyODE has loaded
+from . import _ode  # needs the ODE library that PyODE has loaded
 
 __all__ = [
     "Convex",
@@ -62,12 +61,12 @@ def _find_slots() -> Tuple[int, int]:
 _SLOTS = _find_slots()
 
 
-# ode.Body.setMass() ends the program when the centre of mass is farther than this from the origin, m: ODE's dEpsilon.
+# ode.Body.setMass() aborts the program if the centre of mass is farther than this from the origin, m: dEpsilon of ODE.
 _CENTRED = sys.float_info.epsilon
 
 
 class _Made(type(_pyode.GeomObject)):  # type: ignore[misc]  # PyODE has no stubs
-    """Refuses a geom whose __init__ has not called that of its class: PyODE ends the program when it is used."""
+    """Refuses a geom whose __init__ did not call super().__init__(). PyODE would abort the program when it is used."""
 
     def __call__(cls, *arguments: Any, **keywords: Any) -> Any:
         geom = super().__call__(*arguments, **keywords)
@@ -77,16 +76,16 @@ class _Made(type(_pyode.GeomObject)):  # type: ignore[misc]  # PyODE has no stub
 
 
 class _Geom(_pyode.GeomObject, metaclass=_Made):  # type: ignore[misc]  # PyODE has no stubs
-    """What the geoms of this module have beside the methods of ode.GeomObject."""
+    """The methods of all geoms of this module in addition to ode.GeomObject."""
 
     def __new__(cls, *arguments: Any, **keywords: Any) -> Any:
-        # Until __init__ makes the geom, another one stands for it: PyODE ends the program when a geom is none.
+        # A placeholder until __init__ makes the geom: PyODE aborts the program on a null geom.
         geom = super().__new__(cls)
         _ode.adopt(geom, _SLOTS, _ode.create_ellipsoid(0, (1.0, 1.0, 1.0)), None)
         return geom
 
     def _adopt(self, number: int, space: Any) -> None:
-        """Takes the new geom `number`, which is in `space`, for the one that stands for it."""
+        """Replaces the placeholder by the new geom `number`, which is in `space`."""
         if self._is_made() or not _ode.is_untouched(self._id()):
             _ode.destroy(number)
             when = "again" if self._is_made() else "after other methods of the geom; call it first"
@@ -105,28 +104,28 @@ class _Geom(_pyode.GeomObject, metaclass=_Made):  # type: ignore[misc]  # PyODE 
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in parameters.items())})"
 
     def placeable(self) -> bool:
-        """True: the geom has a position and may have a body."""
+        """True: the geom has a pose and may have a body."""
         return True
 
     def setRounding(self, radius: float) -> None:
-        """Sweeps the body by a sphere of `radius`, m, in [0, 1e30]; replaces an earlier rounding, 0 takes it away."""
+        """Sweeps the body with a sphere of `radius`, m, in [0, 1e30]. Replaces an earlier rounding; 0 removes it."""
         _ode.set_rounding(self._id(), radius)
 
     def setSolver(self, solver: Solver = Solver.HYBRID, tolerance: float = 1e-9, maxEvaluations: int = 1000) -> None:
-        """Sets how queries with this geom are solved: a Solver, a tolerance in [1e-15, 1] and a limit in [1, 1000000]."""
+        """Sets the Solver, the tolerance, in [1e-15, 1], and the limit, in [1, 1000000], of queries with this geom."""
         _ode.set_solver(self._id(), solver, tolerance, maxEvaluations)
 
     def setLookAhead(self, time: float) -> None:
-        """Lets ode.collide() also return contacts of pairs that may meet within `time`, s, in [0, 1e6]; 0 (default): of overlaps only.
+        """Lets ode.collide() also return contacts of pairs that may meet within `time`, s, in [0, 1e6]; 0 (default): overlaps only.
 
-        Take the step of the simulation. A contact ahead has depth = -gap < 0: hand it to contactLookAhead(). The body then does not
-        tunnel through what it would hit within a step. After setLinearVel() on a body that has not moved since the last
-        Space.collide(), call this again: the bounding box covers the way.
+        Use the time step of the simulation. A contact ahead has depth = -gap < 0: pass it to contactLookAhead(). The body then does
+        not tunnel within a step. The bounding box covers the displacement within `time`. So call this again after setLinearVel() on
+        a body that has not moved since the last Space.collide().
         """
         _ode.set_look_ahead(self._id(), time)
 
     def pointDepth(self, p: Sequence[float]) -> float:
-        """The distance of a point (world frame, m) from the boundary, m: positive inside, negative outside."""
+        """The depth of a point (world frame, m) below the boundary, m: positive inside, negative outside."""
         return _ode.point_depth(self._id(), p)
 
     def support(self, direction: Sequence[float]) -> Vector:
@@ -136,24 +135,25 @@ class _Geom(_pyode.GeomObject, metaclass=_Made):  # type: ignore[misc]  # PyODE 
     def getMass(self, density: float, offCentre: bool = False) -> Any:
         """The ode.Mass of the homogeneous body, in the geom's frame; density in kg/m^3, in (0, inf).
 
-        Raises ValueError when the centre of mass is not the geom's origin, as a Superovoid's is not: ode.Body.setMass() ends the
-        program with such a mass. setBodyAndMass() takes it all the same. offCentre=True returns it, for translate() and add().
+        Raises ValueError when the centre of mass is not the origin of the geom, as in a Superovoid: ode.Body.setMass() would abort
+        the program. Use setBodyAndMass() for such a body. offCentre=True returns the mass anyway, for translate() and add().
         """
         return _to_mass(_ode.mass(self._id(), density, False), offCentre)
 
     def getMassTotal(self, mass: float, offCentre: bool = False) -> Any:
-        """The ode.Mass of the homogeneous body with this mass, in kg, in (0, inf); otherwise as getMass()."""
+        """The ode.Mass of the homogeneous body with this mass, in kg, in (0, inf). See getMass()."""
         return _to_mass(_ode.mass(self._id(), mass, True), offCentre)
 
     def setBodyAndMass(self, body: Any, density: float) -> None:
-        """Attaches the geom with its centre of mass in the body's origin, and gives the body the geom's mass.
+        """Attaches the geom with its centre of mass at the body's origin, and sets the mass of the body.
 
-        ODE has a body's centre of mass in its origin, so that the geom of a Superovoid gets an offset. density: kg/m^3, in (0, inf).
+        ODE requires the centre of mass at the body's origin, so the geom of a Superovoid gets an offset.
+        density: kg/m^3, in (0, inf).
         """
         self._set_body(body, self.getMass(density, offCentre=True))
 
     def setBodyAndMassTotal(self, body: Any, mass: float) -> None:
-        """setBodyAndMass() with the mass of the body, in kg, in (0, inf)."""
+        """setBodyAndMass() with the mass of the body instead of its density, in kg, in (0, inf)."""
         self._set_body(body, self.getMassTotal(mass, offCentre=True))
 
     def _set_body(self, body: Any, mass: Any) -> None:
@@ -169,7 +169,7 @@ class _Geom(_pyode.GeomObject, metaclass=_Made):  # type: ignore[misc]  # PyODE 
     def tessellate(self, chordError: float) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.uint32]]:
         """A closed mesh to draw: points (N, 3), m, normals (N, 3), triangles (M, 3), in the geom's frame.
 
-        Its edges are no farther than chordError (m) from the boundary: at least a millionth of the largest half-extent.
+        Its edges are within chordError of the boundary. chordError: m, at least 1e-6 of the largest half-extent.
         """
         return _ode.tessellate(self._id(), chordError)
 
@@ -204,7 +204,7 @@ class Ellipsoid(_Geom):
         return _ode.get_superellipsoid(self._id())[0]
 
     def setHalfAxes(self, halfAxes: Sequence[float]) -> None:
-        """Sets the half-axes, m, in [1e-30, 1e30]; a rounding stays."""
+        """Sets the half-axes, m, in [1e-30, 1e30]. Keeps the rounding."""
         _ode.set_superellipsoid(self._id(), halfAxes, 2.0, 2.0)
 
 
@@ -227,14 +227,14 @@ class Superellipsoid(_Geom):
         return _ode.get_superellipsoid(self._id())
 
     def setParams(self, halfAxes: Sequence[float], delta: float, epsilon: float) -> None:
-        """Sets half-axes and exponents; a rounding stays. What is refused leaves the geom as it was."""
+        """Sets half-axes and exponents. Keeps the rounding. If it raises, the geom is unchanged."""
         _ode.set_superellipsoid(self._id(), halfAxes, delta, epsilon)
 
 
 class Superovoid(_Geom):
     """A superellipsoid whose section grows or shrinks linearly along z; see supernormal.Superovoid.
 
-    Its centre of mass is not its origin, where ODE wants that of a body: setBodyAndMass() gives the geom the offset.
+    Its centre of mass is not its origin, but ODE requires it at the body's origin. setBodyAndMass() sets the offset.
     """
 
     def __init__(
@@ -256,7 +256,7 @@ class Superovoid(_Geom):
         return _ode.get_superovoid(self._id())
 
     def setParams(self, halfAxes: Sequence[float], delta: float, epsilon: float, taperX: float, taperY: float) -> None:
-        """Sets half-axes, exponents and tapers; a rounding stays. What is refused leaves the geom as it was."""
+        """Sets half-axes, exponents and tapers. Keeps the rounding. If it raises, the geom is unchanged."""
         _ode.set_superovoid(self._id(), halfAxes, delta, epsilon, taperX, taperY)
 
 
@@ -274,7 +274,7 @@ class Convex(_Geom):
 
 
 class GeomProximity(NamedTuple):
-    """What proximity() finds, in the world's frame; m. The normal is a unit vector from the first geom to the second."""
+    """The result of proximity(), in the world frame; m. The unit normal points from the first geom to the second."""
 
     gap: float
     error: float
@@ -287,30 +287,31 @@ class GeomProximity(NamedTuple):
 
 
 def proximity(geom1: Any, geom2: Any, certified: bool = False) -> GeomProximity:
-    """The signed distance of two geoms, apart or overlapping; at least one of this module, the other one of PyODE's, but no space.
+    """The signed distance of two geoms, apart or overlapping. One is of this module; the other may be of PyODE, but no space.
 
-    certified: search on until the depth of overlapping geoms is proved the smallest (isGlobal), or the evaluations run out.
+    certified: search until the depth of overlapping geoms is proved minimal (isGlobal), or the evaluations run out.
     """
     return GeomProximity(*_ode.proximity(geom1._id(), geom2._id(), certified))
 
 
 def setDefaultSolver(solver: Solver = Solver.HYBRID, tolerance: float = 1e-9, maxEvaluations: int = 1000) -> None:
-    """Sets what geoms that are made from now on start with; see setSolver() of a geom."""
+    """Sets the solver settings of new geoms; see setSolver() of a geom."""
     _ode.set_default_solver(solver, tolerance, maxEvaluations)
 
 
 def setDefaultLookAhead(time: float) -> None:
-    """Sets the time, s, in [0, 1e6], by which geoms that are made from now on look ahead; see setLookAhead() of a geom."""
+    """Sets the look-ahead time of new geoms, s, in [0, 1e6]; see setLookAhead() of a geom."""
     _ode.set_default_look_ahead(time)
 
 
 def contactLookAhead(contact: Any, step: float) -> None:
-    """Turns an ode.Contact with a negative depth into the constraint that the gap may close within `step`, s, and no more.
+    """Turns an ode.Contact with a negative depth into a constraint: the gap may close within `step`, but not become negative.
 
-    step: that of the next World.step() or quickStep(), above 0. Call it when the contact's parameters are set, before the
-    ContactJoint is made. Other contacts are left as they are. Set ode.ContactApprox1: without it mu is a force, which acts before the
-    bodies touch. Raises ValueError for a negative depth with ode.ContactBounce, which every ode.Contact starts with: ODE would throw
-    the body back before it touches.
+    step: s, > 0, the same as in the next World.step() or quickStep().
+
+    Call it after the contact's parameters are set and before the ContactJoint is made. It leaves other contacts unchanged. Set
+    ode.ContactApprox1: without it mu is a force, which acts before the bodies touch. Raises ValueError for a negative depth with
+    ode.ContactBounce, the default mode of ode.Contact: ODE would repel the body before it touches.
     """
     if not isinstance(contact, _pyode.Contact):
         raise TypeError(f"contact is a {type(contact).__name__}, but must be an ode.Contact")
@@ -330,12 +331,12 @@ def _contact_slot() -> int:
 
 
 def setWarmStart(on: bool) -> None:
-    """Whether each pair starts from its last normal (the default), or its contacts are a pure function of the poses."""
+    """Whether each pair starts from its last normal (default). If off, contacts are a pure function of the poses."""
     _ode.set_warm_start(on)
 
 
 class Statistics(NamedTuple):
-    """What the colliders and proximity() did in this thread since resetStatistics()."""
+    """Counters of the colliders and proximity() in this thread since resetStatistics()."""
 
     queriesCold: int
     queriesWarm: int
@@ -351,15 +352,15 @@ class Statistics(NamedTuple):
 
 
 def getStatistics() -> Statistics:
-    """What the colliders and proximity() did in this thread since resetStatistics()."""
+    """Counters of the colliders and proximity() in this thread since resetStatistics()."""
     return Statistics(*_ode.statistics())
 
 
 def resetStatistics() -> None:
-    """Sets all counts of this thread to 0."""
+    """Sets all counters of this thread to 0."""
     _ode.reset_statistics()
 
 
 def lastError() -> str:
-    """Why the last refused call of this thread was refused, a collider's too; "" if none was."""
+    """The error message of the last refused call in this thread, colliders included; "" if there was none."""
     return _ode.last_error()

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDone = "# done: ";
 
-/// The file of a part, which holds the lines of finished tasks only.
+/// The file of a part. It contains only the lines of finished tasks.
 class Table {
  public:
   Table(const Part& part, const std::string& folder) : path_(fs::path(folder) / (part.name + ".csv")) {

@@ -1,4 +1,4 @@
-// The measurements of the whole atlas as tasks that can be interrupted and resumed.
+// The measurements of the atlas, as tasks that can be interrupted and resumed.
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace accuracy_cost {
 
-/// A task: some lines of a table, measured together.
+/// A task: some lines of a table that are measured together.
 struct Task {
-  std::string name;                               ///< unique in its part
+  std::string name;                               ///< unique within the part
   std::function<std::vector<std::string>()> run;  ///< lines of CSV
 };
 
@@ -20,12 +20,11 @@ struct Part {
   std::vector<Task> tasks;
 };
 
-/// Joins cells to a line of CSV.
+/// Joins cells to a CSV line.
 std::string joined(const std::vector<std::string>& cells);
 
-/// Does those tasks whose lines `folder` does not have yet, with a progress bar on stderr. A file begins with the machine and the
-/// libraries that it was measured with; each task's lines are on the disk before the next task starts. Throws when they cannot be
-/// written.
+/// Runs the tasks whose lines are missing in `folder`, with a progress bar on stderr. A file begins with the machine and the
+/// versions of the libraries. The lines of each task are on disk before the next task starts. Throws if a file cannot be written.
 void run_parts(const std::vector<Part>& parts, const std::string& folder);
 
 }  // namespace accuracy_cost

@@ -38,7 +38,7 @@ BoundingBox around(const Body& body, const Vector3& reach) { return {body.pose.p
 
 BoundingBox by_support(const Body& body) { return find_bounding_box(*body.shape, body.pose); }
 
-/// NaN where Newton's method does not converge. The bodies are symmetric: three searches are six.
+/// NaN if Newton's method does not converge. The bodies are symmetric, so three searches replace six.
 BoundingBox by_newton(const Body& body) {
   Vector3 reach;
   for (int axis = 0; axis < 3; ++axis) {
@@ -61,7 +61,7 @@ constexpr std::array<Way, 4> kWays = {{{"support function", by_support},
                                        {"box around the turned box", by_turned_box},
                                        {"box around the bounding sphere", by_sphere}}};
 
-/// Bodies on a lattice, each at a random place of its cell, so that they fill the volume fraction of the cube.
+/// Bodies on a lattice, each at a random place in its cell. They fill the volume fraction of the cube.
 std::vector<Body> draw_bodies(BodyClass body_class, std::size_t count, std::uint64_t seed) {
   const std::vector<Pair> pairs = draw_pairs_of(body_class, Situation::Far, (count + 1) / 2, seed);
   std::vector<Body> bodies;
@@ -79,7 +79,7 @@ std::vector<Body> draw_bodies(BodyClass body_class, std::size_t count, std::uint
     const std::size_t layer = i / (cells * cells), row = i / cells % cells;
     const Vector3 corner(static_cast<double>(i % cells), static_cast<double>(row), static_cast<double>(layer));
     const double x = random.uniform(), y = random.uniform(), z = random.uniform();
-    bodies[i].pose = {cell * (corner + Vector3(x, y, z)), random_attitude(random)};
+    bodies[i].pose = {cell * (corner + Vector3(x, y, z)), random_orientation(random)};
   }
   return bodies;
 }
@@ -90,7 +90,7 @@ bool overlap(const BoundingBox& a, const BoundingBox& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-/// Of several rounds the shortest time, s.
+/// The shortest time of several rounds, s.
 double shortest(int rounds, const auto& work) {
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
@@ -127,7 +127,7 @@ std::string line(BodyClass body_class, const Way& way, const std::vector<Body>& 
   std::size_t failures = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double ratio = volume_of(boxes[i]) / volume_of(by_support(bodies[i]));
-    if (!(ratio > 1 - 1e-6)) {  // not found, or too small
+    if (!(ratio > 1 - 1e-6)) {  // not converged, or too small
       ++failures;
     } else {
       looseness.push_back(ratio);

@@ -1,4 +1,4 @@
-// Bounding boxes: what a tight one costs, and what a loose one costs in pairs.
+// The cost of bounding boxes: the time for a tight box, and the extra pairs of a loose box.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,8 @@
 
 namespace accuracy_cost {
 
-/// Measures, for each class of bodies, the ways to a box along the axes of the world on `bodies` bodies in random orientations: the
-/// time, the volume over that of the smallest box, and the pairs that overlapping boxes leave to the narrow phase when the bodies
-/// fill 60 % of a cube.
+/// Measures the methods for axis-aligned boxes for each class, on `bodies` bodies in random orientations. Results: the time, the
+/// volume relative to the smallest box, and the number of pairs with overlapping boxes when the bodies fill 60 % of a cube.
 Part box_costs(std::size_t bodies, std::uint64_t seed, const Effort& effort);
 
 }  // namespace accuracy_cost

@@ -1,4 +1,4 @@
-# The figures of a folder that `accuracy_cost --atlas --out folder` has filled:
+# The figures for a folder written by `accuracy_cost --atlas --out folder`:
 #   gnuplot -c samples/benchmarks/accuracy_cost/figures.gp folder
 if (ARGC != 1) { print "usage: gnuplot -c figures.gp folder"; exit status 2 }
 folder = ARG1
@@ -9,7 +9,7 @@ set grid
 smallest = 1e-16  # where an error is 0
 shown(error) = error > smallest ? error : smallest
 
-# --- queries: error against time, a figure for each class of bodies ---
+# --- queries: error over time, one figure for each class of bodies ---
 
 csv = folder."/query.csv"
 class = 1; pose = 2; method = 3; time = 6; gap_error = 9  # columns
@@ -61,7 +61,7 @@ do for [k = 1:words(colliders)] {
 }
 unset multiplot
 
-# --- the scene: what a form costs and how true it is ---
+# --- scene: cost and accuracy of each form ---
 
 set terminal svg size 960,420 font "sans-serif,13" background "white"
 csv = folder."/scene_outcomes.csv"

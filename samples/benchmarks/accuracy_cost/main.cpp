@@ -1,5 +1,4 @@
-// Measures the cost of a query: our solvers and libccd on the same pairs of bodies, with the same support function, in the same
-// run.
+// Measures the cost of a query: our solvers and libccd on the same pairs of bodies, with the same support function, in one run.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -22,10 +21,10 @@ namespace {
 
 using namespace accuracy_cost;
 
-constexpr std::size_t kAtlasPairs = 240;     // for each class and situation: 6000 in all
-constexpr std::size_t kAtlasMeshPairs = 12;  // each is four meshes at every size
-constexpr std::size_t kAtlasBodies = 1000;   // of each class, for bounding boxes
-constexpr std::size_t kAtlasPoses = 100;     // for each collider
+constexpr std::size_t kAtlasPairs = 240;     // per class and situation: 6000 in all
+constexpr std::size_t kAtlasMeshPairs = 12;  // each needs four meshes of every size
+constexpr std::size_t kAtlasBodies = 1000;   // per class, for bounding boxes
+constexpr std::size_t kAtlasPoses = 100;     // per collider
 
 struct Options {
   std::size_t pairs = 6000;

@@ -11,7 +11,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// The time of two readings of the clock, which is subtracted.
+/// The time between two consecutive readings of the clock, which is subtracted.
 double clock_cost() {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10000; ++i) {
@@ -21,7 +21,7 @@ double clock_cost() {
   return least;
 }
 
-/// A sink for results that nobody reads, so that the compiler does not drop the queries.
+/// A sink for results, so that the compiler keeps the queries.
 volatile double sink;
 
 double time_queries(const Method& method, const Pair& pair, int repeats) {
@@ -46,7 +46,7 @@ std::vector<std::vector<Sample>> measure(const Methods& methods, const std::vect
   for (int round = 0; round < effort.rounds; ++round) {
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       for (std::size_t turn = 0; turn < methods.size(); ++turn) {
-        const std::size_t m = (turn + static_cast<std::size_t>(round)) % methods.size();  // each follows another one
+        const std::size_t m = (turn + static_cast<std::size_t>(round)) % methods.size();  // every method has varying predecessors
         const double time = (time_queries(*methods[m], pairs[p], repeats[m][p]) - overhead) / repeats[m][p];
         samples[m][p].time = std::min(samples[m][p].time, time);
       }

@@ -1,4 +1,4 @@
-// Runs every method on every pair and takes the time.
+// Runs every method on every pair and measures the time.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 namespace accuracy_cost {
 
 struct Effort {
-  int rounds = 7;        ///< passes over all pairs; the shortest time of each pair and method counts
-  double batch = 10e-6;  ///< s; a query is repeated for about this long per timing. 0: once, with what other queries left in
-                         ///< caches and branch predictors
+  int rounds = 7;  ///< passes over all pairs; the shortest time of each pair and method is used
+  double batch =
+      10e-6;  ///< s; duration of the repetitions per timing. 0: a single query, with caches and predictors as left by other queries
 };
 
 struct Sample {
@@ -18,10 +18,10 @@ struct Sample {
   double time = 0;  ///< s per query
 };
 
-/// Returns samples[method][pair]. All methods take turns on each pair, so that whatever slows the machine down slows all of them.
+/// Returns samples[method][pair]. The methods take turns on each pair, so that a disturbance of the machine affects all of them.
 std::vector<std::vector<Sample>> measure(const Methods& methods, const std::vector<Pair>& pairs, const Effort& effort);
 
-/// Raises the references of those pairs for which a method found a higher maximum.
+/// Raises the reference of each pair for which a method found a higher maximum.
 void improve_references(const std::vector<std::vector<Sample>>& samples, std::vector<Pair>& pairs);
 
 }  // namespace accuracy_cost

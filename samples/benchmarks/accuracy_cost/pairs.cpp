@@ -62,7 +62,7 @@ double wanted_gap(Random& random, Situation situation, double size) {
   return uniform(random, 1, 5);
 }
 
-/// The i-th of kReferenceStarts directions spread evenly over the sphere, on a golden-angle spiral.
+/// The i-th of kReferenceStarts directions, uniformly spread on a golden-angle spiral.
 Vector3 spiral_direction(int i) {
   const double z = 1 - (2 * i + 1.0) / kReferenceStarts;
   const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * i;
@@ -73,8 +73,8 @@ Vector3 spiral_direction(int i) {
 Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
   Pair pair{body_class, situation, random_body(random, body_class), random_body(random, body_class), {}, {}, 0, 0, {}, {}, {}, {}};
   pair.size = std::min(pair.shape1->half_extents().minCoeff(), pair.shape2->half_extents().minCoeff());
-  pair.pose1.rotation = random_attitude(random);
-  pair.pose2.rotation = random_attitude(random);
+  pair.pose1.rotation = random_orientation(random);
+  pair.pose2.rotation = random_orientation(random);
   const Vector3 n = random_normal(random);
   const Vector3 reach1 = pair.pose1.rotation * pair.shape1->point(pair.pose1.rotation.transpose() * n);
   const Vector3 reach2 = pair.pose2.rotation * pair.shape2->point(-(pair.pose2.rotation.transpose() * n));
@@ -87,7 +87,7 @@ Pair draw_pair(Random& random, BodyClass body_class, Situation situation) {
   pair.normal = answer.normal;
   pair.contact = answer.contact;
   improve_reference(pair, n);
-  if (pair.gap < 0) {  // then there may be several maxima
+  if (pair.gap < 0) {  // there may be several maxima
     for (int i = 0; i < kReferenceStarts; ++i) improve_reference(pair, spiral_direction(i));
   }
 

@@ -1,4 +1,4 @@
-// The pairs of bodies that every method solves.
+// The pairs of bodies for all methods.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace accuracy_cost {
 
-/// Classes of bodies, by their exponents: 2; 1.3...5; 6...20; 1.1...1.3; 2...5, uniform. Half-axes are 0.5...1.5 m each; two of
-/// those of a needle are a tenth of that.
+/// Classes of bodies by their exponents, uniform in: 2; 1.3...5; 6...20; 1.1...1.3; 2...5. Half-axes are 0.5...1.5 m. In a needle,
+/// two of them are a tenth of this.
 enum class BodyClass { Ellipsoid, Moderate, Boxy, Octahedral, Needle };
 inline constexpr std::array kBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy};
 inline constexpr std::array kAllBodyClasses = {BodyClass::Ellipsoid, BodyClass::Moderate, BodyClass::Boxy, BodyClass::Octahedral,
                                                BodyClass::Needle};
 
-/// Relative poses; shares are of the smallest half-axis of the two bodies.
+/// Relative poses. Percentages are relative to the smallest half-axis of the two bodies.
 enum class Situation { Shallow, Deep, Near, Far, Touching };  // 1 % overlap, 30 % overlap, 1 % apart, 1…5 m apart, 0
 inline constexpr std::array kSituations = {Situation::Shallow, Situation::Deep, Situation::Near, Situation::Far};
 inline constexpr std::array kAllSituations = {Situation::Touching, Situation::Shallow, Situation::Deep, Situation::Near,
@@ -35,26 +35,26 @@ struct Pair {
   Situation situation;
   std::shared_ptr<const supernormal::Shape> shape1, shape2;
   supernormal::Pose pose1, pose2;
-  double size = 0;                   ///< m; smallest half-axis
-  double gap = 0;                    ///< m; the reference: the highest maximum of the gap function that is known
-  supernormal::Vector3 normal;       ///< its normal, world frame
-  supernormal::Vector3 contact;      ///< m; its contact point
-  supernormal::Vector3 warm_normal;  ///< body 1's frame; the answer for a pose 1e-3 (m and rad) away
-  std::array<supernormal::Vector3, kNormalsPerPair> normals;  ///< body 1's frame; within 0.1 rad of the answer, to time evaluations
+  double size = 0;                                            ///< m; smallest half-axis
+  double gap = 0;                                             ///< m; reference: the highest known maximum of the gap function
+  supernormal::Vector3 normal;                                ///< of this maximum, world frame
+  supernormal::Vector3 contact;                               ///< m; of this maximum
+  supernormal::Vector3 warm_normal;                           ///< body 1's frame; the result for a pose 1e-3 (m and rad) away
+  std::array<supernormal::Vector3, kNormalsPerPair> normals;  ///< body 1's frame; within 0.1 rad of the result, to time evaluations
 };
 
-/// A body of one class.
+/// A random body of one class.
 std::shared_ptr<const supernormal::Shape> random_body(falling_particles::Random& random, BodyClass body_class);
 
-/// Draws about `count` pairs, equally many of each class and situation, mixed. Same seed, same pairs, on every machine. The
-/// bodies touch along a random normal and are then moved along it, so that they lie the given distance apart unless that normal
-/// is not the best one.
+/// Draws about `count` pairs, equally many of each class and situation, mixed. The same seed gives the same pairs on every machine.
+/// The bodies touch along a random normal and are then moved along it by the given distance. This is their gap unless another
+/// normal is better.
 std::vector<Pair> draw_pairs(std::size_t count, std::uint64_t seed);
 
 /// Draws `count` pairs of one class and situation.
 std::vector<Pair> draw_pairs_of(BodyClass body_class, Situation situation, std::size_t count, std::uint64_t seed);
 
-/// Climbs from a world-frame normal at tolerance 1e-14 and raises pair.gap, with its normal, if the ascent leads higher.
+/// Ascends from a world-frame normal with tolerance 1e-14. If the maximum is higher, it becomes the reference of the pair.
 void improve_reference(Pair& pair, const supernormal::Vector3& world_normal);
 
 }  // namespace accuracy_cost

@@ -15,8 +15,8 @@ namespace {
 
 using supernormal::Solver;
 
-// Exponents of ten of the tightest tolerances: ours is relative, libccd's is in metres for bodies of about a metre. With a
-// tighter one EPA goes round in circles, and it has no limit of iterations.
+// Decimal exponents of the tightest tolerances. Ours is relative; the tolerance of libccd is in metres, for bodies of about one
+// metre. With a tighter one EPA cycles for ever, since it has no iteration limit.
 constexpr int kOurTightest = 14;
 constexpr int kEpaTightest = 7;
 constexpr int kMprTightest = 10;
@@ -45,7 +45,7 @@ Methods all_methods(BodyClass body_class) {
   add_sweep(methods, kEpaTightest, [](double tolerance) { return ccd_epa("libccd GJK+EPA", tolerance); });
   add_sweep(methods, kMprTightest, [](double tolerance) { return ccd_mpr("libccd MPR", tolerance); });
   add(methods, bullet_methods());
-  if (body_class == BodyClass::Ellipsoid) {  // the only bodies of ours that the libraries have
+  if (body_class == BodyClass::Ellipsoid) {  // the only common bodies of the libraries
     add(methods, fcl_methods());
     add(methods, simbody_methods());
   }
@@ -55,7 +55,7 @@ Methods all_methods(BodyClass body_class) {
   return methods;
 }
 
-/// All methods of the literature, with ours at the same tolerances.
+/// All literature methods, and ours at the same tolerances.
 Methods compared_with_literature(BodyClass body_class) {
   if (snInit() == 0) throw std::runtime_error(snLastError());
   Methods methods;

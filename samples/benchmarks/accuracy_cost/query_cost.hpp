@@ -1,4 +1,4 @@
-// The cost of each digit: every method swept over its own accuracy.
+// The cost of each digit: every method over the range of its accuracy parameter.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace accuracy_cost {
 
-/// Measures all solvers at all their tolerances, in a task for each class of bodies and situation, each with `pairs` pairs.
+/// Measures all solvers at all their tolerances, with a task for each class of bodies and situation, each with `pairs` pairs.
 Part query_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
-/// Measures the methods of the literature beside our solvers, likewise.
+/// The same for the literature methods and our solvers.
 Part literature_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
-/// Measures ODE's dConvex and dTriMesh over their number of vertices beside our solver, likewise.
+/// The same for dConvex and dTriMesh, over their number of vertices, and our solver.
 Part mesh_costs(std::size_t pairs, std::uint64_t seed, const Effort& effort);
 
 }  // namespace accuracy_cost

@@ -19,7 +19,7 @@ Vector3 random_normal(Random& random) {
   return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
-Matrix3 random_attitude(Random& random) {
+Matrix3 random_orientation(Random& random) {
   const auto [w, x, y, z] = random.rotation();
   return Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
 }

@@ -1,4 +1,4 @@
-// Random normals and attitudes.
+// Random normals and orientations.
 #pragma once
 
 #include "base/random.hpp"
@@ -8,10 +8,10 @@ namespace accuracy_cost {
 
 double uniform(falling_particles::Random& random, double low, double high);
 
-/// A unit vector, uniform over the sphere.
+/// A unit vector, uniform on the sphere.
 supernormal::Vector3 random_normal(falling_particles::Random& random);
 
-/// A rotation, uniform.
-supernormal::Matrix3 random_attitude(falling_particles::Random& random);
+/// A uniform rotation.
+supernormal::Matrix3 random_orientation(falling_particles::Random& random);
 
 }  // namespace accuracy_cost

@@ -1,5 +1,5 @@
-// Measures the cost of each effect, switched on one at a time on the same bed of grains. Prints a Markdown table, and writes a
-// CSV file for figures.gp.
+// Measures the cost of each effect, switched on one at a time on the same bed of grains. Prints a Markdown table and writes a CSV
+// file for figures.gp.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,14 +19,14 @@ using effects_cost::Outcome;
 struct Variant {
   std::string name;
   std::vector<fx::Effect> added;
-  int base = 0;  ///< index of the variant that it is compared with
+  int base = 0;  ///< index of the variant to compare with
   Outcome best{};
 };
 
 constexpr int kRigid = 0;
 constexpr int kRough = 1;
 
-/// The first two are those that the others are compared with.
+/// The first two are the bases of the comparisons.
 std::vector<Variant> variants() {
   const fx::Friction friction{0.4, {}};
   return {
@@ -47,8 +47,7 @@ std::vector<Variant> variants() {
   };
 }
 
-/// Takes the best of several rounds, in each of which all variants take a turn, so that other work of the machine affects all of
-/// them.
+/// Takes the best of several rounds. In each round all variants take a turn, so that other work of the machine affects all of them.
 void measure(std::vector<Variant>& all, const falling_particles::Scene& scene, int rounds, int steps) {
   const auto start = effects_cost::settle(scene);
   for (int round = 0; round < rounds; ++round) {
@@ -77,7 +76,7 @@ void print(const std::vector<Variant>& all) {
     if (is_base) {
       std::printf("– |\n");
     } else {
-      // The cost of collision is the same for all and is left out.
+      // The cost of collision is the same for all variants and is omitted.
       const auto own = [](const Outcome& of) { return (of.set_up + of.solver) / of.contacts; };
       std::printf("%.2f |\n", 1e6 * (own(o) - own(base.best)));
     }

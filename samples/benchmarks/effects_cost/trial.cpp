@@ -29,14 +29,14 @@ std::vector<Placement> settle(const Scene& scene) {
 
 namespace {
 
-/// s; processor time of this thread, without other work of the machine.
+/// The processor time of this thread, s. It excludes other work of the machine.
 double processor_time() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Makes a step as falling_particles does, in three parts, each timed as a whole.
+/// Makes a step like falling_particles, in three separately timed parts.
 class Bench {
  public:
   explicit Bench(const falling_particles::World& world, double step) : world_(world), step_(step), joints_(world) {}
@@ -84,7 +84,7 @@ Outcome run(Scene scene, const std::vector<Placement>& start, const std::vector<
   const falling_particles::World world(scene, start);
   Bench bench(world, scene.time.step);
   Outcome unused;
-  bench.step(unused);  // does the work that is done once
+  bench.step(unused);  // does the one-time work
   const double rows_before = rows(world);
   Outcome sum;
   for (int i = 0; i < steps; ++i) bench.step(sum);

@@ -1,4 +1,4 @@
-// A bed of grains that is stepped with a choice of effects, and the time that this takes.
+// Steps a bed of grains with a choice of effects and measures the time.
 #pragma once
 
 #include <supernormal/effects.hpp>
@@ -9,19 +9,19 @@
 
 namespace effects_cost {
 
-/// The mean cost of a step of a scene, in seconds of the processor.
+/// The mean cost of a step of a scene, in processor time.
 struct Outcome {
   double seconds = 0;  ///< s, whole step
-  double set_up = 0;   ///< s, preparing contacts and forces: the effects' passes and the joints
+  double set_up = 0;   ///< s, preparation of contacts and forces: the passes of the effects, and the joints
   double solver = 0;   ///< s, dWorldQuickStep
   double contacts = 0;
   double rows = 0;
 };
 
-/// Runs the scene to its end and returns where its grains lie then.
+/// Runs the scene to its end and returns the final placements of its grains.
 std::vector<falling_particles::Placement> settle(const falling_particles::Scene& scene);
 
-/// Steps from there, from rest, with other effects. The steps must be few, so that the bed stays as it is.
+/// Steps from these placements, from rest, with other effects. Use few steps, so that the bed does not change.
 Outcome run(falling_particles::Scene scene, const std::vector<falling_particles::Placement>& start,
             const std::vector<supernormal::effects::Effect>& effects, int steps);
 

@@ -20,7 +20,7 @@ CommonNormal common_normal_angles(const Bodies& bodies, const Options& options, 
     const Tangents tangents = tangents_of(n2.vector);
     const Vector3 point2 = bodies.rotation * surface2.point + bodies.offset;
     const Vector3 d = point2 - surface1.point;
-    const Matrix32 d_rate = bodies.rotation * surface2.point_rate;  // with respect to the angles of body 2
+    const Matrix32 d_rate = bodies.rotation * surface2.point_rate;  // by the angles of body 2
     for (int k = 0; k < 2; ++k) {
       const auto which = static_cast<std::size_t>(k);
       const Vector3 t = bodies.rotation * tangents.tangent[which];

@@ -8,7 +8,7 @@ namespace literature {
 CommonNormal common_normal_points(const Bodies& bodies, const Options& options, Start start) {
   int evaluations = 0;
   const std::array<Vector2, 2> angles = start_angles(bodies, options, start, evaluations);
-  Vector3 p = bodies.body1.point(angles[0]);  // each in the frame of its body
+  Vector3 p = bodies.body1.point(angles[0]);  // each in its body's frame
   Vector3 q = bodies.body2.point(angles[1]);
   Eigen::Matrix<double, 6, 1> residual;
   Eigen::Matrix<double, 6, 6> jacobian;
@@ -24,7 +24,7 @@ CommonNormal common_normal_points(const Bodies& bodies, const Options& options, 
     for (int k = 0; k < 2; ++k) {
       const auto which = static_cast<std::size_t>(k);
       const Vector3 t = bodies.rotation * tangents.tangent[which];
-      const Matrix3 t_rate = bodies.rotation * tangents.rate[which] * n2.rate;  // with respect to q
+      const Matrix3 t_rate = bodies.rotation * tangents.rate[which] * n2.rate;  // by q
       residual[k] = n1.vector.dot(t);
       jacobian.block<1, 3>(k, 0) = t.transpose() * n1.rate;
       jacobian.block<1, 3>(k, 3) = n1.vector.transpose() * t_rate;

@@ -18,8 +18,8 @@ using supernormal::Pose;
 
 constexpr int kMostIterations = 100;  // Ruan et al.
 
-/// The bodies' gap function. Its vector d leads from the boundary of the sum to the centre of body 2, so that both methods evaluate
-/// with the support functions of the library.
+/// The gap function of the bodies. Its vector d points from the boundary of the Minkowski difference to the centre of body 2. So
+/// both methods use the support functions of the library.
 GapFunction gap_function(const Bodies& bodies) {
   Pose pose2;
   pose2.rotation = bodies.rotation;
@@ -36,7 +36,7 @@ CommonNormal answer(const GapFunction& gap, const GapJet& jet, bool has_converge
           gap.evaluations()};
 }
 
-/// A unit normal and its derivative, from two angles.
+/// A unit normal and its derivative by two angles.
 using NormalOfAngles = Normalized<2> (*)(const Bodies& bodies, const Vector2& angles);
 
 Normalized<2> by_gradient(const Bodies& bodies, const Vector2& angles) {
@@ -53,12 +53,12 @@ Normalized<2> by_polar_angles(const Bodies& /*bodies*/, const Vector2& angles) {
 
 Vector2 polar_angles(const Vector3& v) { return {std::atan2(v.z(), std::hypot(v.x(), v.y())), std::atan2(v.y(), v.x())}; }
 
-/// A sum of squares of the angles: half its gradient and Hessian, to the order that the method knows.
+/// A sum of squares as a function of the angles: half its gradient and half its Hessian, to the order of the method.
 struct Squares {
   double sum;  ///< m^2
   Vector2 gradient;
   Eigen::Matrix2d hessian;
-  Matrix32 rate;  ///< of what is squared: the damping multiplies the squared lengths of its columns
+  Matrix32 rate;  ///< of the squared vector; damping multiplies the squared lengths of its columns
 
   Vector2 scale() const { return rate.colwise().squaredNorm().transpose(); }
 };
@@ -69,12 +69,13 @@ Squares squares_of(const Vector3& residual, const Matrix32& rate) {
   return {residual.squaredNorm(), rate.transpose() * residual, rate.transpose() * rate, rate};
 }
 
-/// Of the distance, as Gauss and Newton have it.
+/// The squared distance in the Gauss-Newton approximation.
 Squares distance(const GapFunction& gap, const GapJet& jet, const Normalized<2>& normal) {
   return squares_of(jet.d, -gap.curvature(jet) * normal.rate);
 }
 
-/// Of the distance, as Newton has it near the answer: with the second derivative of d along n, which follows from n.dd = 0.
+/// The squared distance with the Newton approximation near the solution: includes the second derivative of d along n, from n.dd =
+/// 0.
 Squares distance_by_newton(const GapFunction& gap, const GapJet& jet, const Normalized<2>& normal) {
   const Matrix32 d_rate = -gap.curvature(jet) * normal.rate;
   Squares squares = squares_of(jet.d, d_rate);
@@ -82,7 +83,7 @@ Squares distance_by_newton(const GapFunction& gap, const GapJet& jet, const Norm
   return squares;
 }
 
-/// Of the vector product of normal and distance.
+/// The squared cross product of normal and distance vector.
 Squares parallel(const GapFunction& gap, const GapJet& jet, const Normalized<2>& normal) {
   const Matrix32 d_rate = -gap.curvature(jet) * normal.rate;
   Matrix32 rate;
@@ -110,8 +111,8 @@ class Damping {
   double value_ = 1e-3, growth_ = 2;
 };
 
-/// Ruan et al.'s necessary condition, that normal and distance are parallel: whether the gap is right to about 1e-6 of the size.
-/// The angles of the gradient have stationary points of their own, in the planes in which a body is flat.
+/// The necessary condition of Ruan et al.: normal and distance vector are parallel. Tests that the gap is right to about 1e-6 of
+/// the size. The angles of the gradient have additional stationary points, in the planes in which a body is flat.
 bool is_necessary_met(const GapJet& jet, double size) {
   constexpr double kAccuracy = 1e-6;
   return jet.n.cross(jet.d).squaredNorm() <= 2 * kAccuracy * size * size;
@@ -138,7 +139,7 @@ CommonNormal least_squares(const Bodies& bodies, const Options& options, Vector2
       continue;
     }
     const Vector2 step = factor.solve(squares.gradient);
-    // On a flat face the points move far by steps that are short as angles.
+    // On a flat face a small step of the angles moves the points far.
     if (step.norm() <= options.tolerance && (squares.rate * step).norm() <= options.tolerance * bodies.size()) {
       return answer(gap, jet, is_necessary_met(jet, bodies.size()));
     }
@@ -170,14 +171,14 @@ CommonNormal contact_space_fixed_point(const Bodies& bodies, const Options& opti
   gap.evaluate(n, Order::Point, before);
   if (options.path != nullptr) options.path->push_back(n);
   n = (n + before.d.normalized()).normalized();
-  if (n.isZero(0)) return answer(gap, before, false);  // the distance is opposite to the normal
+  if (n.isZero(0)) return answer(gap, before, false);  // the distance vector is opposite to the normal
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     gap.evaluate(n, Order::Point, jet);
     if (options.path != nullptr) options.path->push_back(n);
-    // The point of the boundary is the offset less d; its centre of curvature is that less the radius times n.
+    // The boundary point is the offset minus d. Its centre of curvature is this point minus the radius times n.
     const double squared_sine = jet.n.cross(before.n).squaredNorm();
     const Vector3 across = jet.n - jet.n.dot(before.n) * before.n;
-    if (squared_sine == 0) break;  // the normal of before: no centre of curvature
+    if (squared_sine == 0) break;  // the same normal again: no centre of curvature
     const double radius = across.dot(before.d - jet.d) / squared_sine;
     const Vector3 next = (jet.d + radius * jet.n).normalized();
     if (!next.allFinite() || next.isZero(0)) break;

@@ -25,13 +25,13 @@ struct Iterate {
 
 Extent extent_by_newton(const Superquadric& body, const Vector3& direction, double tolerance) {
   constexpr int kMostIterations = 30, kMostHalvings = 26;
-  constexpr double kOnSurface = 1e-6;  // of F; a short step alone may be that of a function that is too steep
+  constexpr double kOnSurface = 1e-6;  // of F; a short step alone may come from a steep function
   const Vector3 stretched = body.half_axes.cwiseProduct(direction);
   Vector3 x = stretched / stretched.norm();
-  // Towards the corner of a body with flat faces, whose point is there for most directions.
+  // Start at the vertex of a body with flat faces: the point is near it for most directions.
   if (std::min(body.delta, body.epsilon) > 2) x = direction.cwiseSign();
   x = body.half_axes.cwiseProduct(x);
-  x /= std::pow(body.value(x) + 1, 1 / body.epsilon);  // F + 1 is homogeneous, of the degree epsilon
+  x /= std::pow(body.value(x) + 1, 1 / body.epsilon);  // F + 1 is homogeneous of degree epsilon
   Vector4 start;
   start << x, 1 / body.implicit(x).gradient.norm();
   Iterate now(body, direction, start);

@@ -1,4 +1,4 @@
-// How far a body reaches along a direction, found from its implicit function.
+// The extent of a body along a direction, from its implicit function.
 #pragma once
 
 #include "superquadric.hpp"
@@ -12,8 +12,8 @@ struct Extent {
 };
 
 /// The largest n.x with F(x) = 0, by Newton's method for x and a multiplier, with a line search. It starts at the point of the
-/// ellipsoid of the same half-axes or, for exponents above 2, at the corner, and ends with a step of `tolerance` times the smallest
-/// half-axis. `direction` is a unit vector in the body's frame.
+/// ellipsoid with the same half-axes or, for exponents above 2, at the vertex of the box. It ends with a step of `tolerance` times
+/// the smallest half-axis. `direction`: unit, in the body's frame.
 Extent extent_by_newton(const Superquadric& body, const Vector3& direction, double tolerance);
 
 }  // namespace literature

@@ -18,7 +18,7 @@ Superquadric superquadric_of(const supernormal::Shape& shape) {
   return *body;
 }
 
-/// A method that starts there.
+/// A method with this start.
 template <auto kSolve, Start kStart>
 CommonNormal from(const Bodies& bodies, const Options& options) {
   return kSolve(bodies, options, kStart);

@@ -1,4 +1,4 @@
-// What the methods of the literature have in common.
+// Common types of the literature methods.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ namespace literature {
 struct Bodies {
   Superquadric body1, body2;
   const supernormal::Shape *shape1, *shape2;  ///< the same bodies
-  Matrix3 rotation;                           ///< the orientation of body 2
-  Vector3 offset;                             ///< m; the centre of body 2
+  Matrix3 rotation;                           ///< orientation of body 2
+  Vector3 offset;                             ///< m; centre of body 2
 
-  /// Keeps pointers to the shapes. Throws std::invalid_argument if one is neither a superellipsoid nor an ellipsoid.
+  /// Keeps pointers to the shapes. Throws std::invalid_argument unless both are superellipsoids or ellipsoids.
   Bodies(const supernormal::Shape& first, const supernormal::Pose& pose1, const supernormal::Shape& second,
          const supernormal::Pose& pose2);
 
@@ -25,16 +25,16 @@ struct Bodies {
 };
 
 struct Options {
-  double tolerance = 1e-9;  ///< of the last step: rad, or m over the smallest half-axis
+  double tolerance = 1e-9;  ///< of the last step: rad, or m relative to the smallest half-axis
   int max_iterations = 30;  ///< Goncalves et al. 2017
-  /// Where to start: the normal of an earlier, similar pose (unit, body 1's frame), or null for the method's own start.
+  /// The start: the normal of a similar earlier pose (unit, body 1's frame), or null for the method's own start.
   const Vector3* first_normal = nullptr;
-  std::vector<Vector3>* path = nullptr;  ///< if it is given, the normal of every iterate is added to it (body 1's frame)
+  std::vector<Vector3>* path = nullptr;  ///< if given, collects the normal of every iterate (body 1's frame)
 };
 
 enum class Outcome {
-  Failed,  ///< not converged, or to a stationary point that cannot be the gap
-  Apart,   ///< the bodies do not overlap; the method does not know their distance
+  Failed,  ///< not converged, or converged to a stationary point that cannot be the gap
+  Apart,   ///< the bodies do not overlap; the method does not compute their distance
   Found,   ///< the gap is known
 };
 
@@ -45,12 +45,12 @@ struct CommonNormal {
   Vector3 normal = Vector3::UnitX();  ///< unit, from body 1 to body 2
   Vector3 point1 = Vector3::Zero();   ///< m; on body 1
   Vector3 point2 = Vector3::Zero();   ///< m; on body 2
-  int evaluations = 0;                ///< of both bodies; the start included
+  int evaluations = 0;                ///< of both bodies, including the start
 };
 
 using Solve = CommonNormal (*)(const Bodies& bodies, const Options& options);
 
-/// A method by its name.
+/// A method and its name.
 struct NamedMethod {
   const char* name;
   Solve solve;
@@ -59,9 +59,9 @@ struct NamedMethod {
 /// All methods of this folder, with their numbers in README.md.
 const std::vector<NamedMethod>& methods();
 
-/// Judges two points with opposite normals as Goncalves et al. do: the normals must point at each other, and away if body 1 has
-/// point 2 inside. Otherwise the points belong to another kind of stationary point. A gap that is smaller than `accuracy` (m) has
-/// no sure sign.
+/// Judges two points with opposite normals like Goncalves et al. The normals must point at each other, or away from each other if
+/// body 1 contains point 2. Otherwise the points belong to another kind of stationary point. The sign of a gap below `accuracy` (m)
+/// is uncertain.
 CommonNormal judged(const Bodies& bodies, const Vector3& point1, const Vector3& normal1, const Vector3& point2,
                     const Vector3& normal2, double accuracy, int evaluations);
 

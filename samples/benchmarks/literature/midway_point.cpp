@@ -12,10 +12,10 @@ namespace {
 using Vector4 = Eigen::Vector4d;
 
 constexpr int kLeastStages = 10;         // from spheres to the bodies (Podlozhnyuk et al.)
-constexpr double kStageAccuracy = 1e-3;  // of a stage before the last, relative to the smallest half-axis
-constexpr int kMostHalvings = 26;        // to a step of 1e-8, where Podlozhnyuk et al. end their line search
+constexpr double kStageAccuracy = 1e-3;  // of all stages but the last, relative to the smallest half-axis
+constexpr int kMostHalvings = 26;        // to a step of 1e-8, where the line search of Podlozhnyuk et al. ends
 
-/// A point and the multiplier mu, with what was evaluated there: in the frame of body 1.
+/// A point, its multiplier mu, and the values there, in the frame of body 1.
 struct Iterate {
   Vector3 x;
   double mu;
@@ -36,7 +36,7 @@ class Newton {
     return result;
   }
 
-  /// The multiplier that makes both gradients equally long; 1 at the centre of body 2, which has no gradient.
+  /// Uses the multiplier that makes both gradients equally long. It is 1 at the centre of body 2, where the gradient is 0.
   Iterate at(const Vector3& x) {
     Iterate result = at(x, 1);
     const double length2 = result.f2.gradient.norm();
@@ -45,13 +45,13 @@ class Newton {
     return result;
   }
 
-  /// The bodies of a stage, from 0 (spheres of equal products of half-axes) to 1.
+  /// The bodies of a stage, from 0 (spheres with equal products of half-axes) to 1.
   void set_stage(double share) {
     body1_ = between(bodies_.body1, share);
     body2_ = between(bodies_.body2, share);
   }
 
-  /// Whether Newton's method converged from there.
+  /// Whether Newton's method converges from x.
   bool solve(Vector3& x, double accuracy) {
     Iterate now = at(x);
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
@@ -77,7 +77,7 @@ class Newton {
     return false;
   }
 
-  /// How far the surface is from a point inside the body, along the unit direction (m).
+  /// The distance from a point inside the body to the surface along a unit direction, m.
   double reach(const Superquadric& body, const Vector3& x, const Vector3& direction) {
     double distance = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
@@ -109,7 +109,7 @@ class Newton {
     return result;
   }
 
-  /// Of both bodies; those of one alone count as half.
+  /// Evaluations of both bodies. An evaluation of one body counts as half.
   int evaluations() const { return evaluations_ + line_evaluations_ / 2; }
 
  private:

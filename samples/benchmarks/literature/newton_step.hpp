@@ -1,4 +1,4 @@
-// The step of Newton's method for a system of a few equations.
+// The step of Newton's method for a small system of equations.
 #pragma once
 
 #include <Eigen/LU>
@@ -6,8 +6,8 @@
 
 namespace literature {
 
-/// The x with jacobian·x = residual; nothing where the matrix is singular to the bit or a number is not finite. A pivot of exactly
-/// zero occurs: both bodies are flat where they would meet, or an iterate is on a plane of symmetry.
+/// Solves jacobian·x = residual. Empty if the matrix is exactly singular or a number is not finite. A zero pivot does occur: both
+/// bodies are flat at the contact, or an iterate is on a plane of symmetry.
 template <int kSize>
 std::optional<Eigen::Vector<double, kSize>> newton_step(const Eigen::Matrix<double, kSize, kSize>& jacobian,
                                                         const Eigen::Vector<double, kSize>& residual) {
@@ -18,7 +18,7 @@ std::optional<Eigen::Vector<double, kSize>> newton_step(const Eigen::Matrix<doub
   return step;
 }
 
-/// The same; where the matrix is singular, the x of its regular part, with zeros for the unknowns that it leaves open.
+/// The same, but for a singular matrix it solves the regular part and sets the undetermined unknowns to zero.
 template <int kSize>
 std::optional<Eigen::Vector<double, kSize>> newton_step_of_any_rank(const Eigen::Matrix<double, kSize, kSize>& jacobian,
                                                                     const Eigen::Vector<double, kSize>& residual) {

@@ -18,7 +18,7 @@ std::array<Vector2, 2> angles_of(const Bodies& bodies, const Vector3& normal) {
   return {bodies.body1.angles_of(normal), bodies.body2.angles_of(-(bodies.rotation.transpose() * normal))};
 }
 
-/// Quarters the angles of both surfaces six times and keeps the pair of quarters whose middles are nearest.
+/// Quarters the angles of both surfaces six times. Keeps the pair of quarters whose centres are nearest.
 std::array<Vector2, 2> quadtree(const Bodies& bodies, int& evaluations) {
   std::array<Vector2, 2> best = {Vector2::Zero(), Vector2::Zero()};
   Vector2 reach(std::numbers::pi / 2, std::numbers::pi);

@@ -1,4 +1,4 @@
-// A first guess of the nearest points.
+// First guesses of the nearest points.
 #pragma once
 
 #include <array>
@@ -7,14 +7,14 @@
 
 namespace literature {
 
-/// How a method starts that has no normal of an earlier pose.
+/// The start of a method without the normal of an earlier pose.
 enum class Start {
-  CentreLine,  ///< at the two points with normals along the line of the centres, known in closed form: fails least, costs least
-  Quadtree,    ///< by the search of Goncalves et al. (2017)
+  CentreLine,  ///< the points with normals along the line of centres, in closed form: fails least, costs least
+  Quadtree,    ///< the search of Goncalves et al. (2017)
 };
 
-/// The angles of two points to start from: those of Options::first_normal if it is there, otherwise by `start`. Adds what it
-/// evaluates to `evaluations`.
+/// The angles of two starting points: from Options::first_normal if given, otherwise by `start`. Adds its evaluations to
+/// `evaluations`.
 std::array<Vector2, 2> start_angles(const Bodies& bodies, const Options& options, Start start, int& evaluations);
 
 }  // namespace literature

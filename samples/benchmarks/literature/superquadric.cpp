@@ -9,10 +9,10 @@
 namespace literature {
 namespace {
 
-// A coordinate of zero counts as this: its negative powers are then large numbers, and their products with zero are no NaN.
+// Replaces a coordinate of zero: its negative powers are then large but finite, and their products with zero are not NaN.
 constexpr double kLeast = 1e-150;
 
-/// x^exponent for x >= 0. Products and squares need no call of the C library, which would slow down the ellipsoids.
+/// x^exponent for x >= 0. Small integer powers avoid the C library, which would slow down the ellipsoids.
 double power(double x, double exponent) {
   if (exponent == 0) return 1;
   if (exponent == 1) return x;
@@ -36,7 +36,7 @@ struct AngleJet {
   static double away_from_zero(double x) { return std::copysign(std::max(std::abs(x), kLeast), x); }
 };
 
-/// The product of a jet of the latitude and one of the longitude, over lengths: a vector and its derivatives.
+/// The product of a latitude jet and a longitude jet, times lengths: a vector and its derivatives.
 void multiply(const AngleJet& latitude, const AngleJet& longitude, const Vector3& lengths, Vector3& vector, Matrix32& rate) {
   vector = {latitude.cosine * longitude.cosine, latitude.cosine * longitude.sine, latitude.sine};
   rate.col(0) << latitude.cosine_rate * longitude.cosine, latitude.cosine_rate * longitude.sine, latitude.sine_rate;
@@ -61,7 +61,7 @@ double Superquadric::value(const Vector3& x) const {
 Implicit Superquadric::implicit(const Vector3& x) const {
   const Vector3 v = x.cwiseQuotient(half_axes);
   const Vector3 u = v.cwiseAbs().cwiseMax(kLeast);
-  // Second derivatives first; each further power is a product.
+  // Start with the second derivatives: each further power is a product.
   const double x2 = power(u.x(), delta - 2), y2 = power(u.y(), delta - 2), z2 = power(u.z(), epsilon - 2);
   const double sum = x2 * u.x() * u.x() + y2 * u.y() * u.y();
   const double outer2 = delta == epsilon ? 1 / std::max(sum, kLeast) : std::pow(std::max(sum, kLeast), epsilon / delta - 2);

@@ -1,4 +1,4 @@
-// A superellipsoid as the literature describes it: by an implicit function, or by two angles on its surface.
+// A superellipsoid in the forms of the literature: an implicit function, or two angles on its surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct Implicit {
   Matrix3 hessian;   ///< 1/m^2
 };
 
-/// A point of the surface with its normal, and their derivatives with respect to the two angles.
+/// A point of the surface with its normal, and their derivatives by the two angles.
 struct SurfacePoint {
   Vector3 point;         ///< m
   Vector3 normal;        ///< 1/m; outward, not of unit length
@@ -33,14 +33,14 @@ struct Superquadric {
   Vector3 half_axes;  ///< m
   double delta, epsilon;
 
-  /// Empty if the shape is neither a superellipsoid nor an ellipsoid.
+  /// Empty unless the shape is a superellipsoid or an ellipsoid.
   static std::optional<Superquadric> of(const supernormal::Shape& shape);
 
   double value(const Vector3& x) const;  ///< F alone
   Implicit implicit(const Vector3& x) const;
 
-  /// The surface at a latitude and a longitude, rad: (a C cos^(2/delta), b C sin^(2/delta), c sin^(2/epsilon)) with
-  /// C = cos^(2/epsilon), where powers keep the sign of their base.
+  /// The surface at a latitude and a longitude, rad: (a C cos^(2/delta), b C sin^(2/delta), c sin^(2/epsilon)) with C =
+  /// cos^(2/epsilon). Powers keep the sign of their base.
   SurfacePoint surface(const Vector2& angles) const;
   Vector3 point(const Vector2& angles) const;  ///< the point alone
 

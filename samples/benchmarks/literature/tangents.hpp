@@ -8,8 +8,8 @@
 
 namespace literature {
 
-/// The second and third column of the Householder matrix that maps a unit normal to the x axis (Lopes et al. 2010, 2013), and
-/// their derivatives with respect to the normal.
+/// The second and third columns of the Householder matrix that maps a unit normal to the x-axis (Lopes et al. 2010, 2013), and
+/// their derivatives by the normal.
 struct Tangents {
   std::array<Vector3, 2> tangent;
   std::array<Matrix3, 2> rate;
@@ -17,7 +17,7 @@ struct Tangents {
 
 Tangents tangents_of(const Vector3& normal);
 
-/// A unit vector and its derivative from those of a vector of any length; no numbers where that vector is zero.
+/// A unit vector and its derivative, from a vector of any length with its derivative. NaN for a zero vector.
 template <int kColumns>
 struct Normalized {
   Vector3 vector;

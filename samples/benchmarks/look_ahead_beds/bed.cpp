@@ -10,9 +10,9 @@
 namespace look_ahead_beds {
 namespace {
 
-constexpr double kColumn = 6 * kSmallestHalfAxis;  // m; from one grain of a layer to the next: three times the longest half-axis
-constexpr double kLayersPerSide = 3;               // layers at the start for each grain along a side
-constexpr double kSpread = 0.2;                    // of the sizes
+constexpr double kColumn = 6 * kSmallestHalfAxis;  // m; between grains of a layer: three times the longest half-axis
+constexpr double kLayersPerSide = 3;               // initial layers per grain along a side
+constexpr double kSpread = 0.2;                    // relative variation of the sizes
 
 }  // namespace
 

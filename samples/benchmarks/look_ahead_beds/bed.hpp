@@ -1,4 +1,4 @@
-// A bed of grains of one kind: what every simulation of it starts from, and the ruler that measures all of them.
+// A bed of grains of one kind: the common start of all simulations, and the common measure of overlaps.
 #pragma once
 
 #include <ode/ode.h>
@@ -11,8 +11,8 @@ namespace look_ahead_beds {
 
 inline constexpr double kDensity = 1300;             // kg/m^3
 inline constexpr double kGravity = 9.81;             // m/s^2
-inline constexpr double kFriction = 0.5;             // Coulomb's coefficient, between all surfaces
-inline constexpr double kSmallestHalfAxis = 2.5e-3;  // m; of the mean grain, and the unit of overlaps
+inline constexpr double kFriction = 0.5;             // Coulomb coefficient of all surfaces
+inline constexpr double kSmallestHalfAxis = 2.5e-3;  // m; of the mean grain; the unit of overlaps
 
 struct Pose {
   std::array<double, 3> position{};    ///< m
@@ -30,19 +30,19 @@ struct Bed {
   double half_width = 0;
   std::vector<Grain> grains;
 
-  /// The five walls, (normal, distance) as dCreatePlane takes them.
+  /// The five walls, (normal, distance) as in dCreatePlane.
   std::array<std::array<double, 4>, 5> walls() const;
 };
 
-/// Layers of grains with half-axes in the ratio 4 : 3 : 2 and sizes that differ by up to 20 %, at random orientations.
+/// Layers of grains with half-axes in the ratio 4 : 3 : 2, sizes that vary by up to 20 %, and random orientations.
 Bed make_bed(int count, double exponent, unsigned seed);
 
-/// The geom of a grain, at its start.
+/// The geom of a grain in its initial pose.
 dGeomID create_geom(dSpaceID space, const Bed& bed, const Grain& grain);
 
 void set_pose(dGeomID geom, const Pose& pose);
 
-/// Measures overlaps by snGeomProximity, with geoms of its own: it neither uses nor changes what a simulation remembers.
+/// Measures overlaps by snGeomProximity with its own geoms. It neither uses nor changes the warm starts of a simulation.
 class Ruler {
  public:
   explicit Ruler(const Bed& bed);
@@ -52,11 +52,11 @@ class Ruler {
   Ruler& operator=(const Ruler&) = delete;
   Ruler& operator=(Ruler&&) = delete;
 
-  /// Takes in one moment.
+  /// Measures one instant.
   void measure(const std::vector<Pose>& poses);
 
-  double deepest() const { return deepest_; }                                                ///< of all moments, half-axes
-  double mean() const { return overlaps_ > 0 ? sum_ / static_cast<double>(overlaps_) : 0; }  ///< of what overlaps, half-axes
+  double deepest() const { return deepest_; }                                                ///< of all instants, half-axes
+  double mean() const { return overlaps_ > 0 ? sum_ / static_cast<double>(overlaps_) : 0; }  ///< over all overlaps, half-axes
 
  private:
   static void near_callback(void* self, dGeomID o1, dGeomID o2);

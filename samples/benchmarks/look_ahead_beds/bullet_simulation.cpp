@@ -12,13 +12,13 @@
 namespace look_ahead_beds {
 namespace {
 
-// Bullet computes in single precision and has lengths of its own: its GJK ends when two support points are within 0.01. With the
-// smallest half-axis at 0.5 units that is an overlap of 2e-3 half-axes at every step, with 20 units one of 1e-5. Times are the
-// same, since gravity is in this unit.
+// Bullet uses single precision and absolute lengths: its GJK ends when two support points are within 0.01. With a smallest
+// half-axis of 0.5 units this is an overlap of 2e-3 half-axes at every step; with 20 units, 1e-5. Gravity is in this unit, so times
+// are the same.
 constexpr double kUnit = 0.05 * kSmallestHalfAxis;  // m
 
-// Bullet's margin, smallest half-axes: the bodies without it do not overlap, so that GJK settles them without EPA. Without it they
-// are convex as long as it is less than the smallest radius of curvature, half of that half-axis.
+// The margin of Bullet in smallest half-axes. The bodies without the margin do not overlap, so that GJK suffices without EPA. They
+// are convex as long as the margin is below the smallest radius of curvature, half of this half-axis.
 constexpr double kMargin = 0.2;
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
@@ -115,7 +115,7 @@ class BulletSimulation final : public Simulation {
     if (mass > 0) shapes_.back()->calculateLocalInertia(mass, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shapes_.back().get(), inertia);
     info.m_startWorldTransform = pose;
-    info.m_friction = scalar(std::sqrt(kFriction));  // that of a pair is the product
+    info.m_friction = scalar(std::sqrt(kFriction));  // the coefficient of a pair is the product
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
     world_.addRigidBody(bodies_.back().get());

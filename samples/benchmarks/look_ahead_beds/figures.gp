@@ -1,4 +1,4 @@
-# The figure of a table that `look_ahead_beds --csv` has written:
+# The figure for a table written by `look_ahead_beds --csv`:
 #   gnuplot -c samples/benchmarks/look_ahead_beds/figures.gp beds.csv look_ahead_beds.svg
 if (ARGC != 2) { print "usage: gnuplot -c figures.gp beds.csv look_ahead_beds.svg"; exit status 2 }
 set datafile separator ","

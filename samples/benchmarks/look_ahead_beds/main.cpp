@@ -1,5 +1,5 @@
-// What contacts before overlap save in a bed of grains: pours the same beds with plain contacts, with contacts ahead and, where it
-// is there, with Bullet, at several steps. Prints overlaps and costs, and the times at an equal overlap.
+// Measures the benefit of contacts before overlap in a bed of grains. Pours the same beds with plain contacts, with contacts ahead
+// and, if available, with Bullet, at several steps. Prints overlaps, costs, and times at equal overlap.
 
 #include <ode/ode.h>
 #include <supernormal/supernormal.h>
@@ -24,7 +24,7 @@ namespace {
 
 using namespace look_ahead_beds;
 
-constexpr int kMoments = 25;  // of the second half, at which overlaps and the energy are measured
+constexpr int kMoments = 25;  // instants in the second half at which overlaps and energy are measured
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
@@ -50,11 +50,11 @@ struct Options {
   std::string csv;
 };
 
-/// The second half of a run, when the bed lies. Costs are those of a simulated second.
+/// The second half of a run, when the bed is at rest. Costs are per simulated second.
 struct Outcome {
   double step = 0;     ///< s
   double deepest = 0;  ///< smallest half-axes of the mean grain
-  double mean = 0;     ///< likewise, of the pairs that overlap
+  double mean = 0;     ///< mean over the overlapping pairs, in the same unit
   double energy = 0;   ///< J
   Costs costs;
 };
@@ -86,7 +86,7 @@ Outcome pour(const Method& method, const Bed& bed, const Settings& settings, dou
   return outcome;
 }
 
-/// Means over the draws; of overlaps and energies, which scatter by factors, geometric ones.
+/// Means over the draws. Overlaps and energies scatter by factors, so their means are geometric.
 Outcome mean_of(const std::vector<Outcome>& draws) {
   const double share = 1 / static_cast<double>(draws.size());
   Outcome mean{draws.front().step, 1, 1, 1, {}};
@@ -102,10 +102,10 @@ Outcome mean_of(const std::vector<Outcome>& draws) {
   return mean;
 }
 
-/// The time of a simulated second at which a sweep has that overlap, by the powers between neighbouring steps, s. No value: it has
-/// none so small or so large.
+/// The time per simulated second at which a sweep has this overlap, by a power law between neighbouring steps, s. Empty if no
+/// overlap is so small or so large.
 std::optional<double> time_at(const std::vector<Outcome>& sweep, double Outcome::*overlap, double value) {
-  for (std::size_t k = sweep.size(); k-- > 1;) {  // from the longest step: an overlap that scatters may have it twice
+  for (std::size_t k = sweep.size(); k-- > 1;) {  // from the longest step, since a scattering overlap may occur twice
     const Outcome& one = sweep[k - 1];
     const Outcome& other = sweep[k];
     if (!(one.*overlap <= value && value <= other.*overlap)) continue;

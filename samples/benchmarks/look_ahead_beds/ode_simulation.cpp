@@ -11,9 +11,9 @@
 namespace look_ahead_beds {
 namespace {
 
-constexpr int kRoom = 8;                     // contacts a pair
-constexpr double kRowsOfContact = 3;         // normal and two of friction
-constexpr double kCorrectingVelocity = 0.1;  // m/s; as the guide says for grains that come in deep
+constexpr int kMaxContacts = 8;              // contacts per pair
+constexpr double kRowsOfContact = 3;         // normal and two friction rows
+constexpr double kCorrectingVelocity = 0.1;  // m/s; as recommended for grains that overlap deeply
 
 class OdeSimulation final : public Simulation {
  public:
@@ -91,8 +91,8 @@ class OdeSimulation final : public Simulation {
  private:
   static void near_callback(void* self, dGeomID o1, dGeomID o2) {
     OdeSimulation& world = *static_cast<OdeSimulation*>(self);
-    std::array<dContact, kRoom> found;
-    const int count = dCollide(o1, o2, kRoom, &found[0].geom, sizeof(dContact));
+    std::array<dContact, kMaxContacts> found;
+    const int count = dCollide(o1, o2, kMaxContacts, &found[0].geom, sizeof(dContact));
     for (int i = 0; i < count; ++i) {
       dContact& contact = found[static_cast<std::size_t>(i)];
       contact.surface.mode = dContactApprox1;

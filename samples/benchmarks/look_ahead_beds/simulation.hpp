@@ -15,11 +15,11 @@ struct Settings {
   int iterations = 40;
 };
 
-/// What the steps have cost. An engine that does everything in one call counts all of it as solving.
+/// The cost of the steps. For an engine with a single call everything counts as solving.
 struct Costs {
-  double finding = 0;      ///< s of the processor, for pairs and contacts
-  double solving = 0;      ///< s of the processor
-  double rows = 0;         ///< rows of constraints, three for each contact, times iterations
+  double finding = 0;      ///< s of processor time, for pairs and contacts
+  double solving = 0;      ///< s of processor time
+  double rows = 0;         ///< constraint rows, three per contact, times iterations
   double evaluations = 0;  ///< of the gap function
   double seconds() const { return finding + solving; }
 };
@@ -35,7 +35,7 @@ class Simulation {
 
   virtual void step() = 0;
   virtual Pose pose(std::size_t grain) const = 0;
-  virtual double kinetic_energy() const = 0;  ///< J; of the translation
+  virtual double kinetic_energy() const = 0;  ///< J; of translation
 
   const Costs& costs() const { return costs_; }
   void forget_costs() { costs_ = {}; }
@@ -47,20 +47,20 @@ class Simulation {
   Costs costs_;
 };
 
-/// A method that is compared: its name in tables, and how a bed is simulated by it. The bed must outlive the simulation.
+/// A method: its name in tables, and how it simulates a bed. The bed must outlive the simulation.
 struct Method {
   std::string name;
   std::unique_ptr<Simulation> (*start)(const Bed& bed, const Settings& settings);
 };
 
-/// dWorldQuickStep with the contacts of overlaps, and with contacts before overlap.
+/// dWorldQuickStep with contacts of overlaps, or with contacts before overlap.
 std::unique_ptr<Simulation> start_plain(const Bed& bed, const Settings& settings);
 std::unique_ptr<Simulation> start_ahead(const Bed& bed, const Settings& settings);
 
-/// Bullet's sequential impulses with ellipsoids by their support function; the exponent must be 2.
+/// Sequential impulses of Bullet, with ellipsoids by their support function. The exponent must be 2.
 std::unique_ptr<Simulation> start_bullet(const Bed& bed, const Settings& settings);
 
-/// s; the time that the processor has worked for this program.
+/// The processor time of this program, s.
 inline double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace look_ahead_beds

@@ -1,5 +1,5 @@
-// Measures what each format of pictures costs of a run, and how large its files are. Prints a Markdown table. What other programs
-// draw when the run has ended is not in it.
+// Measures the cost of each picture format in a run, and the size of its files. Prints a Markdown table. Programs that draw after
+// the run are not included.
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -31,7 +31,7 @@ struct Options {
   int frames = 30;
 };
 
-/// s, of this process on all processors: unlike the time on a clock it does not count what other programs do.
+/// The processor time of this process, s. Unlike wall-clock time it excludes other programs.
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -45,12 +45,12 @@ double seconds_of(const Work& work) {
   return processor_seconds() - start;
 }
 
-/// A format that writes into a folder of its own.
+/// A format that writes into its own folder.
 struct Candidate {
   std::string name;
-  std::unique_ptr<OutputFolder> folder;  // vanishes with its files
+  std::unique_ptr<OutputFolder> folder;  // deleted together with its files
   std::unique_ptr<Picture> picture;
-  double adding = 0;     // s, of all frames
+  double adding = 0;     // s, for all frames
   double finishing = 0;  // s
 
   double megabytes() const {

@@ -1,4 +1,4 @@
-// The three solvers on the pairs with known answers, as a Markdown table: how often each fails, and its cost when it does not.
+// The three solvers on pairs with known results, as a Markdown table: how often each fails, and its cost if it succeeds.
 //
 //     solver_table [superellipsoid_pairs.csv]
 #include <Eigen/Geometry>
@@ -21,15 +21,15 @@ namespace {
 
 using namespace supernormal;
 
-// A gap is wrong when it is off by more than this share of the smallest half-axis.
+// A gap is wrong if its error exceeds this fraction of the smallest half-axis.
 constexpr double kWrong = 1e-6;
 constexpr int kMaxEvaluations = 200;
 
-// A pair with a gap below minus this share of the smallest half-axis counts as overlapping, the rest as touching: the file's
-// groups are 1e-3 and 2e-2.
+// A pair with an overlap of more than this fraction of the smallest half-axis counts as overlapping, any other as touching. The
+// groups in the file are 1e-3 and 2e-2.
 constexpr double kTouching = 5e-3;
 
-// The columns are: class; half-axes and exponents of both; position and attitude of body 2; gap; normal, points, two marks.
+// The columns are: class; half-axes and exponents of both; position and orientation of body 2; gap; normal, points, two marks.
 constexpr std::size_t kNumbers = 29;
 constexpr std::size_t kGap = 17;
 
@@ -82,9 +82,9 @@ struct Tally {
 
 struct Row {
   Tally apart, overlapping;
-  std::vector<int> evaluations;  // one number for each success
+  std::vector<int> evaluations;  // one number per success
 
-  /// The number of evaluations that `share` of the successes do not exceed.
+  /// The number of evaluations at the fraction `share` of the successes.
   std::string percentile(double share) {
     if (evaluations.empty()) return "-";
     std::sort(evaluations.begin(), evaluations.end());

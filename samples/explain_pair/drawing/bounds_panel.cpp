@@ -14,10 +14,10 @@ namespace {
 
 using supernormal::Solver;
 
-constexpr double kLeft = 62, kBottom = 36;  // px, for the labels of the axes
+constexpr double kLeft = 62, kBottom = 36;  // px, for the axis labels
 constexpr int kDecadeLabels = 3;            // at most, above and below
 
-/// Lengths from the answer on logarithmic axes: powers of ten from `least` up and down, with 0 in the middle.
+/// Logarithmic axes for distances from the result: powers of ten from `least` up and down, with 0 in the middle.
 struct Axes {
   Box box;
   double evaluations;  // at the right end
@@ -43,7 +43,7 @@ Axes axes_of(const Box& box, const Explanation& explanation) {
   }
   const double last = std::max(hybrid.intervals.back().upper - answer, std::numeric_limits<double>::min());
   const int least = static_cast<int>(std::floor(std::log10(last))) - 1;
-  // Half a decade more leaves room for the markers.
+  // Half a decade of margin for the markers.
   const double most = std::max(std::log10(std::max(widest, last)) + 0.5, least + 2.0);
   return {{box.x + kLeft, box.y, box.width - kLeft, box.height - kBottom}, evaluations, least, most};
 }
@@ -67,7 +67,7 @@ void draw_axes(Svg& svg, const Axes& axes) {
   svg.text({box.centre().x(), box.bottom() + 33}, "evaluations of s", R"(text-anchor="middle" font-size="13")");
 }
 
-/// The area between the bounds, in steps.
+/// The area between the bounds, as steps.
 void draw_interval(Svg& svg, const Axes& axes, const SolverPath& path) {
   Polyline upper, lower;
   const double answer = path.answer.gap;

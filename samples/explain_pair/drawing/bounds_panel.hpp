@@ -1,4 +1,4 @@
-// The proved interval around the answer after each evaluation.
+// The proved interval around the result after each evaluation.
 #pragma once
 
 #include "drawing/svg.hpp"
@@ -6,8 +6,8 @@
 
 namespace explain_pair {
 
-/// Draws how far the bounds of the hybrid are above and below the answer, and the values that the other solvers have reached, over
-/// the number of evaluations; lengths on logarithmic axes up and down from the answer.
+/// Draws the bounds of the hybrid solver relative to the result, and the values reached by the other solvers, against the number of
+/// evaluations. Distances are on logarithmic axes, up and down from the result.
 void draw_bounds(Svg& svg, const Box& box, const Explanation& explanation);
 
 }  // namespace explain_pair

@@ -34,7 +34,7 @@ std::string hex(const Oklch& colour) {
   return text.data();
 }
 
-// A straight line in OKLab, along which equal shares are equal distances.
+// A straight line in OKLab: equal fractions are equal perceived distances.
 Oklch map_colour(double share) {
   const auto a = [](const Oklch& colour) { return colour.chroma * std::cos(colour.hue * std::numbers::pi / 180); };
   const auto b = [](const Oklch& colour) { return colour.chroma * std::sin(colour.hue * std::numbers::pi / 180); };

@@ -19,7 +19,7 @@ namespace explain_pair {
 namespace {
 
 constexpr int kBands = 18, kCloseUpBands = 10;
-constexpr double kOnMap = 1 - 1e-9;  // of the half of the map: the end of a parallel is on its own side
+constexpr double kOnMap = 1 - 1e-9;  // of half of the map, so that the end of a parallel stays on its side
 
 /// Levels at multiples of a round step.
 struct Levels {
@@ -31,7 +31,7 @@ struct Levels {
     count = std::max(1 + static_cast<int>(std::floor((grid.most() - first) / step)), 1);
   }
   double operator[](int k) const { return first + k * step; }
-  /// Differences of a function that is constant are not worth a band.
+  /// The variation of a constant function by rounding deserves no band.
   static double rounding_of(const Grid& grid) { return 1e-12 * std::max(std::abs(grid.least()), std::abs(grid.most())); }
   std::string colour(int bands_above_lowest) const { return hex(map_colour(static_cast<double>(bands_above_lowest) / count)); }
 };
@@ -43,14 +43,14 @@ void draw_bands(Svg& svg, const Grid& grid, const Levels& levels, const MapInPic
   }
 }
 
-/// The line between the normals that prove the bodies apart and those that do not.
+/// The border between the normals that prove the bodies apart and all others.
 void draw_zero(Svg& svg, const Grid& grid, const MapInPicture& map) {
   for (const Polyline& line : in_picture(without_border(superlevel_polygons(grid, 0), grid), map)) {
     svg.polyline(line, kZeroStyle);
   }
 }
 
-/// Circles of latitude and meridians of the map.
+/// Parallels and meridians of the map.
 void draw_graticule(Svg& svg, const Frame& frame, const MapInPicture& map) {
   constexpr int kPieces = 90;
   const auto draw = [&](const std::function<Place(double share)>& place) {
@@ -75,7 +75,7 @@ Polyline world_axes(const MapInPicture& map) {
   return places;
 }
 
-/// Crosses, with letters beside them towards the middle.
+/// Crosses, with labels towards the middle.
 void draw_world_axes(Svg& svg, const Polyline& places, const Vector2& middle) {
   constexpr std::array kNames = {"+x", "−x", "+y", "−y", "+z", "−z"};
   for (std::size_t k = 0; k < kNames.size(); ++k) {
@@ -89,9 +89,9 @@ void draw_world_axes(Svg& svg, const Polyline& places, const Vector2& middle) {
   }
 }
 
-/// The border of Lambert's map of the normals up to that angle to both sides, on another map.
+/// The border of Lambert's map of the normals within this angle, on another map.
 Polyline window_of(double half_angle, const Frame& frame, const MapInPicture& map) {
-  constexpr int kPieces = 12;  // of a side
+  constexpr int kPieces = 12;  // per side
   const double reach = 2 * std::sin(half_angle / 2);
   Polyline window;
   for (std::size_t side = 0; side < 4; ++side) {
@@ -105,7 +105,7 @@ Polyline window_of(double half_angle, const Frame& frame, const MapInPicture& ma
   return window;
 }
 
-/// The colours of the bands with every other level below.
+/// The colours of the bands, with every other level below.
 void draw_colour_bar(Svg& svg, const Box& box, const Levels& levels) {
   const double width = box.width / (levels.count + 1);
   for (int k = 0; k <= levels.count; ++k) {
@@ -126,7 +126,7 @@ void draw_colour_bar(Svg& svg, const Box& box, const Levels& levels) {
 }  // namespace
 
 void draw_sphere(Svg& svg, const Box& box, const Explanation& explanation, const Frame& frame, double close_up) {
-  constexpr double kBar = 40;  // px, for the bar and its labels
+  constexpr double kBar = 40;  // px, of the bar with its labels
   const Box inner{box.x, box.y, box.width, box.height - kBar};
   const MapInPicture map = hammer_in(inner, frame);
   WorldGap gap(explanation.pair);

@@ -18,13 +18,13 @@ namespace {
 using supernormal::Proximity;
 
 // px
-constexpr double kAbove = 40, kBelow = 40, kAside = 14;  // room for normals, the gap and the bodies' margins
-constexpr double kTightGap = 44;                         // the arrows of a smaller gap stand outside
+constexpr double kAbove = 40, kBelow = 40, kAside = 14;  // margins for normals, the gap and the bodies
+constexpr double kTightGap = 44;                         // below this the arrows of the gap are outside
 constexpr double kOutsideArrow = 26;
 
 constexpr double kGraticule = 30;  // degrees
 
-/// How a body is painted: nested parts from dark to light.
+/// The colours of a body: nested parts from dark to light.
 struct Paint {
   double hue, chroma;
   const char* line;
@@ -51,7 +51,7 @@ void shade(Svg& svg, const PlacedBody& body, const View& view, const Polyline& o
   }
 }
 
-/// Text that stays readable over anything.
+/// Text with a halo, readable on any background.
 void label(Svg& svg, const Vector2& at, std::string_view words, std::string_view style) {
   svg.text(at, words,
            std::string(R"(stroke="#fff" stroke-width="4" stroke-linejoin="round" stroke-opacity="0.85" )") + std::string(style));
@@ -61,7 +61,7 @@ void label(Svg& svg, const Vector2& at, std::string_view words, std::string_view
 void draw_scale(Svg& svg, const Vector2& right_end, double px_per_metre) {
   constexpr double kLongest = 90;
   const double longest = kLongest / px_per_metre;
-  // The largest round length that fits: half of it is a step of at most as many parts.
+  // The largest round length that fits. Half of it is a step of at most as many parts.
   const double power = std::pow(10, std::floor(std::log10(longest)));
   double length = power;
   for (const double factor : {2.0, 5.0}) {
@@ -74,7 +74,7 @@ void draw_scale(Svg& svg, const Vector2& right_end, double px_per_metre) {
   svg.text(right_end + Vector2(0, -8), length_text(length), R"(text-anchor="end" font-size="12" fill="#444")");
 }
 
-/// The distance between the planes at x1 and x2, with its name.
+/// Draws the distance between the planes at x1 and x2, with its label.
 void draw_gap(Svg& svg, const Box& box, double x1, double x2, double gap) {
   const double y = box.bottom() - 16;
   const std::string words = gap >= 0 ? "gap " + length_text(gap) : "depth " + length_text(-gap);
@@ -88,7 +88,7 @@ void draw_gap(Svg& svg, const Box& box, double x1, double x2, double gap) {
     svg.arrow({left - kOutsideArrow, y}, {left, y}, kVermilion, 2);
     svg.arrow({right + kOutsideArrow, y}, {right, y}, kVermilion, 2);
   }
-  // Beside the planes, on the side with more room.
+  // Beside the planes, on the side with more space.
   const bool is_right = 0.5 * (left + right) < box.centre().x();
   const double away = (right - left > kTightGap ? 0 : kOutsideArrow) + 8;
   label(svg, {is_right ? right + away : left - away, y + 5}, words, style + (is_right ? "" : R"( text-anchor="end")"));
@@ -98,7 +98,7 @@ void draw_planes(Svg& svg, const Box& box, double x1, double x2, double gap) {
   for (const double x : {x1, x2}) svg.line({x, box.y + 6}, {x, box.bottom()}, R"(stroke="#222" stroke-width="1.3")");
   const double y = box.y + 16;
   svg.arrow({x1, y}, {x1 + 46, y}, kInk, 1.8);
-  // Its name is at the tail where the other plane is close behind the tip.
+  // Its label is at the tail if the other plane is close to the tip.
   const bool is_tight = x2 > x1 && x2 - x1 < 80;
   label(svg, {x1 + (is_tight ? -8 : 52), y + 5}, "n",
         std::string(R"(font-style="italic" font-size="16")") + (is_tight ? R"( text-anchor="end")" : ""));
@@ -141,7 +141,7 @@ void draw_pair(Svg& svg, const Box& box, const Explanation& explanation, const F
   if (answer.gap <= 0) draw_contact(svg, view.to_px(answer.contact));
   draw_point(svg, point1, kPaint1.line);
   draw_point(svg, point2, kPaint2.line);
-  // Each name on the side of its body.
+  // Each label on the side of its body.
   const double side = answer.gap >= 0 ? 1 : -1;
   const auto name = [&](const Vector2& at, double direction, const char* words, const char* colour) {
     const std::string anchor = direction < 0 ? R"(text-anchor="end" )" : "";
@@ -162,7 +162,7 @@ void draw_axes(Svg& svg, const Vector2& at, const Frame& frame) {
     const Vector2 along(v.x(), -v.y());
     const Vector2 tip = at + kLength * along;
     svg.line(at, tip, R"(stroke="#444" stroke-width="1.4")");
-    // An axis towards the viewer is a dot, with its letter aside. Letters of neighbouring axes make room for one another.
+    // An axis towards the viewer is a dot, with its label beside it. Labels of neighbouring axes are moved apart.
     const Vector2 outward = along.norm() > 0.25 ? Vector2(along.normalized()) : Vector2(-1, 0);
     Vector2 letter = tip + 8 * outward;
     while (std::ranges::any_of(letters, [&](const Vector2& other) { return (other - letter).norm() < kLetter; }))
@@ -176,10 +176,10 @@ void draw_manifold(Svg& svg, const Box& box, const Explanation& explanation, con
   const std::span<const supernormal::ManifoldCorner> corners = explanation.corners();
   const Pair& pair = explanation.pair;
   const Vector3& contact = explanation.answer().contact;
-  const Frame against{-frame.toward, frame.up, frame.right};  // the normal: body 2 is on top
+  const Frame against{-frame.toward, frame.up, frame.right};  // along the normal: body 2 is on top
   Eigen::AlignedBox3d extent(against.from_world(contact));
   for (const supernormal::ManifoldCorner& corner : corners) extent.extend(against.from_world(corner.point));
-  constexpr double kShare = 0.7;  // of the box
+  constexpr double kShare = 0.7;  // fraction of the box
   const double scale = kShare * std::min(box.width / extent.sizes().x(), box.height / extent.sizes().y());
   const View view(against, against.to_world(extent.center()), scale, box);
   Polyline polygon;

@@ -1,4 +1,4 @@
-// The pair as it is seen across the common normal.
+// The pair, viewed perpendicular to the common normal.
 #pragma once
 
 #include "drawing/svg.hpp"
@@ -10,13 +10,13 @@ namespace explain_pair {
 /// Draws both bodies, the tangent planes, the witness points, the contact and the gap.
 void draw_pair(Svg& svg, const Box& box, const Explanation& explanation, const Frame& frame);
 
-/// Draws a mark of a contact point.
+/// Draws the mark of a contact point.
 void draw_contact(Svg& svg, const Vector2& at);
 
-/// Draws the directions of the world's axes.
+/// Draws the directions of the world axes.
 void draw_axes(Svg& svg, const Vector2& at, const Frame& frame);
 
-/// Draws the contact points of a flat contact, seen along the normal.
+/// Draws the points of a contact manifold, viewed along the normal.
 void draw_manifold(Svg& svg, const Box& box, const Explanation& explanation, const Frame& frame);
 
 }  // namespace explain_pair

@@ -15,11 +15,11 @@ namespace {
 using supernormal::Solver;
 
 constexpr double kStep = 2 * kDegree;        // of an arc on the map
-constexpr double kMarkersApart = 7;          // px; markers that would be nearer to others are left out
-constexpr std::size_t kFewEvaluations = 20;  // a longer path is drawn finely, without a rim
+constexpr double kMarkersApart = 7;          // px; a marker closer than this to another is omitted
+constexpr std::size_t kFewEvaluations = 20;  // a longer path is drawn finely, without outlined markers
 constexpr std::size_t kNumbered = 9;
 
-/// The great circle between two normals, in pieces where it leaves the map on one side and comes back on the other.
+/// The great circle between two normals, split where it leaves the map on one side and returns on the other.
 std::vector<Polyline> arc(const Vector3& from, const Vector3& to, const MapInPicture& map) {
   const double angle = 2 * std::asin(std::min(0.5 * (to - from).norm(), 1.0));
   const int pieces = 1 + static_cast<int>(angle / kStep);
@@ -35,7 +35,7 @@ std::vector<Polyline> arc(const Vector3& from, const Vector3& to, const MapInPic
   return lines;
 }
 
-/// The arcs between successive evaluations. A solver that goes in circles is drawn once.
+/// The arcs between successive evaluations. A cycle of a solver is drawn once.
 std::vector<Polyline> lines_of(const SolverPath& path, std::size_t count, const MapInPicture& map) {
   std::vector<Polyline> lines(1, {map.to_px(path.evaluations.front().n)});
   std::set<std::array<long, 4>> drawn;
@@ -54,7 +54,7 @@ std::vector<Polyline> lines_of(const SolverPath& path, std::size_t count, const 
   return lines;
 }
 
-/// Marks evaluations, and numbers the first of them, where there is room.
+/// Marks evaluations, and numbers the first ones where there is space.
 void draw_evaluations(Svg& svg, const SolverPath& path, std::size_t count, const MapInPicture& map, double size, bool has_numbers) {
   Polyline marked, numbered;
   const auto is_clear = [](const Polyline& others, const Vector2& at, double distance) {
@@ -94,7 +94,7 @@ PathStyle style_of(const SolverPath& path) {
   if (path.solver == Solver::Hybrid) return {kBlack, "none", Circle};
   if (path.solver == Solver::Newton) return {kVermilion, "7 3", Triangle};
   if (path.solver == Solver::FixedPoint) return {kPurple, "2 3", Square};
-  // The methods of the literature have their numbers in their names: a colour for each, dashes for the ways to do it.
+  // The literature methods have their numbers in their names. Each number has a colour; dashes distinguish the variants.
   if (path.name.ends_with("(1)")) return {kBlue, path.name.find("quadtree") == std::string::npos ? "none" : "2 4", Diamond};
   if (path.name.ends_with("(2)"))
     return {kGreen,
@@ -132,7 +132,7 @@ void draw_ring(Svg& svg, const Vector2& at) {
 }
 
 void draw_paths(Svg& svg, const Explanation& explanation, const MapInPicture& map, double size, bool has_numbers) {
-  // The hybrid on top.
+  // The hybrid is drawn last, on top.
   for (auto path = explanation.paths.rbegin(); path != explanation.paths.rend(); ++path) {
     draw_path(svg, *path, explanation.shown_evaluations(*path), map, size, has_numbers && path->solver == Solver::Hybrid);
   }

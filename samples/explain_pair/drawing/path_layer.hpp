@@ -7,7 +7,7 @@
 
 namespace explain_pair {
 
-/// How a solver is drawn.
+/// The style of a solver.
 struct PathStyle {
   const char* colour;
   const char* dashes;  ///< stroke-dasharray; "none" for a solid line
@@ -18,10 +18,10 @@ PathStyle style_of(const SolverPath& path);
 
 void draw_marker(Svg& svg, const Vector2& at, const PathStyle& style, double size);
 
-/// Draws the mark of the answer.
+/// Draws the mark of the result.
 void draw_ring(Svg& svg, const Vector2& at);
 
-/// Draws the evaluated normals of all solvers, the great circles between them, and the answer. `size` (px) of the markers.
+/// Draws the evaluated normals of all solvers, the great circles between them, and the result. `size`: of the markers, px.
 void draw_paths(Svg& svg, const Explanation& explanation, const MapInPicture& map, double size, bool has_numbers);
 
 }  // namespace explain_pair

@@ -34,7 +34,7 @@ constexpr Box kBoundsBox{900, 480, 284, 290};
 constexpr Box kManifoldBox{444, 648, 120, 120};
 const Vector2 kAxes(400, 710);
 constexpr double kRow = 22;       // of the table
-constexpr std::size_t kRows = 3;  // that have room in its box
+constexpr std::size_t kRows = 3;  // rows that fit in its box
 
 constexpr const char* kTitle = R"(font-size="17" font-weight="bold")";
 constexpr const char* kSubtitle = R"(font-size="13" fill="#444")";
@@ -47,8 +47,8 @@ std::string degrees(double radians) {
 
 void draw_titles(Svg& svg, const Explanation& explanation, double close_up) {
   const Pair& pair = explanation.pair;
-  // A long title is set smaller.
-  constexpr double kLargest = 17, kWidthOfLetter = 0.56;  // px; of the size
+  // A long title has a smaller font.
+  constexpr double kLargest = 17, kWidthOfLetter = 0.56;  // px; relative to the font size
   const auto letters = static_cast<double>(pair.title.size());
   const double size = std::min(kLargest, kPairBox.width / (kWidthOfLetter * std::max(letters, 1.0)));
   svg.text({16, 28}, pair.title, R"(font-weight="bold" font-size=")" + coordinate(size) + '"');
@@ -66,9 +66,9 @@ void draw_titles(Svg& svg, const Explanation& explanation, double close_up) {
   svg.text({kBoundsBox.x + 12, kBoundsBox.y - 9}, "of the gap: the grey area, from the answer", kSubtitle);
 }
 
-/// The legend of the paths, which is a table of the solvers.
+/// The legend of the paths, as a table of the solvers.
 void draw_table(Svg& svg, const Box& box, const Explanation& explanation) {
-  const double room = explanation.paths.size() > kRows ? 34 : 0;  // px; the names of the literature's methods are longer
+  const double room = explanation.paths.size() > kRows ? 34 : 0;  // px; names of literature methods are longer
   const std::array<double, 4> columns = {box.x, box.x + room + 190, box.x + room + 262, box.x + room + 392};
   const std::array heads = {"solver", "evaluations", "", ""};
   double y = box.y + 14;
@@ -89,7 +89,7 @@ void draw_table(Svg& svg, const Box& box, const Explanation& explanation) {
   }
 }
 
-/// What the other lines and marks are.
+/// The legend of the other lines and marks.
 void draw_legend(Svg& svg, const Box& box, const Explanation& explanation) {
   double y = box.y + 12;
   const auto row = [&](const std::string& words) {
@@ -140,7 +140,7 @@ const char* name_of(Status status) {
 }
 
 std::string picture_of(const Explanation& explanation) {
-  // More paths than the library's make the picture higher.
+  // Additional paths make the picture higher.
   const double more = kRow * static_cast<double>(std::max<std::size_t>(explanation.paths.size(), kRows) - kRows);
   const auto lower = [&](Box box) {
     box.y += more;

@@ -1,4 +1,4 @@
-// The picture of a pair: its panels, titles and legend.
+// The picture of a pair: panels, titles and legend.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace explain_pair {
 
-/// An SVG document.
+/// Returns an SVG document.
 std::string picture_of(const Explanation& explanation);
 
-/// "converged", or why not.
+/// "converged", or the reason for the failure.
 const char* name_of(supernormal::Status status);
 
 }  // namespace explain_pair

@@ -6,10 +6,10 @@
 namespace explain_pair {
 namespace {
 
-constexpr double kSmallestRegion = 24;  // px; what the cuts leave is not drawn if it is smaller
+constexpr double kSmallestRegion = 24;  // px; a smaller remaining region is not drawn
 constexpr std::size_t kMostRegions = 4;
 
-/// Some numbers of evaluations, up to all of them, for which to draw what is left.
+/// Some numbers of evaluations, up to all of them, for which to draw the remaining region.
 std::vector<std::size_t> regions_of(const SolverPath& path) {
   const std::size_t all = path.evaluations.size();
   std::vector<std::size_t> counts;
@@ -23,7 +23,7 @@ std::vector<std::size_t> regions_of(const SolverPath& path) {
   return counts;
 }
 
-/// Where the number of a region's border stands: at its highest point that is on the map and away from other numbers.
+/// The position of the number of a region's border: its highest point on the map away from other numbers.
 const Vector2* place_of_number(const std::vector<Polyline>& lines, const Polyline& others, const MapInPicture& map) {
   const Vector2* best = nullptr;
   for (const Polyline& line : lines) {

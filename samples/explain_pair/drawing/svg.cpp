@@ -40,7 +40,7 @@ std::string escaped(std::string_view text) {
         out += "&quot;";
         break;
       default:
-        // XML knows no other control characters.
+        // XML allows no other control characters.
         out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     }
   }
@@ -48,7 +48,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string coordinate(double value) {
-  std::array<char, 330> buffer;  // for the largest number
+  std::array<char, 330> buffer;  // fits the longest number
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, 1);
   std::string text(buffer.data(), end);
   if (text.ends_with(".0")) text.resize(text.size() - 2);
@@ -104,7 +104,7 @@ void Svg::text(const Vector2& at, std::string_view words, std::string_view style
 
 void Svg::arrow(const Vector2& from, const Vector2& to, std::string_view colour, double width) {
   const Vector2 along = (to - from).normalized(), across(-along.y(), along.x());
-  const double length = 3 + 3 * width;  // of the head
+  const double length = 3 + 3 * width;  // of the arrowhead
   line(from, to - 0.7 * length * along, "stroke=\"" + std::string(colour) + "\" stroke-width=\"" + coordinate(width) + '"');
   polygon({to, to - length * along + 0.4 * length * across, to - length * along - 0.4 * length * across},
           "fill=\"" + std::string(colour) + '"');

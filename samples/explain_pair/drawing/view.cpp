@@ -12,17 +12,18 @@
 namespace explain_pair {
 namespace {
 
-// A curve is halved until its points are this near to one another or their parameters are as good as equal: at a flat face the
-// boundary point jumps.
+// A curve is bisected until its points are this close, or its parameters are practically equal: at a flat face the boundary point
+// jumps.
 constexpr double kPixelStep = 3;
 constexpr double kSmallestStep = 1e-10;
 constexpr int kFirstPoints = 32;
 constexpr double kRounding = 1e-15;
 
-// Of a drawn line from the exact one.
+// Largest deviation of a drawn line from the exact one.
 constexpr double kOutlineError = 0.08;
 
-// Of the best by area: among views that show as much, that with the offset of the centres in the picture plane is chosen.
+// Relative to the largest area. Among views with nearly as much area, the one with the centres' offset in the picture plane is
+// chosen.
 constexpr double kPreference = 0.02;
 
 constexpr int kViews = 180;
@@ -56,12 +57,12 @@ Polyline trace(const PlacedBody& body, const View& view, const Curve& normal, do
   return simplified(line, kOutlineError);
 }
 
-/// Components that are 0 but for rounding are 0: the boundary point of a body with flat faces is a steep power of them.
+/// Sets components within rounding of 0 to 0: on a body with flat faces the boundary point is a steep power of them.
 Vector3 without_rounding(const Vector3& normal) {
   return normal.unaryExpr([](double component) { return std::abs(component) < kRounding ? 0 : component; });
 }
 
-/// The circle of normals at the angle acos(cosine) from an axis; it starts where it is nearest to the viewer.
+/// The circle of normals at the angle acos(cosine) from an axis. It starts where it is nearest to the viewer.
 struct Circle {
   Vector3 axis, nearest, aside;
   double cosine, sine;
@@ -73,7 +74,7 @@ struct Circle {
     aside = axis.cross(nearest);
   }
   Vector3 operator()(double angle) const { return cosine * axis + sine * (std::cos(angle) * nearest + std::sin(angle) * aside); }
-  /// Normals up to this angle to both sides of the start are visible; pi if all are, negative if none is.
+  /// Normals up to this angle on both sides of the start are visible; pi if all are, negative if none is.
   double visible(const Vector3& toward) const {
     const double depth = cosine * axis.dot(toward), reach = sine * nearest.dot(toward);
     if (depth >= reach) return std::numbers::pi;
@@ -88,7 +89,7 @@ Frame frame_of_picture(const Pair& pair, const Vector3& normal) {
   const Vector3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
   const Vector3 offset = pair.body2.pose.position - pair.body1.pose.position;
   const Vector3 aside = offset - offset.dot(normal) * normal;
-  // A point has none.
+  // A point has no area.
   const auto has_area = [](const PlacedBody& body) { return body.shape->half_extents().minCoeff() > 0; };
   const auto area = [&](const PlacedBody& body, const Vector3& view) {
     return has_area(body) ? supernormal::projected_area(*body.shape, body.pose.rotation.transpose() * view) : 0;
@@ -110,7 +111,7 @@ Frame frame_of_picture(const Pair& pair, const Vector3& normal) {
       frame = {normal, toward.cross(normal), toward};
     }
   }
-  // Up is up in the world, as far as it can be.
+  // The upward direction is as close as possible to the upward direction of the world.
   if (frame.up.z() < 0) frame = {normal, -frame.up, -frame.toward};
   return frame;
 }
@@ -150,7 +151,7 @@ Polyline lit_part(const PlacedBody& body, const View& view, const Vector3& light
   if (end < 0) return {};
   Polyline part = trace(body, view, circle, -end, end);
   if (end == std::numbers::pi) return part;
-  // Back along the outline, on the side of the light.
+  // Return along the outline, on the side of the light.
   const Vector3 middle = (source - source.dot(toward) * toward).normalized(), aside = toward.cross(middle);
   const auto angle_of = [&](const Vector3& normal) { return std::atan2(normal.dot(aside), normal.dot(middle)); };
   const Curve rim = [&](double t) { return without_rounding(std::cos(t) * middle + std::sin(t) * aside); };

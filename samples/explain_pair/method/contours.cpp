@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kBelow = -std::numeric_limits<double>::infinity();
 
-/// Marching squares over the grid with a frame of nodes around it that are below every level, so that all polygons close. A frame
-/// node has the coordinates of the nearest node of the grid.
+/// Marching squares over the grid. It is framed by nodes below every level, so that all polygons close. A frame node has the
+/// coordinates of the nearest grid node.
 class Marching {
  public:
   Marching(const Grid& grid, double level) : grid_(grid), level_(level), columns_(grid.columns() + 2), rows_(grid.rows() + 2) {}
@@ -36,7 +36,7 @@ class Marching {
   }
 
  private:
-  // An edge of the framed grid: twice the number of its first node, plus one if it goes up.
+  // An edge of the framed grid: twice the index of its first node, plus one if it is vertical.
   using Edge = std::size_t;
 
   double value(std::size_t column, std::size_t row) const {
@@ -56,7 +56,7 @@ class Marching {
     const std::size_t column2 = column + (edge % 2 == 0 ? 1 : 0), row2 = row + (edge % 2 == 0 ? 0 : 1);
     const double from = value(column, row), to = value(column2, row2);
     const Vector2 start = position(column, row), end = position(column2, row2);
-    if (from == kBelow || to == kBelow) return start;  // both are one point
+    if (from == kBelow || to == kBelow) return start;  // both are the same point
     return start + (level_ - from) / (to - from) * (end - start);
   }
 
@@ -66,7 +66,7 @@ class Marching {
     const std::array<Edge, 4> side = {edge(column, row, false), edge(column + 1, row, true), edge(column, row + 1, false),
                                       edge(column, row, true)};
     const auto is_in = [&](std::size_t k) { return corner[k % 4] >= level_; };
-    // Anticlockwise around the cell, a side leads out of the region or into it.
+    // Anticlockwise around the cell, an edge leaves the region or enters it.
     std::array<std::size_t, 2> out{}, in{};
     std::size_t outs = 0, ins = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -75,7 +75,7 @@ class Marching {
     }
     if (outs == 1) next_[side[out[0]]] = side[in[0]];
     if (outs < 2) return;
-    // Two opposite corners are in the region: it is one piece or two.
+    // Two opposite corners are in the region. It is one piece or two.
     const bool is_connected = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]) >= level_;
     for (std::size_t k = 0; k < 2; ++k) {
       const std::size_t after = (out[k] + 1) % 4, before = (out[k] + 3) % 4;
@@ -137,7 +137,7 @@ std::vector<Polyline> without_border(const std::vector<Polyline>& polygons, cons
   std::vector<Polyline> lines;
   for (const Polyline& polygon : polygons) {
     const std::size_t count = polygon.size();
-    // It starts behind an edge of the border, where there is one, so that no line is cut in two.
+    // Start after an edge on the border, if there is one, so that no line is split.
     std::size_t start = 0;
     while (start < count && !is_border(polygon[start], polygon[(start + 1) % count])) ++start;
     Polyline line;

@@ -1,4 +1,4 @@
-// Regions and lines of a function that is known at the nodes of a grid.
+// Superlevel sets and contour lines of a function given on a grid.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,12 +11,12 @@ namespace explain_pair {
 using Vector2 = Eigen::Vector2d;
 using Polyline = std::vector<Vector2>;
 
-/// Values at columns x rows nodes; the node (column, row) is at these coordinates.
+/// Values at columns x rows nodes. The node (column, row) has these coordinates.
 class Grid {
  public:
   Grid(std::size_t columns, std::size_t rows) : columns_(columns), rows_(rows), values_(columns * rows) {}
 
-  /// Sets every value to that of the function at (column, row).
+  /// Sets each value to the function value at (column, row).
   void fill(const std::function<double(double column, double row)>& value);
 
   double at(std::size_t column, std::size_t row) const { return values_[row * columns_ + column]; }
@@ -30,17 +30,17 @@ class Grid {
   std::vector<double> values_;
 };
 
-/// Where the function is at least `level`: closed polygons, holes included, by marching squares with linear interpolation. Two
-/// corners of a cell that are above and diagonal to each other are connected if the mean of the four is above.
+/// The set where the function is at least `level`: closed polygons, holes included, by marching squares with linear interpolation.
+/// Two diagonal corners of a cell above the level are connected if the mean of all four corners is above, too.
 std::vector<Polyline> superlevel_polygons(const Grid& grid, double level);
 
-/// The parts of such polygons that are not on the border of the grid: the contour lines. A closed one ends at its start.
+/// The contour lines: the parts of such polygons off the border of the grid. A closed line ends at its start.
 std::vector<Polyline> without_border(const std::vector<Polyline>& polygons, const Grid& grid);
 
-/// The polyline without points that are nearer than `error` to the line between those that remain (Douglas and Peucker 1973).
+/// Removes points that are nearer than `error` to the line between the remaining ones (Douglas and Peucker 1973).
 Polyline simplified(const Polyline& line, double error);
 
-/// The least round step (1, 2 or 5 times a power of ten) that divides `range` into at most so many parts.
+/// The smallest round step (1, 2 or 5 times a power of ten) that divides `range` into at most `parts` parts.
 double round_step(double range, int parts);
 
 }  // namespace explain_pair

@@ -8,7 +8,7 @@
 namespace explain_pair {
 namespace {
 
-constexpr double kUnit = 1e-9;  // far above rounding; where an iterate has no normal, it is zero or not a number
+constexpr double kUnit = 1e-9;  // far above rounding; an iterate without a normal has zero or NaN
 
 supernormal::Status status_of(literature::Outcome outcome) {
   switch (outcome) {
@@ -37,12 +37,12 @@ std::vector<SolverPath> literature_paths(const Pair& pair, const supernormal::Se
         {.tolerance = settings.tolerance, .first_normal = pair.first_normal ? &*pair.first_normal : nullptr, .path = &normals});
     SolverPath path{name, std::nullopt, {}, {}, {}};
     for (const Vector3& n : normals) {
-      if (!(std::abs(n.squaredNorm() - 1) <= kUnit)) break;  // the method has left its domain
+      if (!(std::abs(n.squaredNorm() - 1) <= kUnit)) break;  // the method left its domain
       path.evaluations.push_back(gap.evaluate_in_body1(n));
     }
     if (path.evaluations.empty()) continue;
     path.answer.status = status_of(found.outcome);
-    // A method that knows no gap ends at its last normal.
+    // A method that does not compute the gap ends at its last normal.
     path.answer.gap = found.outcome == literature::Outcome::Found ? found.gap : path.evaluations.back().s;
     path.answer.normal = body1.pose.rotation * found.normal;
     path.answer.evaluations = found.evaluations;

@@ -1,4 +1,4 @@
-// What a method of the literature did with a pair.
+// The paths of literature methods for a pair.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace explain_pair {
 
-/// Runs every method of samples/benchmarks/literature at the tolerance of the settings: none if a body is neither a superellipsoid
-/// nor an ellipsoid. A path has the normals of the iterates, with s there; evaluations for the start are counted only.
+/// Runs every method of samples/benchmarks/literature with the tolerance of the settings. Empty unless both bodies are
+/// superellipsoids or ellipsoids. A path has the normals of the iterates with s(n). The evaluations of the start are only counted.
 std::vector<SolverPath> literature_paths(const Pair& pair, const supernormal::Settings& settings);
 
 }  // namespace explain_pair

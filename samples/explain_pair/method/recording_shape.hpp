@@ -1,4 +1,4 @@
-// A shape that writes down for which normals it is asked.
+// A shape that records the normals of its evaluations.
 #pragma once
 
 #include <supernormal/shapes/shape.hpp>
@@ -12,11 +12,11 @@ using supernormal::Order;
 using supernormal::Shape;
 using supernormal::Vector3;
 
-/// Another shape, with its digits, that records the normals of all evaluations. A solver evaluates both bodies once for every
-/// evaluation of the gap function, so that its path is read off one of them and the library needs no hook.
+/// Wraps a shape, returns the same digits, and records the normals of all evaluations. A solver evaluates both bodies once per
+/// evaluation of the gap function. So one body records the solver's path, and the library needs no hook.
 ///
-/// It does not say that it is a superellipsoid, because two of these are evaluated together and not through evaluate(); the
-/// library promises the same digits either way (Superellipsoid::evaluate_both). Unlike other shapes it is not pure: one thread.
+/// It hides that it is a superellipsoid, because two superellipsoids are evaluated together and not by evaluate(). The library
+/// promises the same digits either way (Superellipsoid::evaluate_both). Unlike other shapes it is not pure: use it in one thread.
 class RecordingShape final : public Shape {
  public:
   /// Keeps references.

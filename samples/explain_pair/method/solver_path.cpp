@@ -14,7 +14,8 @@ using supernormal::Proximity;
 using supernormal::Settings;
 using supernormal::Solver;
 
-// Up to here every evaluation has its interval; farther on they grow rarer by this share, since each takes a query.
+// Up to kAllIntervals evaluations each has its interval. Beyond, the spacing is this fraction of their number, because each
+// interval takes a query.
 constexpr int kAllIntervals = 24;
 constexpr int kShareOfGaps = 8;
 

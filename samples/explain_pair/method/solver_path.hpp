@@ -1,4 +1,4 @@
-// What a solver did with a pair.
+// The path of a solver for a pair.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,13 @@ namespace explain_pair {
 
 /// The gap function at one normal, in the world frame.
 struct Evaluation {
-  Vector3 n;    ///< unit, from body 1 to body 2
-  double s;     ///< m
-  Vector3 cut;  ///< m; d' = d + rho n: s(m) + rho <= m.d' for every unit m (lib/proximity/README.md, lemma 1)
+  Vector3 n;  ///< unit, from body 1 to body 2
+  double s;   ///< m
+  Vector3
+      cut;  ///< m; supporting half-space: d' = d + rho n: s(m) + rho <= m.d' for every unit m (lib/proximity/README.md, lemma 1)
 };
 
-/// What was proved after the first evaluations: the largest value of s is in [lower, upper], m.
+/// A proved bound after some evaluations: the maximum of s is in [lower, upper], m.
 struct ProvedInterval {
   int evaluations;
   double lower, upper;
@@ -26,10 +27,10 @@ struct ProvedInterval {
 
 struct SolverPath {
   std::string name;
-  std::optional<supernormal::Solver> solver;  ///< empty for a method that is not the library's
+  std::optional<supernormal::Solver> solver;  ///< empty for a literature method
   supernormal::Proximity answer;              ///< in the world frame
   std::vector<Evaluation> evaluations;        ///< in order
-  std::vector<ProvedInterval> intervals;      ///< after each evaluation, or after some when there are many
+  std::vector<ProvedInterval> intervals;      ///< after each evaluation, or after some of many
 };
 
 /// s at a unit normal in the world frame.
@@ -40,7 +41,7 @@ class WorldGap {
 
   double s(const Vector3& n);
   Evaluation evaluate(const Vector3& n) { return evaluate_in_body1(rotation_.transpose() * n); }
-  /// The normal is in the frame of body 1, in which solvers work.
+  /// The normal is in the frame of body 1, the frame of the solvers.
   Evaluation evaluate_in_body1(const Vector3& n);
   const supernormal::GapFunction& function() const { return gap_; }
 
@@ -52,11 +53,11 @@ class WorldGap {
 
 const char* name_of(supernormal::Solver solver);
 
-/// Whether the library has this solver for the pair: others than the hybrid need smooth bodies, and Newton's method a Hessian.
+/// Whether the library has this solver for the pair. All but the hybrid need smooth bodies; Newton's method needs a Hessian.
 bool is_solver_for(supernormal::Solver solver, const Pair& pair);
 
-/// Runs the solver of the settings and records its path. An interval after k evaluations is that of the library's answer to a
-/// query that may take no more.
+/// Runs the solver of the settings and records its path. The interval after k evaluations is the result of a library query that is
+/// limited to k evaluations.
 SolverPath solver_path(const Pair& pair, const supernormal::Settings& settings);
 
 }  // namespace explain_pair

@@ -33,7 +33,7 @@ Vector2 LambertMap::to_plane(const Frame& frame, const Vector3& normal) {
   const Vector3 v = frame.from_world(normal);
   const Vector2 across(-v.z(), v.y());
   if (v.x() > 0) return across * std::sqrt(2 / (1 + v.x()));
-  // The antipode of the centre is a whole circle of the map; any point of it will do.
+  // The antipode of the centre is a whole circle of the map. Any point of it is valid.
   const double length = across.norm();
   return std::sqrt(2 * (1 - v.x())) * (length > 0 ? Vector2(across / length) : Vector2(1, 0));
 }

@@ -12,8 +12,8 @@ using Vector2 = Eigen::Vector2d;
 
 constexpr double kDegree = std::numbers::pi / 180;  ///< rad
 
-/// A right-handed frame of unit vectors: that of the picture of the pair, and of the maps, whose centre is `right`, whose north is
-/// `up` and whose east is away from the viewer.
+/// A right-handed frame of unit vectors, for the picture of the pair and for the maps. On a map, `right` is the centre, `up` is
+/// north, and east is away from the viewer.
 struct Frame {
   Vector3 right, up, toward;
 
@@ -38,7 +38,7 @@ struct HammerMap {
   static Place to_sphere(const Vector2& point);
 };
 
-/// Lambert's azimuthal map about the centre; distances from there are 2 sin(angle / 2). (Snyder, eqs. 24-2 and 20-18.)
+/// Lambert's azimuthal map about the centre. Distances from the centre are 2 sin(angle / 2). (Snyder, eqs. 24-2 and 20-18.)
 struct LambertMap {
   static Vector2 to_plane(const Frame& frame, const Vector3& normal);
   static Vector3 to_sphere(const Frame& frame, const Vector2& point);  ///< at most 2 from the centre

@@ -20,7 +20,7 @@ namespace {
 using falling_particles::InputError;
 using supernormal::samples::Body;
 
-constexpr double kUnitLength = 1e-3;  // by how much the length of a quaternion may differ from 1
+constexpr double kUnitLength = 1e-3;  // largest deviation of the length of a quaternion from 1
 constexpr double kLargest = 1e30;     // m
 constexpr double kFarthest = 1e100;   // m
 

@@ -1,4 +1,4 @@
-// The pairs of tests/hard_cases, by name.
+// The pairs of tests/hard_cases by name.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace explain_pair {
 
-/// The case of that name. Throws falling_particles::InputError.
+/// The case with this name. Throws falling_particles::InputError.
 Pair hard_case(const std::string& name);
 
-/// The names of all cases and why each is hard, two lines a case.
+/// The names of all cases and why each is hard, two lines per case.
 std::string list_of_hard_cases();
 
 }  // namespace explain_pair

@@ -1,4 +1,4 @@
-// The two bodies that a picture explains.
+// The two bodies in a picture.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@ using supernormal::Pose;
 using supernormal::Shape;
 using supernormal::Vector3;
 
-/// A body in its place.
+/// A body in its pose.
 struct PlacedBody {
   std::string description;
   std::shared_ptr<const Shape> shape;
   Pose pose;
 
-  /// m; how far the body reaches from the world's origin along the unit vector.
+  /// The extent of the body from the world's origin along a unit vector, m.
   double reach(const Vector3& direction) const {
     return pose.position.dot(direction) + shape->support(pose.rotation.transpose() * direction);
   }
-  /// m, world frame; the boundary point with that outward unit normal, which is in the world frame, too.
+  /// The boundary point with this outward unit normal, m. Both are in the world frame.
   Vector3 point(const Vector3& normal) const {
     return pose.position + pose.rotation * shape->point(pose.rotation.transpose() * normal);
   }
@@ -34,7 +34,7 @@ struct PlacedBody {
 struct Pair {
   std::string title;
   PlacedBody body1, body2;
-  std::optional<Vector3> first_normal = {};  ///< unit, body 1's frame; where the solvers start, if it is prescribed
+  std::optional<Vector3> first_normal = {};  ///< unit, frame of body 1; the start of the solvers, if prescribed
 };
 
 }  // namespace explain_pair

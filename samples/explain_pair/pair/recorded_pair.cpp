@@ -30,7 +30,7 @@ using falling_particles::shortest;
 constexpr std::size_t kColumns = 10;
 constexpr std::string_view kHead = "time_s,body,grain,x_m,y_m,z_m,qw,qx,qy,qz";
 
-// A time is that of a frame if it agrees with the frame's to this, so that it need not be typed with all digits.
+// A time selects the frame that agrees to this, so that it need not be typed with all digits.
 constexpr double kSameTime = 1e-6;  // s
 
 struct RecordedBody {
@@ -59,7 +59,7 @@ std::array<std::string_view, kColumns> columns_of(std::string_view row, const st
   return columns;
 }
 
-/// The frame nearest to a time: its time and its bodies by their indices, some of which may have gone.
+/// The frame nearest to a time: its time and its bodies by index. Removed bodies are missing.
 struct NearestFrame {
   double time = std::numeric_limits<double>::infinity();
   std::map<std::size_t, RecordedBody> bodies = {};
@@ -103,7 +103,7 @@ class Grains {
         scene_(falling_particles::load_scene(recording.scene_path, recording.overrides)),
         bodies_(nearest_frame(recording.trajectory_path, recording.time).bodies) {
     if (!scene_.has_sizes()) return;
-    falling_particles::Random random(scene_.seed);  // as the run drew them
+    falling_particles::Random random(scene_.seed);  // in the order in which the run drew them
     const auto placements = place(scene_, random);
     scales_.reserve(placements.size());
     for (const auto& placement : placements) scales_.push_back(placement.scale);
@@ -128,14 +128,14 @@ class Grains {
     return {text, falling_particles::shape_of(grain.all_parts().front().body, scale_of(index)), bodies_.at(index).pose};
   }
 
-  /// The body with the least gap to that one.
+  /// The body with the smallest gap to the body `first`.
   std::size_t nearest_to(std::size_t first) const {
     const PlacedBody body1 = body(first);
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = first;
     for (const auto& [index, other] : bodies_) {
       const double between = (other.pose.position - body1.pose.position).norm();
-      // Spheres around the two bodies bound their gap from below.
+      // The bounding spheres of the two bodies bound their gap from below.
       if (index == first || between - radius_of(first) - radius_of(index) > least) continue;
       const PlacedBody body2 = body(index);
       const double gap = supernormal::find_proximity(*body1.shape, body1.pose, *body2.shape, body2.pose).gap;
@@ -174,7 +174,7 @@ class Grains {
   const Recording& recording_;
   Scene scene_;
   std::map<std::size_t, RecordedBody> bodies_;
-  std::vector<double> scales_;  // of the grains' lengths; none where all are 1
+  std::vector<double> scales_;  // scale factors of the grains; empty if all are 1
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Two grains of a run, as its trajectory left them.
+// Two grains of a run, in the poses of its trajectory.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace explain_pair {
 
-/// Which grains of a run.
+/// Selects grains of a run.
 struct Recording {
-  std::string scene_path;                   ///< the scene file that was run
+  std::string scene_path;                   ///< the scene file of the run
   std::string trajectory_path;              ///< its trajectory.csv
   double time;                              ///< s; of a frame
   std::size_t first;                        ///< index of a body
-  std::optional<std::size_t> second;        ///< of the other; the body nearest to the first, or deepest in it, if empty
-  std::vector<std::string> overrides = {};  ///< what the run was given with --set
+  std::optional<std::size_t> second;        ///< index of the other body; empty: the body with the smallest gap
+  std::vector<std::string> overrides = {};  ///< the --set options of the run
 };
 
-/// Throws falling_particles::InputError. The two grains are in the frame of the run.
+/// The pair, in the frame of the run. Throws falling_particles::InputError.
 Pair recorded_pair(const Recording& recording);
 
 }  // namespace explain_pair

@@ -21,11 +21,11 @@ std::size_t remove_repeated(std::vector<Triangle>& triangles) {
   });
 }
 
-/// A connected part of a mesh: its triangles, and whether each is to be turned round to be like the first.
+/// A connected part of a mesh: its triangles, and for each whether to reverse it to match the first.
 struct Part {
   std::vector<std::pair<std::size_t, bool>> triangles;
   Box box;
-  bool is_inside_out = false;  // when they are
+  bool is_inside_out = false;  // after these reversals
 };
 
 bool has_edge(const Triangle& t, std::uint32_t from, std::uint32_t to) {
@@ -35,7 +35,7 @@ bool has_edge(const Triangle& t, std::uint32_t from, std::uint32_t to) {
   return false;
 }
 
-/// The parts, by the edges that two triangles have in common.
+/// The connected parts: triangles that share an edge.
 std::vector<Part> find_parts(const std::vector<Triangle>& triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> on_edge;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -63,7 +63,7 @@ std::vector<Part> find_parts(const std::vector<Triangle>& triangles) {
   return parts;
 }
 
-/// Measures a part: its box, and the sign of the volume between it and its mean point.
+/// Computes the box of a part, and the sign of the volume between its triangles and their mean point.
 void measure(Part& part, const Data& data) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [i, is_turned] : part.triangles) {
@@ -82,7 +82,7 @@ void measure(Part& part, const Data& data) {
   part.is_inside_out = volume < 0;
 }
 
-/// The largest part that the box of another one lies in; itself if there is none.
+/// The largest part whose box contains the box of `part`; itself if there is none.
 const Part& around(const Part& part, const std::vector<Part>& parts) {
   const Part* outer = &part;
   for (const Part& other : parts) {

@@ -1,4 +1,4 @@
-// Triangles that face outwards.
+// Orients triangles outwards.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 namespace fit {
 
-/// What was done to a mesh.
+/// The changes to a mesh.
 struct Oriented {
-  std::size_t removed = 0;  ///< triangles without three corners, or with those of an earlier one
+  std::size_t removed = 0;  ///< triangles with coincident vertices, or with the vertices of an earlier triangle
   std::size_t turned = 0;   ///< triangles that faced inwards
 };
 
-/// Makes all triangles of a welded mesh face outwards: neighbours alike, and each connected part by the volume that it encloses. A
-/// part that lies in another one is a cavity, and is turned round with that alone. Triangles without three corners go, and of two
-/// with the same corners (a mesh with two sides) the second.
+/// Orients all triangles of a welded mesh outwards. Neighbours get the same orientation. Each connected part is oriented by the
+/// sign of its volume. A part inside another one is a cavity and is oriented together with it. Removes triangles with coincident
+/// vertices. Of two triangles with the same vertices (a two-sided mesh) it removes the second.
 Oriented orient(Data& data);
 
 }  // namespace fit

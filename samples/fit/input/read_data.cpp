@@ -31,7 +31,7 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-/// What stands between two numbers: "" for spaces, or the mark, with a space where one follows.
+/// The separator between two numbers: "" for spaces, or the mark, followed by a space if there is one.
 std::string separator_at(const char*& at) {
   std::string separator;
   for (; std::isspace(static_cast<unsigned char>(*at)) != 0 || *at == ',' || *at == ';'; ++at) {
@@ -42,8 +42,8 @@ std::string separator_at(const char*& at) {
   return separator;
 }
 
-/// The numbers of a line, at most `values.size()` of them; -1 when something else stands there, or more. Throws InputError when
-/// numbers are separated in more than one way: in "1,5 2,5 3,5" the commas are decimal ones.
+/// The numbers of a line, at most `values.size()`. Returns -1 if the line has anything else, or more. Throws InputError when a line
+/// has several separators: in "1,5 2,5 3,5" the commas are decimal commas.
 int parse_numbers(const std::string& where, const std::string& line, std::array<double, 6>& values) {
   const char* at = line.c_str();
   int count = 0;
@@ -64,7 +64,7 @@ int parse_numbers(const std::string& where, const std::string& line, std::array<
   return count;
 }
 
-/// The last three numbers of a line as a normal. A colour is none.
+/// The last three numbers of a line as a normal. A colour is refused.
 Eigen::Vector3d read_normal(const std::string& where, const std::array<double, 6>& values) {
   constexpr double kUnit = 1e-2;
   const Eigen::Vector3d normal(values[3], values[4], values[5]);
@@ -76,7 +76,7 @@ Eigen::Vector3d read_normal(const std::string& where, const std::array<double, 6
   throw InputError(text.str());
 }
 
-/// The beginning of a line as it may stand in a message.
+/// The beginning of a line, quoted for a message.
 std::string in_quotes(const std::string& line) {
   constexpr std::size_t kLongest = 40;
   std::string text = line.substr(0, std::min(kLongest, line.find_last_not_of("\r\n") + 1));
@@ -91,7 +91,7 @@ Data read_text(const std::string& path) {
   Data data;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
-    if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // the mark of UTF-8
+    if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // the byte order mark of UTF-8
     line.erase(std::min(line.find('#'), line.size()));
     std::array<double, 6> values{};
     const std::string where = path + ":" + std::to_string(number) + ": ";
@@ -113,7 +113,7 @@ Eigen::Vector3d vector_of(const aiVector3D& v) { return {double{v.x}, double{v.y
 
 void append(const aiMesh& mesh, Data& data) {
   const auto first = static_cast<std::uint32_t>(data.vertices.points.size());
-  // Assimp cannot tell whether normals of triangles come from the file; those of the triangles themselves always do.
+  // Assimp does not report whether vertex normals of triangles come from the file. The triangles have exact normals of their own.
   const bool has_triangles = (mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) != 0;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     data.vertices.points.push_back(vector_of(mesh.mVertices[i]));
@@ -128,11 +128,11 @@ void append(const aiMesh& mesh, Data& data) {
 
 Data read_by_assimp(const std::string& path) {
   Assimp::Importer importer;
-  // The formats have no transformations, so that nodes need not be looked at.
+  // These formats have no transformations, so the nodes of the scene can be ignored.
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw InputError(path + ": cannot be read: " + importer.GetErrorString());
   Data data;
-  data.is_single = true;  // Assimp keeps coordinates so
+  data.is_single = true;  // Assimp stores single precision
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], data);
   if (data.vertices.normals.size() != data.vertices.points.size()) data.vertices.normals.clear();
   return data;
@@ -140,7 +140,7 @@ Data read_by_assimp(const std::string& path) {
 
 /// Far from the origin, coordinates in single precision lose the shape.
 void require_precision(const std::string& path, const std::vector<Eigen::Vector3d>& points) {
-  constexpr double kMostRounding = 1e-4;  // over the extent; 1e-3 moves exponents by several per cent
+  constexpr double kMostRounding = 1e-4;  // relative to the extent; 1e-3 changes exponents by several per cent
   double largest = 0;
   for (const Eigen::Vector3d& x : points) largest = std::max(largest, x.cwiseAbs().maxCoeff());
   const double rounding = largest * double{std::numeric_limits<float>::epsilon()} / 2;
@@ -153,7 +153,7 @@ void require_precision(const std::string& path, const std::vector<Eigen::Vector3
   throw InputError(text.str());
 }
 
-/// Says what was done to a mesh.
+/// Describes the changes to a mesh.
 std::string note_of(const Oriented& done, std::size_t triangles, std::size_t stray) {
   std::string note;
   const auto add = [&](const std::string& text) { note += (note.empty() ? "" : "; ") + text; };
@@ -165,7 +165,7 @@ std::string note_of(const Oriented& done, std::size_t triangles, std::size_t str
   return note;
 }
 
-/// Leaves out the vertices that no triangle has: they are not of the surface. Returns how many there were.
+/// Removes vertices without a triangle: they are not on the surface. Returns how many.
 std::size_t remove_stray_vertices(Data& data) {
   constexpr auto kStray = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(data.vertices.points.size(), kStray);
@@ -184,7 +184,7 @@ std::size_t remove_stray_vertices(Data& data) {
   return stray;
 }
 
-/// Makes one vertex of those in the same place: an .stl repeats them for every triangle.
+/// Merges coincident vertices: an .stl file repeats them for every triangle.
 void weld(Data& data) {
   std::map<std::array<double, 3>, std::uint32_t> number_of;
   std::vector<Eigen::Vector3d> points;
@@ -202,7 +202,7 @@ void weld(Data& data) {
 
 void check(const std::string& path, Data& data) {
   if (data.vertices.points.empty()) throw InputError(path + ": no points");
-  // A normal that is 0 or not finite says nothing, and then none of the file is trusted to.
+  // If one normal is 0 or not finite, all normals of the file are ignored.
   bool has_normals = !data.vertices.normals.empty();
   for (std::size_t i = 0; i < data.vertices.points.size(); ++i) {
     if (!data.vertices.points[i].allFinite()) {

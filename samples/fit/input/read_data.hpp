@@ -9,24 +9,25 @@
 
 namespace fit {
 
-/// Thrown when the user's file is of no use. what() is the whole message for the user.
+/// Thrown for an unusable file. what() is the complete message for the user.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What a file holds: triangles, which face outwards, or points alone.
+/// The contents of a file: triangles that face outwards, or points alone.
 struct Data {
-  Cloud vertices;                   ///< all points of the file, with the normals that it gives (points only)
-  std::vector<Triangle> triangles;  ///< none: a point cloud
-  std::string note;                 ///< what was mended in the file, for the user; "": nothing
+  Cloud vertices;                   ///< all points of the file, with its normals (points only)
+  std::vector<Triangle> triangles;  ///< empty for a point cloud
+  std::string note;                 ///< the repairs, for the user; "": none
   bool is_single = false;           ///< whether coordinates were rounded to single precision
 };
 
-/// Reads a mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz: lines of x y z, or x y z nx ny nz, with # for comments), and
-/// multiplies lengths by `scale`. Vertices of a mesh that no triangle has are left out. Throws InputError: no such file, unknown
-/// extension, nothing in it, a number that is not finite, decimal commas, normals that are none, coordinates that lose their digits
-/// in single precision.
+/// Reads a mesh (.stl, .obj, .ply) or points (.ply, .obj, .xyz). A line of an .xyz is x y z, or x y z nx ny nz; # starts a comment.
+/// Multiplies lengths by `scale`. Removes mesh vertices without a triangle.
+///
+/// Throws InputError for a missing or empty file, an unknown extension, a number that is not finite, decimal commas, invalid
+/// normals, or coordinates that lose too many digits in single precision.
 Data read_data(const std::string& path, double scale);
 
 }  // namespace fit

@@ -22,7 +22,7 @@ enum class Format { Text, LittleEndian, BigEndian };
 struct Type {
   std::array<const char*, 2> names;
   std::size_t bytes;
-  char kind;  // 'i'nteger, 'u'nsigned or 'f'loating
+  char kind;  // 'i'nteger, 'u'nsigned or 'f'loating point
 };
 
 constexpr std::array kTypes = {Type{{"char", "int8"}, 1, 'i'},     Type{{"uchar", "uint8"}, 1, 'u'},
@@ -33,7 +33,7 @@ constexpr std::array kTypes = {Type{{"char", "int8"}, 1, 'i'},     Type{{"uchar"
 struct Property {
   std::string name;
   const Type* type = nullptr;
-  const Type* count_type = nullptr;  // of a list
+  const Type* count_type = nullptr;  // for a list
 };
 
 struct Element {
@@ -122,13 +122,13 @@ Header read_header(const std::string& path, const std::string& bytes) {
   }
 }
 
-/// The numbers after the header, one by one.
+/// Reads the numbers after the header one by one.
 class Numbers {
  public:
   Numbers(const std::string& path, const std::string& bytes, const Header& header)
       : path_(path), bytes_(bytes), format_(header.format), at_(header.bytes), line_(header.lines + 1) {}
 
-  /// What is read next: for messages.
+  /// The element to read next, for messages.
   void expect(const Element& element, std::uint64_t index) {
     element_ = &element;
     index_ = index;
@@ -139,17 +139,17 @@ class Numbers {
   std::size_t next_count(const Type& type) {
     const double count = next(type);
     if (!(count >= 0) || count != std::floor(count)) fail("a list has " + text_of(count) + " entries");
-    // Every entry takes a byte at least: a count that is beyond the file is not waited for.
+    // Every entry takes at least one byte: refuse a count beyond the end of the file early.
     if (count > static_cast<double>(bytes_.size() - at_))
       fail("a list has " + text_of(count) + " entries, but the file ends before");
     return static_cast<std::size_t>(count);
   }
 
-  /// Refuses a count of elements that the rest of the file has no room for.
+  /// Refuses a count of elements for which the file is too short.
   void require_room(const Element& element) const {
     std::size_t least = 0;
     for (const Property& property : element.properties) {
-      // A number of a text takes a digit and a space, but for the last one.
+      // In a text file every number but the last takes a digit and a space.
       least += format_ == Format::Text ? 2 : (property.count_type != nullptr ? property.count_type : property.type)->bytes;
     }
     const std::size_t room = least == 0 ? 0 : (bytes_.size() - at_ + 1) / least;
@@ -220,7 +220,7 @@ std::optional<std::size_t> find_property(const Element& element, const char* nam
   return static_cast<std::size_t>(found - element.properties.begin());
 }
 
-/// The values of the next element, a list for each property.
+/// The values of the next element, one list for each property.
 void read_values(Numbers& numbers, const Element& element, std::vector<std::vector<double>>& values) {
   values.resize(element.properties.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -259,11 +259,10 @@ void read_vertices(const std::string& path, Numbers& numbers, const Element& ele
   }
 }
 
-/// Cuts a polygon into triangles that meet in one corner, where none of them is turned over. Returns false where there is no such
-/// corner.
+/// Triangulates a polygon as a fan from one vertex, if no triangle gets reversed. Returns false if there is no such vertex.
 bool append_fan(const std::vector<std::uint32_t>& corners, Data& data) {
   const std::size_t count = corners.size();
-  if (count < 3) return true;  // of no area
+  if (count < 3) return true;  // zero area
   const auto area = [&](std::size_t from, std::size_t k) -> Eigen::Vector3d {
     const auto at = [&](std::size_t i) -> const Eigen::Vector3d& { return data.vertices.points[corners[(from + i) % count]]; };
     return (at(k) - at(0)).cross(at(k + 1) - at(0));
@@ -330,9 +329,9 @@ Data read_ply(const std::string& path) {
       }
     }
   }
-  // A text holds the digits that stand in it, whatever type the header names.
+  // A text file holds the digits that it shows, whatever type its header names.
   if (header.format == Format::Text) data.is_single = false;
-  if (!data.triangles.empty()) data.vertices.normals.clear();  // those of the triangles are taken
+  if (!data.triangles.empty()) data.vertices.normals.clear();  // the normals of the triangles are used
   return data;
 }
 

@@ -12,7 +12,7 @@
 namespace fit {
 namespace {
 
-// The distributions of <random> differ between libraries.
+// The distributions of <random> differ between standard libraries.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 }  // namespace
@@ -45,7 +45,7 @@ Cloud sample_boundary(const supernormal::Shape& shape, std::size_t count, std::u
   supernormal::Settings settings;
   settings.tolerance = 1e-13;
   for (std::size_t i = 0; i < count; ++i) {
-    // The chord lies inside; the nearest boundary point is straight above it.
+    // The chord is inside the body. The nearest boundary point is above it along the normal.
     const auto nearest =
         supernormal::find_proximity(shape, {}, point, {cloud.points[i], supernormal::Matrix3::Identity()}, settings);
     cloud.points[i] -= nearest.gap * nearest.normal;

@@ -1,4 +1,4 @@
-// Points evenly spread over a surface.
+// Uniform samples of a surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,13 +14,13 @@ namespace fit {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// `count` random points of the triangles, each as likely as its area, with the triangles' normals. The same seed gives the same
-/// points. std::invalid_argument when the triangles have no area.
+/// `count` random points of the triangles, uniform by area, with the normals of the triangles. The same seed gives the same points.
+/// Throws std::invalid_argument if the triangles have no area.
 Cloud sample_triangles(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles, std::size_t count,
                        std::uint64_t seed);
 
-/// `count` random points on the boundary of a body, evenly spread but for the error of the mesh that they are spread over, in the
-/// body's frame; exact ones, with their normals.
+/// `count` random points on the boundary of a body, in its frame, with normals. The points are exact. They are uniform up to the
+/// error of a mesh from which they are projected.
 Cloud sample_boundary(const supernormal::Shape& shape, std::size_t count, std::uint64_t seed);
 
 }  // namespace fit

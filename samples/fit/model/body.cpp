@@ -90,7 +90,7 @@ Gradient support_gradient(const Body& body, const Vector3& n, const Vector3& r) 
   const double delta = body.delta, epsilon = body.epsilon;
   gradient[kLogDelta] = (delta - 1) / (delta * delta) * section * entropy(share.x(), share.y());
 
-  // The section shrinks with the height zeta as (1 - zeta^epsilon)^(1/epsilon), the taper apart.
+  // Without the taper the section shrinks with the height zeta as (1 - zeta^epsilon)^(1/epsilon).
   const double zeta = std::clamp(r.z() / body.half_axes.z(), -1.0, 1.0);
   const double height = std::pow(std::abs(zeta), epsilon);
   if (height < 1)
@@ -100,7 +100,7 @@ Gradient support_gradient(const Body& body, const Vector3& n, const Vector3& r) 
 }
 
 double taper_limit(double epsilon) {
-  // A little below, for rounding.
+  // Slightly below the limit, because of rounding.
   return (1 - 1e-9) * supernormal::Superovoid::max_taper(epsilon);
 }
 

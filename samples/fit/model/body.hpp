@@ -1,4 +1,4 @@
-// The bodies that are fitted: one family of parameters, and how the support function depends on them.
+// The bodies to fit: families of parameters, and the derivatives of the support function.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,19 +11,19 @@ namespace fit {
 using supernormal::Matrix3;
 using supernormal::Vector3;
 
-/// Each family contains the one before it.
+/// Each family contains the preceding one.
 enum class Family {
   Ellipsoid,       ///< both exponents are 2, no taper
   Superellipsoid,  ///< no taper
-  Superovoid,      ///< one taper for both directions of the section, which is convex for every exponent
+  Superovoid,      ///< equal tapers in x and y; such a body is convex for every exponent
 };
 
 const char* name_of(Family family);
 
-/// How many numbers a body of the family has: position, attitude and half-axes are 9, then the exponents, then the taper.
+/// The number of parameters of a body: 9 for position, orientation and half-axes, then the exponents, then the taper.
 int parameter_count(Family family);
 
-/// A body and its place among the data.
+/// A body and its pose in the frame of the data.
 struct Body {
   Family family = Family::Ellipsoid;
   Vector3 position = Vector3::Zero();  ///< of the centre
@@ -36,22 +36,22 @@ struct Body {
   supernormal::Pose pose() const { return {position, rotation()}; }
 };
 
-/// The shape of the body in its own frame. std::invalid_argument where a parameter is out of its range.
+/// The shape in the body's frame. Throws std::invalid_argument if a parameter is out of range.
 std::unique_ptr<supernormal::Shape> make_shape(const Body& body);
 
-/// The same body with its axes named in the customary order: a superellipsoid's section has its longer half-axis along x, an
-/// ellipsoid's half-axes fall from x to z, a superovoid grows thinner upwards or not at all.
+/// The same body with its axes in canonical order. The section of a superellipsoid has its longer half-axis along x. The half-axes
+/// of an ellipsoid decrease from x to z. The taper of a superovoid is <= 0.
 Body in_customary_order(const Body& body);
 
-/// The body seen in axes that are the columns of `axes`, a signed permutation of its own: another body with its place and size,
-/// the same one where the exponents agree.
+/// The body in a frame whose axes are the columns of `axes`, a signed permutation. Its position and size are the same. It is the
+/// same body if the exponents agree.
 Body with_axes(const Body& body, const Matrix3& axes);
 
-/// The body after x -> scale x + offset.
+/// The image of the body under x -> scale x + offset.
 Body moved(const Body& body, double scale, const Vector3& offset);
 
-/// The numbers of a body in the order of gradients and covariances. Each has about the same weight for a body of size 1: lengths
-/// and angles (rad, about the body's axes) as they are, half-axes and exponents by logarithms, of a and of delta - 1.
+/// Indices of the parameters in gradients and covariances. For a body of size 1 all have similar weight. Lengths and angles (rad,
+/// about the body's axes) are used directly. Half-axes a and exponents delta enter as ln(a) and ln(delta - 1).
 constexpr int kPosition = 0;  // three, in the frame of the data
 constexpr int kRotation = 3;  // three, about the body's axes
 constexpr int kLogAxes = 6;   // three
@@ -62,16 +62,16 @@ constexpr int kParameters = 12;
 
 using Gradient = Eigen::Matrix<double, kParameters, 1>;
 
-/// The derivatives of the support function h(n) in the body's frame with respect to half-axes, exponents and taper; the entries
-/// of position and rotation are 0. `r` is the boundary point with the normal n.
+/// The derivatives of the support function h(n) in the body's frame by half-axes, exponents and taper. The entries of position and
+/// rotation are 0. `r` is the boundary point with the normal n.
 ///
-/// h is a maximum over the boundary, so that its derivative is that of the maximised function at the fixed maximiser (Danskin's
-/// theorem). With the shares e_i = n_i r_i of h: dh/d(ln a_i) = e_i; for the section, a norm with the dual exponent p and weights
-/// v, 1 - v of its two terms, d(ln t)/dp = -S(v)/p^2 with the entropy S(v) = -v ln v - (1-v) ln(1-v), and correspondingly along
-/// the meridian.
+/// h is a maximum over the boundary, so its derivative equals the derivative of the maximised function at the fixed maximiser
+/// (Danskin's theorem). Let e_i = n_i r_i be the terms of h. Then dh/d(ln a_i) = e_i. The section is a norm with the dual exponent
+/// p and the weights v, 1 - v of its two terms. So d(ln t)/dp = -S(v)/p^2 with the entropy S(v) = -v ln v - (1-v) ln(1-v). The
+/// meridian is analogous.
 Gradient support_gradient(const Body& body, const Vector3& n, const Vector3& r);
 
-/// The limit of |taper| for a convex body: Superovoid::max_taper(epsilon), and its derivative by ln(epsilon - 1).
+/// The limit of |taper| for a convex body, Superovoid::max_taper(epsilon), and its derivative by ln(epsilon - 1).
 double taper_limit(double epsilon);
 double taper_limit_slope(double epsilon);
 

@@ -27,7 +27,7 @@ double radius_of(std::span<const Eigen::Vector3d> points) {
 }
 
 std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::size_t most) {
-  constexpr double kShell = 2;  // its outer radius over its inner one
+  constexpr double kShell = 2;  // outer over inner radius
   const bool is_finite = std::ranges::all_of(points, [](const Eigen::Vector3d& x) { return x.allFinite(); });
   if (!is_finite || points.size() < 2) return {};
   Eigen::Vector3d middle;
@@ -70,7 +70,7 @@ Cloud thinned(const Cloud& cloud, std::size_t count) {
   std::vector<std::size_t> order(cloud.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937_64 random(1);
-  // The distributions of <random> differ between libraries; the remainder does not, and its bias is 1e-13.
+  // The distributions of <random> differ between standard libraries. The remainder does not; its bias is 1e-13.
   for (std::size_t i = 0; i < count; ++i) std::swap(order[i], order[i + random() % (order.size() - i)]);
   order.resize(count);
   return selected(cloud, order);

@@ -1,4 +1,4 @@
-// Points on the surface of a thing.
+// Points on a surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +10,10 @@ namespace fit {
 
 struct Cloud {
   std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3d> normals;  ///< unit, outward, one for each point; or none
+  std::vector<Eigen::Vector3d> normals;  ///< unit, outward, one for each point; or empty
 };
 
-/// Where data lie and how large they are: the fit works on (x - centre) / size.
+/// Position and size of the data. The fit works on (x - centre) / size.
 struct Extent {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< the mean
   double size = 1;                                   ///< root mean square distance from the centre
@@ -21,23 +21,22 @@ struct Extent {
 
 Extent extent_of(std::span<const Eigen::Vector3d> points);
 
-/// The distance from the centroid that 99 % of the points do not exceed.
+/// The radius about the centroid that contains 99 % of the points.
 double radius_of(std::span<const Eigen::Vector3d> points);
 
-/// The points that are no part of one surface with the others: ascending indices. From the middle of the points
-/// (the median of each coordinate) outwards, a surface leaves no empty shell that is as thick as what it encloses: points beyond
-/// the first such shell are cut off, unless they are more than `most`, and then a part of the data. None where a coordinate is not
-/// finite.
+/// The points that do not belong to one surface with the others, as ascending indices. Distances are from the median of each
+/// coordinate. A surface leaves no empty shell whose outer radius is twice its inner one. Points beyond the first such shell are
+/// cut off. If there are more than `most`, they are part of the data and none is cut off. None, too, if a coordinate is not finite.
 std::vector<std::size_t> cut_off(std::span<const Eigen::Vector3d> points, std::size_t most);
 
-/// The cloud with its extent moved to the origin and to 1.
+/// The cloud translated and scaled to extent 1 about the origin.
 Cloud normalized(const Cloud& cloud, const Extent& extent);
 
-/// `count` of the points, or all if there are fewer, chosen by lot: always the same ones, so that the answer depends on the data
-/// alone.
+/// A random choice of `count` points, or all if there are fewer. The choice is always the same, so that results depend on the data
+/// only.
 Cloud thinned(const Cloud& cloud, std::size_t count);
 
-/// The cloud of the points with these indices.
+/// The points with these indices.
 Cloud selected(const Cloud& cloud, std::span<const std::size_t> indices);
 
 }  // namespace fit

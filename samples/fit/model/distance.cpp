@@ -9,8 +9,8 @@
 namespace fit {
 namespace {
 
-// Inside, the distance function has as many local maxima as the body has faces. Down to this depth, over the smallest half-axis,
-// the one next to the point's projection from the centre is taken; deeper ones are searched for.
+// Inside, the distance function has as many local maxima as the body has faces. Down to this depth, relative to the smallest
+// half-axis, the maximum nearest to the central projection of the point is used. Below it the global one is searched.
 constexpr double kShallow = 0.1;
 
 }  // namespace
@@ -18,8 +18,8 @@ constexpr double kShallow = 0.1;
 DistanceFunction::DistanceFunction(const Body& body, double tolerance)
     : body_(body), tolerance_(tolerance), rotation_(body.rotation()), shape_(make_shape(body)) {}
 
-// The normal of the body's enlarged or shrunk image through x (body's frame): the gradient of the implicit function there. Near the
-// boundary it is so near to the witness's that the search takes half of the time.
+// The normal at x of the scaled image of the body through x (body's frame), which is the gradient of the implicit function. Near
+// the boundary it is so close to the normal of the witness that it halves the time of the search.
 Vector3 DistanceFunction::gauge_normal(const Vector3& x) const {
   constexpr double kLeastSection = 0.05;
   const Vector3& axes = body_.half_axes;
@@ -28,7 +28,7 @@ Vector3 DistanceFunction::gauge_normal(const Vector3& x) const {
   Vector3 u = x.cwiseAbs().cwiseQuotient(widths);
   const double scale = u.maxCoeff();
   if (!(scale > 0)) return Vector3::UnitZ();
-  u /= scale;  // nothing overflows then
+  u /= scale;  // prevents overflow
   const double sum = std::pow(u.x(), body_.delta) + std::pow(u.y(), body_.delta);
   Vector3 normal = Vector3::Zero();
   if (sum > 0) {
@@ -69,7 +69,7 @@ Gradient DistanceFunction::gradient(const Witness& witness) const {
   const Vector3 n = to_body(witness.normal), r = to_body(witness.foot - body_.position);
   Gradient gradient = -support_gradient(body_, n, r);
   gradient.segment<3>(kPosition) = -witness.normal;
-  // A turn of the body by w moves its boundary point by w x r, which lowers the distance by n.(w x r) = w.(r x n).
+  // A rotation of the body by w moves the boundary point by w x r. This changes the distance by -n.(w x r) = w.(n x r).
   gradient.segment<3>(kRotation) = n.cross(r);
   return gradient;
 }

@@ -1,4 +1,4 @@
-// The signed distance of data from a body, and how it depends on the body.
+// The signed distance of data from a body, and its derivatives.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace fit {
 
-/// The nearest boundary point, seen from a point of the data.
+/// The nearest boundary point of a data point.
 struct Witness {
   double distance = 0;                ///< positive outside, negative inside
   Vector3 normal = Vector3::UnitX();  ///< unit, outward, in the frame of the data
@@ -16,26 +16,26 @@ struct Witness {
 };
 
 constexpr double kFineTolerance = 1e-12;
-constexpr double kRoughTolerance = 1e-6;  ///< for points that are a hundredth of the size or more from the body
+constexpr double kRoughTolerance = 1e-6;  ///< for points at least a hundredth of the size from the body
 
-/// Answers for one body in its place. The shape is made once.
+/// Distances from one body in its pose. Creates the shape once.
 class DistanceFunction {
  public:
-  /// Distances are exact to `tolerance` times the smallest half-axis, and normals, and with them derivatives, to its root.
+  /// Distances are accurate to `tolerance` times the smallest half-axis. Normals and derivatives are accurate to its square root.
   explicit DistanceFunction(const Body& body, double tolerance = kFineTolerance);
 
-  /// The distance is the maximum over the unit normals n of n.(x - position) - h(n), inside and outside. Nothing when the point is
+  /// The distance is the maximum over the unit normals n of n.(x - position) - h(n), inside and outside. Empty when the point is
   /// not finite.
   std::optional<Witness> find(const Vector3& x) const;
 
-  /// Whether the body contains a point: by the implicit function, much faster than a distance.
+  /// Whether the body contains a point. Uses the implicit function, which is much faster than a distance.
   bool contains(const Vector3& x) const;
 
-  /// The derivative of the distance with respect to the body's parameters: as it is a maximum over n, that of the function at the
-  /// fixed n.
+  /// The derivative of the distance by the body's parameters. The distance is a maximum over n, so this is the derivative at fixed
+  /// n.
   Gradient gradient(const Witness& witness) const;
 
-  /// A direction of the data's frame in the body's.
+  /// Transforms a direction from the frame of the data to the body's frame.
   Vector3 to_body(const Vector3& direction) const { return rotation_.transpose() * direction; }
   const supernormal::Shape& shape() const { return *shape_; }
   const Body& body() const { return body_; }
@@ -49,7 +49,7 @@ class DistanceFunction {
   std::unique_ptr<supernormal::Shape> shape_;
 };
 
-/// The least of the distances of a point from several bodies: outside, that from their union.
+/// The smallest signed distance of a point from several bodies. Outside it is the distance from their union.
 double least_distance(std::span<const DistanceFunction> functions, const Vector3& x);
 
 }  // namespace fit

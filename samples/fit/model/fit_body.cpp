@@ -17,10 +17,10 @@
 namespace fit {
 namespace {
 
-// Lengths below are of data of extent 1.
-constexpr double kRounding = 1e-9;     // distances below it are taken for rounding
-constexpr double kUnsettled = 2e-3;    // as much noise is allowed for until a descent has ended: flat faces may fit long before
-constexpr std::size_t kLarge = 10000;  // points; of more, some find the body and all of them only its last digits
+// The lengths below are for data of extent 1.
+constexpr double kRounding = 1e-9;     // smaller distances count as rounding
+constexpr double kUnsettled = 2e-3;    // noise allowed until a descent has ended: flat faces may fit much earlier
+constexpr std::size_t kLarge = 10000;  // of more points, some find the body, and all are used only for its last digits
 constexpr double kHuber = 1.345;       // standard deviations: 95 % efficiency for normal noise
 
 double median_size(std::span<const double> values) {
@@ -31,7 +31,7 @@ double median_size(std::span<const double> values) {
   return *middle;
 }
 
-/// The standard deviation of normal noise whose absolute values have this median.
+/// The standard deviation of normal noise with this median absolute value.
 double robust_sigma(std::span<const double> residuals) { return std::max(1.4826 * median_size(residuals), kRounding); }
 
 struct Measured {
@@ -51,7 +51,7 @@ Measured measure(const Body& body, std::span<const Vector3> points) {
   return result;
 }
 
-/// Whether normals of the data point outwards from the body: one-sided data fit the far side of a body as well.
+/// Whether the normals of the data point out of the body. One-sided data also fit the far side of a body.
 bool is_right_side_out(const Body& body, const Cloud& cloud) {
   if (cloud.normals.empty()) return true;
   const Measured measured = measure(body, cloud.points);
@@ -62,14 +62,14 @@ bool is_right_side_out(const Body& body, const Cloud& cloud) {
 
 double mean_square(const LeastSquaresResult& result, std::size_t points) { return 2 * result.cost / static_cast<double>(points); }
 
-/// Whether two descents are on the way to the same body.
+/// Whether two descents are converging to the same body.
 bool are_alike(const Candidate& a, const Candidate& b) {
   constexpr double kAlike = 0.1;
   return (a.body.position - b.body.position).norm() < kAlike && std::abs(a.mean_square / b.mean_square - 1) < kAlike &&
          std::abs(std::log(a.body.half_axes.prod() / b.body.half_axes.prod())) < kAlike;
 }
 
-/// Descends from each start on the points, and keeps the best `count` of those that differ.
+/// Descends from each start on the points. Keeps the best `count` distinct results.
 std::vector<Candidate> descend(const std::vector<Candidate>& starts, const Cloud& cloud, const LeastSquaresSettings& settings,
                                std::size_t count) {
   std::vector<Candidate> ends;
@@ -87,12 +87,12 @@ std::vector<Candidate> descend(const std::vector<Candidate>& starts, const Cloud
   return kept;
 }
 
-/// The state of the last descent, on all points.
+/// The state of the last descent on all points.
 struct Descent {
   Body body;
   std::vector<std::size_t> inliers;
-  Measured measured;            // of all points
-  std::vector<double> offsets;  // of all points
+  Measured measured;            // at all points
+  std::vector<double> offsets;  // at all points
 };
 
 std::vector<double> residuals_of(const Descent& descent) {
@@ -113,8 +113,8 @@ std::vector<Witness> inlier_witnesses(const Descent& descent) {
   return witnesses;
 }
 
-/// How far, in standard errors of any combination of the body's numbers, changes of the inliers' distances move these: the length
-/// of the changes' projection on the distances that bodies nearby have, over sigma.
+/// The change of the body's parameters by these changes of the inliers' distances, as the largest over all combinations of
+/// parameters, in standard errors. It is the norm of the projection of the changes on the column space of the Jacobian, over sigma.
 double standard_errors_moved(const Descent& descent, const std::vector<double>& changes, double sigma) {
   const DistanceFunction function(descent.body);
   const Eigen::Index count = parameter_count(descent.body.family);
@@ -128,7 +128,7 @@ double standard_errors_moved(const Descent& descent, const std::vector<double>& 
   return std::sqrt(std::max(pull.dot(move), 0.0)) / sigma;
 }
 
-/// What noise does to the distances of all points.
+/// The bias of the distances of all points by noise.
 std::vector<double> offsets_of(const Descent& descent, const FitSettings& settings, double sigma) {
   std::vector<double> offsets(descent.measured.witnesses.size(), 0.0);
   if (settings.noise != Noise::Isotropic || !(sigma > kRounding)) return offsets;
@@ -138,10 +138,10 @@ std::vector<double> offsets_of(const Descent& descent, const FitSettings& settin
   return offsets;
 }
 
-/// Measures anew: distances, what noise makes of them, and which points are outliers. Returns whether another descent would move
-/// the body by so much that its errors grow by 5 %.
+/// Updates distances, noise bias and outliers. Returns whether another descent would change the body so much that its error grows
+/// by 5 %.
 bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, double least_sigma) {
-  constexpr double kSettled = 0.3;  // standard errors; 1 + 0.3^2 is the square of 1.05
+  constexpr double kSettled = 0.3;  // standard errors; sqrt(1 + 0.3^2) is about 1.05
   const std::size_t points = cloud.points.size();
   descent.measured = measure(descent.body, cloud.points);
   if (descent.offsets.empty()) descent.offsets.assign(points, 0.0);
@@ -150,7 +150,7 @@ bool update(Descent& descent, const Cloud& cloud, const FitSettings& settings, d
   std::vector<double> offsets = offsets_of(descent, settings, sigma);
   std::vector<bool> was_inlier(points, false);
   for (const std::size_t i : descent.inliers) was_inlier[i] = true;
-  // Flat faces may fit exactly, and bring the median down, while the rest is still on its way: the mean square counts too.
+  // Flat faces may fit exactly and lower the median while the rest is still converging. So the mean square counts, too.
   const double limit = settings.rejects_outliers ? kOutlier * std::max({sigma, least_sigma, root_mean_square(residuals) / 2})
                                                  : std::numeric_limits<double>::infinity();
   descent.inliers.clear();
@@ -176,23 +176,23 @@ void solve(Descent& descent, const Cloud& cloud, LeastSquaresSettings settings) 
   descent.body = minimize_distances(descent.body, chosen.points, offsets, settings).body;
 }
 
-// A closed mesh has no noise: a body that misses it by several per cent of its size is of another shape, and more of its digits are
-// of no use. They are the slowest to find, with the largest exponents.
+// A closed mesh has no noise. A body that misses it by several per cent of its size has another shape, and further digits are
+// useless. Such bodies have the largest exponents and converge slowest.
 constexpr double kOtherShape = 0.02;
 
 bool is_other_shape(double mean_square, const FitSettings& search) {
   return search.is_whole && mean_square > kOtherShape * kOtherShape;
 }
 
-/// Least squares from a start and its mean square, on all points but outliers, repeated until these and the noise's effect are
-/// settled.
+/// Least squares from a start and its mean square, on all points except outliers. Repeats until the outliers and the noise bias are
+/// stable.
 Descent descend_on_all(const Candidate& start, const Cloud& cloud, const FitSettings& settings, int rounds, int steps = 12) {
   Descent descent{start.body, {}, {}, {}};
   descent.inliers.resize(cloud.points.size());
   std::iota(descent.inliers.begin(), descent.inliers.end(), std::size_t{0});
   LeastSquaresSettings least_squares;
   least_squares.largest_half_axis = settings.largest_over_radius * radius_of(cloud.points);
-  // A step that lowers the cost by less moves no number by more than a tenth of its standard error.
+  // A step with a smaller decrease of the cost changes no parameter by more than a tenth of its standard error.
   least_squares.tolerance = 1e-2 / static_cast<double>(cloud.points.size());
   least_squares.threads = settings.threads;
   least_squares.max_iterations = steps;
@@ -206,7 +206,7 @@ Descent descend_on_all(const Candidate& start, const Cloud& cloud, const FitSett
   return descent;
 }
 
-/// The result in the frame of the data, which have been normalized by `extent`.
+/// The result in the original frame of the data, which were normalized by `extent`.
 FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& cloud, const FitSettings& settings) {
   FittedBody fitted;
   std::vector<bool> is_inlier(cloud.points.size(), false);
@@ -227,7 +227,7 @@ FittedBody finish(const Descent& descent, const Extent& extent, const Cloud& clo
   return fitted;
 }
 
-/// A descent on many points with a loss as narrow as the noise, and the mean square without what is far beyond it.
+/// A descent on many points with a loss function as narrow as the noise. The mean square excludes points far beyond the noise.
 void polish(Candidate& candidate, const Cloud& some, const Cloud& many, LeastSquaresSettings settings, const FitSettings& search) {
   const bool rejects_outliers = search.rejects_outliers;
   if (rejects_outliers) {
@@ -246,9 +246,9 @@ void polish(Candidate& candidate, const Cloud& some, const Cloud& many, LeastSqu
   candidate.mean_square = square / static_cast<double>(distances.size());
 }
 
-/// Descends from the starts on ever more points, with ever fewer bodies.
+/// Descends from the starts on more and more points, with fewer and fewer bodies.
 Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, const FitSettings& search) {
-  constexpr double kHopeless = 4;  // times the least mean square
+  constexpr double kHopeless = 4;  // times the smallest mean square
   const Cloud few = thinned(cloud, 200), some = thinned(cloud, 800), many = thinned(cloud, 3000);
   LeastSquaresSettings settings;
   settings.largest_half_axis = search.largest_over_radius * radius_of(many.points);
@@ -259,8 +259,8 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, cons
   std::vector<Candidate> candidates(starts.size());
   std::ranges::transform(starts, candidates.begin(), [](const Body& start) { return Candidate{start}; });
   candidates = descend(candidates, few, settings, 10);
-  // A closed mesh, whose starts are in its box, is followed on while it is polished: 25 iterations of the sharpest bodies with a
-  // taper, at 30 evaluations a point, are most of the time for a tetrahedron.
+  // For a closed mesh the starts lie in its box, and polishing continues the descent. 25 iterations of the sharpest tapered bodies,
+  // at 30 evaluations per point, would take most of the time for a tetrahedron.
   settings.max_iterations = search.is_whole ? 12 : 25;
   settings.tolerance = 1e-4;
   candidates = descend(candidates, some, settings, 3);
@@ -271,7 +271,7 @@ Candidate best_descent(const std::vector<Body>& starts, const Cloud& cloud, cons
   return *std::ranges::min_element(candidates, {}, &Candidate::mean_square);
 }
 
-/// The body with each of its axes for z, as starts of another family.
+/// The body with each of its axes as z, as starts of another family.
 std::vector<Body> make_starts_near(Body body, Family family) {
   Matrix3 cycle;
   cycle << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -280,7 +280,7 @@ std::vector<Body> make_starts_near(Body body, Family family) {
   return {body, second, with_axes(second, cycle)};
 }
 
-/// How many independent distances the points stand for: neighbours that agree with one another count for less (find_uncertainty).
+/// The number of independent distances. Correlated neighbours count for less (see find_uncertainty).
 double independent_points(const Candidate& candidate, const Cloud& cloud) {
   const Measured measured = measure(candidate.body, cloud.points);
   const Uncertainty uncertainty = find_uncertainty(candidate.body, measured.witnesses, measured.distances);
@@ -288,14 +288,15 @@ double independent_points(const Candidate& candidate, const Cloud& cloud) {
   return uncertainty.is_significant ? points / uncertainty.lack_of_fit : points;
 }
 
-/// The family with the least Bayesian information criterion, n ln(mean square) + k ln n; distances of rounding count alike.
+/// The family with the smallest Bayesian information criterion, n ln(mean square) + k ln n. Distances below rounding count as
+/// equal.
 Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
   if (settings.family) return search_body(cloud, *settings.family, settings);
   std::vector<Candidate> candidates;
   for (const Family family : {Family::Ellipsoid, Family::Superellipsoid, Family::Superovoid}) {
     if (cloud.points.size() < least_points(family)) continue;
     if (settings.progress) settings.progress(std::string("looking for the best ") + name_of(family));
-    // The taper is a small change: what was found without it is near enough.
+    // The taper is a small change: start near the body without it.
     const bool is_near = family == Family::Superovoid && !candidates.empty();
     const Candidate candidate = is_near ? best_descent(make_starts_near(candidates.back().body, family), cloud, settings)
                                         : search_body(cloud, family, settings);
@@ -310,9 +311,9 @@ Candidate best_family(const Cloud& cloud, const FitSettings& settings) {
   });
 }
 
-/// Refuses data of extent 1 that lie on a line or in a plane.
+/// Refuses data (of extent 1) on a line or in a plane.
 void require_three_dimensions(const Cloud& data) {
-  constexpr double kFlat = 1e-6;  // ten times the rounding of coordinates in single precision
+  constexpr double kFlat = 1e-6;  // ten times the rounding of single-precision coordinates
   Matrix3 scatter = Matrix3::Zero();
   for (const Vector3& x : data.points) scatter += x * x.transpose() / static_cast<double>(data.points.size());
   const Vector3 squares = Eigen::SelfAdjointEigenSolver<Matrix3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
@@ -332,7 +333,7 @@ void require_points(const Cloud& cloud, std::size_t least) {
   for (const Vector3& x : cloud.points) {
     if (!x.allFinite()) throw std::invalid_argument("a coordinate is not finite");
   }
-  // Half-axes are allowed from 1e-30 to 1e30: with room for bodies that are larger than the data, or thinner.
+  // Half-axes are valid from 1e-30 to 1e30. This leaves a margin for bodies larger or thinner than the data.
   constexpr double kLeast = 1e-25, kLargest = 1e25;
   Vector3 low = cloud.points.front(), high = low;
   for (const Vector3& x : cloud.points) low = low.cwiseMin(x), high = high.cwiseMax(x);
@@ -352,7 +353,8 @@ void require_points(const Cloud& cloud, std::size_t least) {
 
 std::vector<std::size_t> gross_outliers(const Cloud& cloud, const FitSettings& settings, bool is_union) {
   if (!settings.rejects_outliers) return {};
-  // More points beyond a gap are a part of the surface that was scanned by itself; so many in a union may be one of its bodies.
+  // More points beyond a gap are a separately scanned part of the surface. In a union, as many points as one body needs may be a
+  // body.
   const std::size_t most = cloud.points.size() / 5;
   const std::size_t fewest_of_body = least_points(settings.family.value_or(Family::Ellipsoid));
   return cut_off(cloud.points, is_union ? std::min(most, fewest_of_body - 1) : most);
@@ -371,7 +373,7 @@ Cloud without(const Cloud& cloud, std::span<const std::size_t> indices) {
 
 void add_gross_outliers(std::vector<FittedBody>& fitted, std::span<const std::size_t> gross, std::size_t points) {
   if (gross.empty()) return;
-  std::vector<std::size_t> kept;  // what without() kept
+  std::vector<std::size_t> kept;  // the indices kept by without()
   for (std::size_t i = 0; i < points; ++i) {
     if (!std::ranges::binary_search(gross, i)) kept.push_back(i);
   }
@@ -411,8 +413,8 @@ FittedBody fit_kept(const Cloud& cloud, FitSettings settings) {
   }
   if (data.points.size() <= kLarge)
     return finish(descend_on_all({in_customary_order(best.body), best.mean_square}, data, settings, 4), extent, data, settings);
-  // Most of the way is done on some of the points. From an estimate whose error falls as theirs does, one step of Newton's is as
-  // good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
+  // Most of the search uses only some of the points. If the error of an estimate decreases with their number, one Newton step on
+  // all points is as good as the minimum (Le Cam's one-step estimator; van der Vaart, Asymptotic Statistics, section 5.7).
   const Body near = descend_on_all(best, thinned(data, kLarge), settings, 4).body;
   return finish(descend_on_all({in_customary_order(near), best.mean_square}, data, settings, 2, 2), extent, data, settings);
 }

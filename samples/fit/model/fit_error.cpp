@@ -14,10 +14,10 @@
 namespace fit {
 namespace {
 
-constexpr std::size_t kSamples = 20000;         // points of a surface
-constexpr std::size_t kVolumeSamples = 400000;  // points of a volume
+constexpr std::size_t kSamples = 20000;         // points on a surface
+constexpr std::size_t kVolumeSamples = 400000;  // points in a volume
 
-/// Points as nanoflann wants them.
+/// The interface that nanoflann expects of points.
 struct Adaptor {
   const std::vector<Eigen::Vector3d>* points;
   std::size_t kdtree_get_point_count() const { return points->size(); }
@@ -43,7 +43,7 @@ Solid solid_of(const Body& body) {
   return solid;
 }
 
-/// Whether every edge belongs to as many triangles that run along it in one direction as in the other.
+/// Whether every edge is traversed equally often in both directions.
 bool is_closed(std::span<const Triangle> triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
   for (const Triangle& t : triangles) {
@@ -55,9 +55,9 @@ bool is_closed(std::span<const Triangle> triangles) {
   return !triangles.empty() && std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
 }
 
-/// A triangle whose corners are on a line, to the rounding of single precision.
+/// Whether the vertices of a triangle are collinear within single precision.
 bool is_flat(const Data& data, const Triangle& t) {
-  constexpr double kFlat = 1e-6;  // the height over the longest edge
+  constexpr double kFlat = 1e-6;  // height over the longest edge
   const Vector3 &a = data.vertices.points[t[0]], &b = data.vertices.points[t[1]], &c = data.vertices.points[t[2]];
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return (b - a).cross(c - a).norm() <= kFlat * longest;
@@ -94,7 +94,7 @@ Solid solid_of_hull(const Data& data) {
 }
 
 double triangle_distance(const Data& data, const Triangle& t, const Vector3& x) {
-  // Ericson, Real-Time Collision Detection, section 5.1.5: the nearest point by the regions of Voronoi.
+  // Nearest point by Voronoi regions (Ericson, Real-Time Collision Detection, section 5.1.5).
   const Vector3 &a = data.vertices.points[t[0]], &b = data.vertices.points[t[1]], &c = data.vertices.points[t[2]];
   const auto segment = [&](const Vector3& p, const Vector3& q) {
     const double length = (q - p).squaredNorm();
@@ -111,8 +111,7 @@ double triangle_distance(const Data& data, const Triangle& t, const Vector3& x) 
   return std::min({segment(a, b), segment(b, c), segment(c, a)});
 }
 
-/// Points that lead to the nearest surface of the data: its own, or for a mesh a grid on every triangle, with the triangle's
-/// number.
+/// Points that lead to the nearest surface of the data: the data points, or for a mesh a grid on every triangle, with its index.
 struct Landmarks {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::size_t> triangle_of;
@@ -120,7 +119,7 @@ struct Landmarks {
 
 Landmarks make_landmarks(const Data& data) {
   if (data.triangles.empty()) return {data.vertices.points, {}};
-  constexpr double kSpacing = 0.02;  // over the extent
+  constexpr double kSpacing = 0.02;  // relative to the extent
   const double spacing = kSpacing * extent_of(data.vertices.points).size;
   Landmarks landmarks;
   for (std::size_t i = 0; i < data.triangles.size(); ++i) {
@@ -138,7 +137,7 @@ Landmarks make_landmarks(const Data& data) {
   return landmarks;
 }
 
-/// The distance of places from the data's surface: of a mesh, from the triangles of the nearest landmarks.
+/// The distance of points from the surface of the data. For a mesh: from the triangles of the nearest landmarks.
 class DataDistance {
  public:
   explicit DataDistance(const Data& data)
@@ -170,7 +169,7 @@ class DataDistance {
 
 bool is_closed(const Data& data) {
   if (is_closed(std::span<const Triangle>(data.triangles))) return true;
-  // A flat triangle encloses nothing. It may close the seam between long edges and short ones, or stand on an edge that is closed.
+  // Degenerate triangles enclose no volume. They may close a gap between long and short edges, or lie on a closed edge.
   std::vector<Triangle> solid = data.triangles;
   std::erase_if(solid, [&](const Triangle& t) { return is_flat(data, t); });
   return solid.size() < data.triangles.size() && is_closed(std::span<const Triangle>(solid));

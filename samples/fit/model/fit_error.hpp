@@ -1,4 +1,4 @@
-// How far a body, or a union of some, is from the data that it stands for.
+// Measures of the error of a body, or of a union of bodies.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace fit {
 
-/// Volume integrals of density 1, about the centroid, in the frame of the data.
+/// Volume integrals for density 1, in the frame of the data.
 struct Solid {
   double volume = 0;
   Vector3 centroid = Vector3::Zero();
@@ -19,20 +19,20 @@ struct Solid {
 };
 
 struct FitError {
-  double rms = 0;         ///< of the distances of the data's points from the body's surface
-  double to_body = 0;     ///< largest distance of a point of the data from the body's surface
+  double rms = 0;         ///< distances of the data points from the surface of the body
+  double to_body = 0;     ///< largest distance of a data point from the surface of the body
   double to_data = 0;     ///< largest distance of a point of the body's surface from the data
-  Solid body;             ///< of the union of the bodies: what they share counts once
-  double body_error = 0;  ///< standard error of the volume, where it is an integral by random points; 0: closed form
-  Solid data;             ///< of the mesh where it is closed, of the convex hull otherwise
-  bool is_hull = false;   ///< whether `data` is that of the convex hull
+  Solid body;             ///< union of the bodies: overlaps count once
+  double body_error = 0;  ///< standard error of a Monte Carlo volume; 0: closed form
+  Solid data;             ///< mesh if closed, else convex hull
+  bool is_hull = false;   ///< whether `data` is the convex hull
 };
 
-/// Whether the data are a mesh that encloses a volume: every edge is of triangles that run along it both ways. Flat triangles,
-/// whose corners are on a line, do not count unless they are needed.
+/// Whether the data are a closed mesh: every edge is traversed equally often in both directions. Degenerate triangles are ignored
+/// unless they are needed.
 bool is_closed(const Data& data);
 
-/// Points of the union's surface: of `count` on each body, the same always, those that no other body contains.
+/// Points of the union's surface: `count` samples on each body, always the same, without those inside another body.
 std::vector<Vector3> free_surface(std::span<const DistanceFunction> functions, std::size_t count);
 
 struct VolumeIntegral {
@@ -40,11 +40,11 @@ struct VolumeIntegral {
   double volume_error = 0;  ///< standard error of the volume
 };
 
-/// Of the union of bodies, by random points, always the same.
+/// Volume integrals of a union by Monte Carlo, always with the same points.
 VolumeIntegral integrate_union(std::span<const Body> bodies);
 
-/// Hausdorff's distances are over the vertices of the data (and random points of its triangles), and over random points of the
-/// bodies' surfaces that no other body covers: lower bounds, short of the true ones by at most the points' spacing.
+/// Hausdorff distances over the data vertices (for a mesh also random points of its triangles) and over random points of the free
+/// surface of the bodies. They are lower bounds: the true distances are larger by at most the spacing of the points.
 FitError find_error(std::span<const Body> bodies, const Data& data);
 
 }  // namespace fit

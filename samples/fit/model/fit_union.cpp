@@ -13,17 +13,17 @@
 namespace fit {
 namespace {
 
-// Lengths below are of data of extent 1.
-constexpr double kLoss = 0.02;  // of distances while points still change hands
+// The lengths below are for data of extent 1.
+constexpr double kLoss = 0.02;  // loss width while points still change owners
 
-// The sharpest edge of the families, with the largest exponent, misses that of a box by this much of a half-axis: what is nearer is
-// as near as a body comes, and says nothing about how many there are.
+// The sharpest edge of the families, with the largest exponent, misses the edge of a box by this fraction of a half-axis. Smaller
+// distances carry no information about the number of bodies.
 const double kSharpest = 1 - std::exp2(-1 / supernormal::Superellipsoid::kMaxExponent);
 
-// A body more must lower the root mean square by this much: descents from other clusters differ by some per cent.
+// Required decrease of the root mean square by a further body. Descents from other clusters differ by some per cent.
 constexpr double kLeastGain = 0.05;
 
-// The others hide some of a part's surface, but what stands out of the data is no part of the union.
+// The other bodies hide some of a body's surface. But a protrusion from the data is not part of the union.
 constexpr double kLargestOverRadius = kLargestOverRadiusOfWhole;
 
 FitSettings search_settings() {
@@ -33,14 +33,14 @@ FitSettings search_settings() {
 }
 
 enum class Distance {
-  Surface,  ///< from the nearest surface: which points go together is not known yet
+  Surface,  ///< from the nearest surface: the grouping of points is still unknown
   Union,    ///< from the union
 };
 
 struct Assignment {
-  std::vector<int> owner;           // of each point
-  std::vector<double> distances;    // of each point, from its owner
-  std::vector<std::size_t> counts;  // of the points of each body
+  std::vector<int> owner;           // per point
+  std::vector<double> distances;    // per point, from its owner
+  std::vector<std::size_t> counts;  // number of points of each body
 };
 
 Assignment assign(const std::vector<Body>& bodies, const Cloud& cloud, Distance distance) {
@@ -78,7 +78,7 @@ Cloud owned(const Cloud& cloud, const std::vector<int>& owner, std::size_t body)
   return selected(cloud, indices_of(owner, body));
 }
 
-/// Huber's loss, the mean over the points, as a mean square.
+/// The mean Huber loss of the points, as a mean square.
 double mean_loss(const std::vector<double>& distances) {
   double sum = 0;
   for (const double distance : distances) {
@@ -88,7 +88,7 @@ double mean_loss(const std::vector<double>& distances) {
   return sum / static_cast<double>(distances.size());
 }
 
-/// A number of bodies and how well they do.
+/// A set of bodies and its mean square.
 struct Model {
   std::vector<Body> bodies;
   double mean_square = std::numeric_limits<double>::infinity();
@@ -98,7 +98,7 @@ bool has_enough(const Assignment& assignment, Family family) {
   return std::ranges::all_of(assignment.counts, [&](std::size_t count) { return count >= 2 * least_points(family); });
 }
 
-/// Alternates until no point changes hands. A model that loses a body has an infinite mean square.
+/// Alternates until no point changes its owner. A model that loses a body gets an infinite mean square.
 Model alternate(std::vector<Body> bodies, const Cloud& cloud, Distance distance, int rounds) {
   LeastSquaresSettings settings;
   settings.loss_width = kLoss;
@@ -120,14 +120,14 @@ Model alternate(std::vector<Body> bodies, const Cloud& cloud, Distance distance,
   return {bodies, mean_loss(assignment.distances)};
 }
 
-/// Ellipsoids from the clusters of k-means.
+/// Ellipsoids from k-means clusters.
 Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
   const std::vector<int> cluster = find_clusters(cloud.points, count, seed);
   std::vector<Body> bodies;
   for (int k = 0; k < count; ++k) {
     const Cloud part = owned(cloud, cluster, static_cast<std::size_t>(k));
     if (part.points.size() < 2 * least_points(Family::Ellipsoid)) return {};
-    // Its own extent, so that the search is one for data of size 1.
+    // Normalize by the extent of the part: the search expects data of size 1.
     const Extent extent = extent_of(part.points);
     const Candidate found = search_body(normalized(part, extent), Family::Ellipsoid, search_settings());
     if (!std::isfinite(found.mean_square)) return {};
@@ -137,7 +137,7 @@ Model start_from_clusters(const Cloud& cloud, int count, std::uint64_t seed) {
   return std::isfinite(model.mean_square) ? alternate(model.bodies, cloud, Distance::Union, 8) : model;
 }
 
-/// Gives an ellipsoid the numbers of another family, on its own points, with the best of its three axes for z.
+/// Converts an ellipsoid to another family, on its own points, with the best of its three axes as z.
 Body promoted(const Body& ellipsoid, const Cloud& points, Family family) {
   LeastSquaresSettings settings;
   settings.loss_width = kLoss;
@@ -157,7 +157,7 @@ Body promoted(const Body& ellipsoid, const Cloud& points, Family family) {
   return best.body;
 }
 
-/// The same for all bodies of a model, and the alternation again.
+/// Converts all bodies of a model and repeats the alternation.
 Model with_family(const Model& model, const Cloud& cloud, Family family) {
   if (family == Family::Ellipsoid || !std::isfinite(model.mean_square)) return model;
   const Assignment assignment = assign(model.bodies, cloud, Distance::Union);
@@ -169,7 +169,7 @@ Model with_family(const Model& model, const Cloud& cloud, Family family) {
   return alternate(bodies, cloud, Distance::Union, 20);
 }
 
-/// Whether the distances of its points from a body are like noise.
+/// Whether the distances of a body's points look like noise.
 bool is_well_fitted(const Body& body, const Cloud& part) {
   const DistanceFunction function(body);
   std::vector<Witness> witnesses;
@@ -183,8 +183,8 @@ bool is_well_fitted(const Body& body, const Cloud& part) {
   return !find_uncertainty(body, witnesses, distances).is_significant;
 }
 
-/// Searches those bodies afresh, on their own points, that do not fit them, and keeps what makes the model better: the descent from
-/// an ellipsoid may have ended in a local minimum.
+/// Searches again for each body that does not fit its own points. Keeps the results that improve the model. The descent from an
+/// ellipsoid may have ended in a local minimum.
 Model searched_again(Model model, const Cloud& cloud, Family family) {
   for (std::size_t k = 0; k < model.bodies.size(); ++k) {
     const Cloud part = owned(cloud, assign(model.bodies, cloud, Distance::Union).owner, k);
@@ -209,7 +209,7 @@ double criterion(const Model& model, std::size_t points) {
   return n * std::log(resolved_square(model)) + numbers * std::log(n);
 }
 
-/// Whether a model is worth its further bodies.
+/// Whether a model justifies its additional bodies.
 bool is_better(const Model& more, const Model& fewer, std::size_t points) {
   if (!std::isfinite(more.mean_square)) return false;
   if (!std::isfinite(fewer.mean_square)) return true;
@@ -217,7 +217,7 @@ bool is_better(const Model& more, const Model& fewer, std::size_t points) {
          std::sqrt(resolved_square(more)) < (1 - kLeastGain) * std::sqrt(resolved_square(fewer));
 }
 
-/// One body, from all the starts that a fit of one has: what it lacks is no reason for a second body.
+/// One body from all starts of a single fit. So a second body is never taken because of a poor first one.
 Model best_of_one(const Cloud& cloud, Family family, const FitSettings& settings) {
   const Extent extent = extent_of(cloud.points);
   const Candidate found = search_body(normalized(cloud, extent), family, settings);
@@ -226,7 +226,7 @@ Model best_of_one(const Cloud& cloud, Family family, const FitSettings& settings
   return {bodies, mean_loss(assign(bodies, cloud, Distance::Union).distances)};
 }
 
-/// The best model from several clusterings, those that led to the same ellipsoids counted once.
+/// The best model from several clusterings. Clusterings with the same ellipsoids are used once.
 Model best_of_clusterings(const Cloud& cloud, int count, Family family) {
   constexpr int kSeeds = 6;
   constexpr double kAlike = 0.01;
@@ -243,7 +243,7 @@ Model best_of_clusterings(const Cloud& cloud, int count, Family family) {
   return best;
 }
 
-/// The last descents, on all points and with error bars.
+/// The final descents, on all points and with error bars.
 std::vector<FittedBody> finish(std::vector<Body> bodies, const Cloud& cloud, const FitSettings& settings) {
   constexpr int kRounds = 4;
   std::vector<FittedBody> fitted(bodies.size());

@@ -1,4 +1,4 @@
-// The union of a few bodies that fits data best.
+// Fits a union of a few bodies to data.
 #pragma once
 
 #include <functional>
@@ -8,15 +8,16 @@
 
 namespace fit {
 
-/// Fits at most `largest_count` bodies (in [1, 16]), as many as the data call for, by alternation: every point belongs to one body,
-/// and every body is fitted to its points. The distance of a point from a union is the smallest of its distances from the bodies,
-/// so that a body also gives way to points of another's surface that it covers. When no point changes hands, the alternation is at
-/// a stationary point of the joint problem, whose Jacobian consists of the bodies' own: their covariances are those of the union.
+/// Fits at most `largest_count` bodies (in [1, 16]), as many as the data justify. Alternates: every point belongs to one body, and
+/// every body is fitted to its points. The distance of a point from a union is its smallest distance from a body. So a body also
+/// yields to points of another surface that it covers. When no point changes its owner, the alternation is at a stationary point of
+/// the joint problem. The joint Jacobian consists of the Jacobians of the bodies, so their covariances are also valid for the
+/// union.
 ///
-/// Where to start from is found with ellipsoids, from several k-means clusterings. A number of bodies is taken when its Bayesian
-/// information criterion is less than that of fewer, and its root mean square less by a twentieth; distances that the sharpest edge
-/// of a body leaves count alike, so that a box is one body. std::invalid_argument as fit_body, and when largest_count is out of its
-/// range. `progress` is told the number of bodies that is looked for next, and the largest.
+/// The starts are ellipsoids from several k-means clusterings. A further body is accepted if it lowers the Bayesian information
+/// criterion, and the root mean square by a twentieth. Distances below the error of the sharpest edge count as equal, so a box is
+/// one body. Throws like fit_body(), and std::invalid_argument when largest_count is out of range. Calls `progress` with the number
+/// of bodies to fit next, and the largest number.
 using Progress = std::function<void(int count, int largest_count)>;
 std::vector<FittedBody> fit_union(const Cloud& cloud, int largest_count, const FitSettings& settings = {},
                                   const Progress& progress = {});

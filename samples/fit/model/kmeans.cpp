@@ -20,7 +20,7 @@ int nearest_of(const std::vector<Eigen::Vector3d>& centres, const Eigen::Vector3
   return nearest;
 }
 
-/// Centres among the points, each as likely as the square of its distance from those before it.
+/// Random points as centres, each with a probability proportional to its squared distance from the previous centres.
 std::vector<Eigen::Vector3d> first_centres(std::span<const Eigen::Vector3d> points, int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<Eigen::Vector3d> centres = {points[random() % points.size()]};

@@ -1,4 +1,4 @@
-// Clusters of points.
+// Clusters points.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace fit {
 
-/// The number of the cluster of each point: Lloyd's k-means from the random starts of k-means++ (Arthur and Vassilvitskii 2007).
+/// The cluster index of each point: Lloyd's k-means with k-means++ starts (Arthur and Vassilvitskii 2007).
 std::vector<int> find_clusters(std::span<const Eigen::Vector3d> points, int count, std::uint64_t seed);
 
 }  // namespace fit

@@ -15,20 +15,20 @@
 namespace fit {
 namespace {
 
-// Exponents and taper as Ceres varies them: ln(delta - 1), ln(epsilon - 1) and the inverse hyperbolic tangent of the taper over its
-// limit, so that every value is a convex body.
+// The unknowns of Ceres for exponents and taper: ln(delta - 1), ln(epsilon - 1), and artanh(taper / limit). Every value gives a
+// convex body.
 const double kLeastLogExponent = std::log(supernormal::Superellipsoid::kMinExponent - 1);
 const double kLargestLogExponent = std::log(supernormal::Superellipsoid::kMaxExponent - 1);
 constexpr double kLargestArtanh = 5;
 constexpr double kLeastHalfAxis = 1e-4;
 
-constexpr int kPositionBlock = 0, kAttitudeBlock = 1, kAxesBlock = 2, kExponentsBlock = 3, kTaperBlock = 4, kBlocks = 5;
+constexpr int kPositionBlock = 0, kOrientationBlock = 1, kAxesBlock = 2, kExponentsBlock = 3, kTaperBlock = 4, kBlocks = 5;
 constexpr std::array kBlockSizes = {3, 4, 3, 2, 1};
 
 /// The parameter blocks of one body.
 struct Unknowns {
   std::array<double, 3> position;
-  std::array<double, 4> attitude;  // x, y, z, w
+  std::array<double, 4> orientation;  // x, y, z, w
   std::array<double, 3> log_axes;
   std::array<double, 2> log_exponents;
   std::array<double, 1> artanh_taper;
@@ -38,14 +38,14 @@ struct Unknowns {
       position[static_cast<std::size_t>(i)] = body.position[i];
       log_axes[static_cast<std::size_t>(i)] = std::log(std::max(body.half_axes[i], kLeastHalfAxis));
     }
-    Eigen::Map<Eigen::Vector4d>(attitude.data()) = body.attitude.coeffs();
+    Eigen::Map<Eigen::Vector4d>(orientation.data()) = body.attitude.coeffs();
     log_exponents = {std::clamp(std::log(body.delta - 1), kLeastLogExponent, kLargestLogExponent),
                      std::clamp(std::log(body.epsilon - 1), kLeastLogExponent, kLargestLogExponent)};
     artanh_taper = {std::clamp(std::atanh(body.taper / taper_limit(body.epsilon)), -kLargestArtanh, kLargestArtanh)};
   }
 
   std::array<double*, kBlocks> blocks() {
-    return {position.data(), attitude.data(), log_axes.data(), log_exponents.data(), artanh_taper.data()};
+    return {position.data(), orientation.data(), log_axes.data(), log_exponents.data(), artanh_taper.data()};
   }
 };
 
@@ -53,7 +53,7 @@ Body body_of(Family family, const double* const* blocks) {
   Body body;
   body.family = family;
   body.position = Eigen::Map<const Vector3>(blocks[kPositionBlock]);
-  body.attitude = Eigen::Map<const Eigen::Quaterniond>(blocks[kAttitudeBlock]).normalized();
+  body.attitude = Eigen::Map<const Eigen::Quaterniond>(blocks[kOrientationBlock]).normalized();
   body.half_axes = Eigen::Map<const Vector3>(blocks[kAxesBlock]).array().exp();
   if (family == Family::Ellipsoid) return body;
   const auto exponent = [&](int i) {
@@ -66,8 +66,7 @@ Body body_of(Family family, const double* const* blocks) {
   return body;
 }
 
-/// The distances of some points, their loss applied: a distance d beyond the width w becomes sqrt(2 w d - w^2), whose square is
-/// Huber's loss.
+/// The residuals of some points, with Huber's loss: a distance d beyond the width w becomes sqrt(2 w d - w^2).
 class Distances final : public ceres::CostFunction {
  public:
   Distances(Family family, std::span<const Vector3> points, std::span<const double> offsets, const LeastSquaresSettings& settings)
@@ -78,7 +77,7 @@ class Distances final : public ceres::CostFunction {
 
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const DistanceFunction function(body_of(family_, blocks), tolerance_);
-    if (!remember_witnesses(function, blocks)) return false;
+    if (!update_witnesses(function, blocks)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double excess = witnesses_[i].distance - (offsets_.empty() ? 0 : offsets_[i]);
       double slope = 1;
@@ -89,9 +88,9 @@ class Distances final : public ceres::CostFunction {
   }
 
  private:
-  /// Finds the witnesses, unless they are those of the last call: Ceres asks for the distances of a step and, when it takes the
-  /// step, for the derivatives at the same place. Only one thread at a time evaluates a residual block.
-  bool remember_witnesses(const DistanceFunction& function, const double* const* blocks) const {
+  /// Finds the witnesses unless they are cached from the last call. Ceres first requests the distances of a step and, if it takes
+  /// the step, the derivatives at the same place. Only one thread at a time evaluates a residual block.
+  bool update_witnesses(const DistanceFunction& function, const double* const* blocks) const {
     std::vector<double> place;
     for (std::size_t k = 0; k < kBlockSizes.size(); ++k) place.insert(place.end(), blocks[k], blocks[k] + kBlockSizes[k]);
     if (place == place_) return true;
@@ -114,7 +113,7 @@ class Distances final : public ceres::CostFunction {
     return std::copysign(root, excess);
   }
 
-  /// Row i of the Jacobian in Ceres' unknowns, from the gradient in ours.
+  /// Row i of the Jacobian in the unknowns of Ceres, from the gradient in ours.
   static void write_row(std::size_t i, const DistanceFunction& function, const Gradient& gradient, const double* const* blocks,
                         double** jacobians) {
     const Body& body = function.body();
@@ -122,12 +121,12 @@ class Distances final : public ceres::CostFunction {
       return jacobians[block] + i * static_cast<std::size_t>(kBlockSizes[static_cast<std::size_t>(block)]);
     };
     if (jacobians[kPositionBlock] != nullptr) Eigen::Map<Vector3>(row(kPositionBlock)) = gradient.segment<3>(kPosition);
-    if (jacobians[kAttitudeBlock] != nullptr) {
-      // ceres::EigenQuaternionManifold turns by twice its step, about the axes of the data; the columns of its derivative are
-      // orthonormal, so that their transpose takes the row back to the quaternion's coefficients.
+    if (jacobians[kOrientationBlock] != nullptr) {
+      // ceres::EigenQuaternionManifold rotates by twice its step, about the axes of the data. The columns of its derivative are
+      // orthonormal, so their transpose maps the row back to the coefficients of the quaternion.
       const Vector3 step = 2 * (body.rotation() * gradient.segment<3>(kRotation));
-      const Eigen::Map<const Eigen::Quaterniond> q(blocks[kAttitudeBlock]);
-      Eigen::Map<Eigen::Vector4d> out(row(kAttitudeBlock));
+      const Eigen::Map<const Eigen::Quaterniond> q(blocks[kOrientationBlock]);
+      Eigen::Map<Eigen::Vector4d> out(row(kOrientationBlock));
       out.head<3>() = q.w() * step - q.vec().cross(step);
       out[3] = -q.vec().dot(step);
     }
@@ -136,7 +135,7 @@ class Distances final : public ceres::CostFunction {
     if (jacobians[kExponentsBlock] != nullptr) {
       double* const out = row(kExponentsBlock);
       out[0] = gradient[kLogDelta];
-      // The taper's limit moves with epsilon.
+      // The limit of the taper depends on epsilon.
       out[1] = gradient[kLogEpsilon] + gradient[kTaper] * taper_limit_slope(body.epsilon) * std::tanh(artanh);
     }
     if (jacobians[kTaperBlock] != nullptr) {
@@ -149,7 +148,7 @@ class Distances final : public ceres::CostFunction {
   std::span<const Vector3> points_;
   std::span<const double> offsets_;
   double width_, tolerance_;
-  mutable std::vector<double> place_;       // the unknowns that the witnesses are of
+  mutable std::vector<double> place_;       // the unknowns of the cached witnesses
   mutable std::vector<Witness> witnesses_;  // one for each point
 };
 
@@ -179,7 +178,7 @@ ceres::Solver::Options options_of(const LeastSquaresSettings& settings) {
   options.parameter_tolerance = 1e-13;
   options.num_threads = settings.threads;
   options.logging_type = ceres::SILENT;
-  // Steps are projected into the bounds. The search along the projected step would evaluate everything once more per step.
+  // Steps are projected onto the bounds. A line search along the projected step would cost another evaluation per step.
   options.max_num_line_search_step_size_iterations = 0;
   return options;
 }
@@ -194,7 +193,7 @@ LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3
   const auto blocks = unknowns.blocks();
   for (int i = 0; i < kBlocks; ++i)
     problem.AddParameterBlock(blocks[static_cast<std::size_t>(i)], kBlockSizes[static_cast<std::size_t>(i)]);
-  problem.SetManifold(unknowns.attitude.data(), new ceres::EigenQuaternionManifold);
+  problem.SetManifold(unknowns.orientation.data(), new ceres::EigenQuaternionManifold);
   set_bounds(problem, unknowns, settings);
   if (start.family == Family::Ellipsoid) problem.SetParameterBlockConstant(unknowns.log_exponents.data());
   if (start.family != Family::Superovoid) problem.SetParameterBlockConstant(unknowns.artanh_taper.data());
@@ -204,7 +203,7 @@ LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3
     problem.AddResidualBlock(new Distances(start.family, points.subspan(first, count), their_offsets, settings), nullptr,
                              std::vector<double*>(blocks.begin(), blocks.end()));
   }
-  // A step that Ceres cannot evaluate is one that it does not take: nothing that a user is to be warned of.
+  // Ceres rejects a step that it cannot evaluate. The user needs no warning of this.
   FLAGS_minloglevel = google::GLOG_FATAL;
   ceres::Solver::Summary summary;
   ceres::Solve(options_of(settings), &problem, &summary);

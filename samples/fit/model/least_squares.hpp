@@ -1,4 +1,4 @@
-// The body with the least squared distances to some points, by Ceres.
+// Least squares of point distances from a body, with Ceres.
 #pragma once
 
 #include <limits>
@@ -11,14 +11,14 @@
 namespace fit {
 
 struct LeastSquaresSettings {
-  /// Distances beyond it count by their first power (Huber).
+  /// Distances beyond this width count linearly (Huber).
   double loss_width = std::numeric_limits<double>::infinity();
-  /// No half-axis becomes longer: data of one side only do not bound the body.
+  /// Limit of the half-axes: one-sided data do not bound the body.
   double largest_half_axis = std::numeric_limits<double>::infinity();
   int max_iterations = 50;
-  /// The relative decrease of the cost at which it stops.
+  /// The relative decrease of the cost at which the solver stops.
   double tolerance = 1e-12;
-  double distance_tolerance = kFineTolerance;  ///< of DistanceFunction
+  double distance_tolerance = kFineTolerance;  ///< passed to DistanceFunction
   int threads = 1;
 };
 
@@ -27,8 +27,8 @@ struct LeastSquaresResult {
   double cost = std::numeric_limits<double>::infinity();  ///< half of the sum of squares (with the loss)
 };
 
-/// Improves `start`, whose family it keeps. `offsets`, empty or one for each point, are what the distances should be instead of 0.
-/// All lengths are meant for data of size 1.
+/// Improves `start` within its family. `offsets` are the target distances: empty (all 0) or one for each point. Lengths are for
+/// data of size 1.
 LeastSquaresResult minimize_distances(const Body& start, std::span<const Vector3> points, std::span<const double> offsets,
                                       const LeastSquaresSettings& settings);
 

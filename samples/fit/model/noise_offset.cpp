@@ -8,8 +8,8 @@ namespace fit {
 double noise_offset(const DistanceFunction& function, const Witness& witness, double sigma) {
   const Vector3 n = function.to_body(witness.normal).normalized();
   const Matrix3 H = function.shape().jet(n).H;
-  // H n = 0: the principal radii of curvature are the two other eigenvalues. Their product is the sum of the principal minors, of
-  // which the largest is exact where a flat face has one or two radii of 1e30.
+  // H n = 0, so the principal radii of curvature are the other two eigenvalues. Their product is the sum of the principal minors.
+  // The largest minor is exact for a flat face with one or two radii of 1e30.
   const auto minor = [&](int i, int j) { return H(i, i) * H(j, j) - H(i, j) * H(i, j); };
   const double product = minor(0, 1) + minor(1, 2) + minor(2, 0);
   const double half = H.trace() / 2, root = std::sqrt(std::max(0.0, half * half - product));

@@ -21,8 +21,8 @@ Eigen::SelfAdjointEigenSolver<Matrix3> principal_axes(const Cloud& cloud) {
   return Eigen::SelfAdjointEigenSolver<Matrix3>(moment / static_cast<double>(cloud.points.size()));
 }
 
-/// The centre of the sphere that fits best: with normals m, x = centre + radius m; without, |x|^2 - 2 centre.x is the same for all
-/// points (Coope 1993). Both are linear least squares.
+/// The centre of the best sphere. With normals m: x = centre + radius m. Without: |x|^2 - 2 centre.x is the same for all points
+/// (Coope 1993). Both are linear least squares.
 Vector3 sphere_centre(const Cloud& cloud) {
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
@@ -44,10 +44,10 @@ Vector3 sphere_centre(const Cloud& cloud) {
   return A.completeOrthogonalDecomposition().solve(b).head<3>();
 }
 
-/// Turns that carry the principal axes to those of a start.
-std::vector<Matrix3> make_turns(const Vector3& moments) {
+/// Rotations from the principal axes to the axes of the starts.
+std::vector<Matrix3> make_rotations(const Vector3& moments) {
   const auto about = [](const Vector3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); };
-  // Each of the three axes becomes the z-axis once.
+  // Each of the three axes becomes z once.
   Matrix3 cycle;
   cycle << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   const std::array<Matrix3, 3> permutations = {Matrix3::Identity(), cycle, cycle * cycle};
@@ -56,14 +56,14 @@ std::vector<Matrix3> make_turns(const Vector3& moments) {
     turns.push_back(permutation);
     turns.emplace_back(permutation * about(Vector3::UnitZ(), kHalfTurn / 4));
   }
-  // Moments are sorted. Axes whose moments hardly differ say little about the attitude.
+  // Moments are sorted. Axes with similar moments hardly determine the orientation.
   constexpr double kAlike = 0.7;
   const bool first_two = moments[0] > kAlike * moments[1], last_two = moments[1] > kAlike * moments[2];
   std::vector<Matrix3> more;
   if (first_two && last_two) {
     std::mt19937_64 random(1);
     const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-    for (int i = 0; i < 10; ++i) {  // uniform over the rotations (Shoemake 1992)
+    for (int i = 0; i < 10; ++i) {  // uniform over rotations (Shoemake 1992)
       const double u = uniform(), v = 2 * kHalfTurn * uniform(), w = 2 * kHalfTurn * uniform();
       const double s = std::sqrt(1 - u), t = std::sqrt(u);
       more.push_back(Eigen::Quaterniond(t * std::cos(w), s * std::sin(v), s * std::cos(v), t * std::sin(w)).toRotationMatrix());
@@ -92,8 +92,8 @@ std::pair<double, double> range_along(const Cloud& cloud, const Vector3& axis) {
   return {(high - low) / 2, (high + low) / 2};
 }
 
-/// The same body in its box, and where the centre of the best sphere is elsewhere, which tells of data of one side: about that
-/// centre, and with one face of the box as the middle of the body.
+/// The body in its box. If the centre of the best sphere is elsewhere, the data may be one-sided. Then also the body about this
+/// centre, and the body with its middle on a face of the box.
 std::vector<Body> make_places(const Body& boxed, const Vector3& sphere) {
   std::vector<Body> places = {boxed};
   const Matrix3 rotation = boxed.rotation();
@@ -117,7 +117,7 @@ std::vector<Body> make_places(const Body& boxed, const Vector3& sphere) {
   return places;
 }
 
-/// The box of the points along the body's axes, without the outermost.
+/// The box of the points along the body's axes, without the outermost points.
 Body boxed_by(const Cloud& cloud, Body body) {
   constexpr double kLeastHalfAxis = 0.02;
   const Matrix3 rotation = body.rotation();
@@ -139,7 +139,7 @@ std::vector<Body> make_starts(const Cloud& cloud, Family family, bool is_whole) 
   Matrix3 axes = principal.eigenvectors();
   if (axes.determinant() < 0) axes.col(2) *= -1;
   std::vector<Body> starts;
-  for (const Matrix3& turn : make_turns(principal.eigenvalues())) {
+  for (const Matrix3& turn : make_rotations(principal.eigenvalues())) {
     Body body;
     body.family = family;
     body.attitude = Eigen::Quaterniond(axes * turn).normalized();

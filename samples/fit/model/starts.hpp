@@ -1,4 +1,4 @@
-// Where the search for the best body starts from.
+// Starts of the search for the best body.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,13 @@
 
 namespace fit {
 
-/// Bodies from which the descent may lead to the best one: attitudes from the principal axes with each of the three along the
-/// body's z-axis, the section turned by half a right angle too (a square with the exponent 1.2 and one with 8, turned, look alike),
-/// more attitudes where the principal moments hardly differ, round and edgy exponents; and where the best sphere's centre is
-/// not that of the extents, as for data of one side only, more centres. `is_whole` says that the data are of all sides.
+/// Bodies from which a descent may lead to the best one:
+/// - - orientations from the principal axes, with each of the three as z;
+/// - - the same with the section rotated by 45 degrees: exponents 1.2 and 8 look alike after this rotation;
+/// - - more orientations if principal moments are similar;
+/// - - round and edgy exponents;
+/// - - more centres if the centre of the best sphere differs from the centre of the extents, as in one-sided data.
+/// `is_whole`: the data cover all sides.
 std::vector<Body> make_starts(const Cloud& cloud, Family family, bool is_whole);
 
 }  // namespace fit

@@ -9,10 +9,10 @@
 namespace fit {
 namespace {
 
-// Over the body's size: distances are not known better than the first; what is below the second is rounding, which has patterns.
+// Relative to the size of the body: the accuracy of distances, and the level below which residuals are patterned rounding errors.
 constexpr double kExact = 1e-12, kRounding = 1e-9;
 
-/// Directions over the sphere, evenly spread (Gonzalez, Mathematical Geosciences 42, 2010).
+/// Uniformly spread directions (Gonzalez, Mathematical Geosciences 42, 2010).
 std::vector<Vector3> fibonacci_directions(int count) {
   std::vector<Vector3> directions;
   for (int i = 0; i < count; ++i) {
@@ -23,8 +23,8 @@ std::vector<Vector3> fibonacci_directions(int count) {
   return directions;
 }
 
-/// The F statistic of the test for lack of fit: the mean square of the patches' means against that within the patches (Draper and
-/// Smith, Applied Regression Analysis, section 2.1). Patches are where the surface is seen in 100 directions from the centre.
+/// The F statistic of the test for lack of fit: the mean square of the patch means over the mean square within the patches (Draper
+/// and Smith, Applied Regression Analysis, section 2.1). A patch is the surface around one of 100 directions from the centre.
 void test_lack_of_fit(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals,
                       Uncertainty& result) {
   const auto points = static_cast<double>(residuals.size());
@@ -52,12 +52,12 @@ void test_lack_of_fit(const Body& body, std::span<const Witness> witnesses, std:
   const double within = (square - between) / (points - patches), freedom = patches - parameters;
   if (!(within > 0) || !(freedom > 0)) return;
   result.lack_of_fit = between / freedom / within;
-  // The statistic of chance has the mean 1 and nearly this standard deviation.
+  // For random residuals the statistic has mean 1 and about this standard deviation.
   result.is_significant = result.lack_of_fit > 1 + 4 * std::sqrt(2 / freedom);
 }
 
-/// What a number may vary by at most to be called determined: a third of the size, 10 degrees, half of a half-axis, a factor of e
-/// in an exponent - 1, half of the taper's range.
+/// The largest standard error of a determined parameter: a third of the size, 10 degrees, half of a half-axis, a factor of e in
+/// (exponent - 1), half of the taper's range.
 Gradient largest_errors(const Body& body) {
   Gradient largest;
   largest.segment<3>(kPosition).setConstant(body.half_axes.maxCoeff() / 3);
@@ -83,7 +83,7 @@ Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesse
   Uncertainty result;
   const double size = body.half_axes.maxCoeff();
   SquareMatrix all = normal_matrix(DistanceFunction(body), witnesses);
-  all.middleRows<3>(kPosition) *= size;  // all in lengths, so that eigenvalues may be compared
+  all.middleRows<3>(kPosition) *= size;  // as lengths, so that eigenvalues are comparable
   all.middleCols<3>(kPosition) *= size;
   const double square = std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
   const int parameters = parameter_count(body.family);
@@ -93,7 +93,7 @@ Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesse
 
   const Eigen::MatrixXd reduced = all.topLeftCorner(parameters, parameters);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
-  constexpr double kNoWeight = 1e-9;  // of the largest eigenvalue; the derivatives are right to about 1e-6
+  constexpr double kNoWeight = 1e-9;  // relative to the largest eigenvalue; the derivatives are accurate to about 1e-6
   constexpr double kShare = 1e-2;
   const double threshold = kNoWeight * eigen.eigenvalues().maxCoeff();
   Gradient variance = Gradient::Zero();

@@ -1,4 +1,4 @@
-// How well data determine the numbers of a body.
+// The uncertainty of the parameters of a body.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,28 +10,28 @@
 
 namespace fit {
 
-/// One standard error for each number of a body, in the order of kPosition to kTaper: position and half-axes in the unit of the
-/// data, rotation in rad about the body's axes, exponents and taper as such.
+/// One standard error for each parameter, in the order of kPosition to kTaper. Position and half-axes: unit of the data. Rotation:
+/// rad, about the body's axes. Exponents and taper: as such.
 struct Uncertainty {
   Gradient standard_error = Gradient::Zero();
-  std::array<bool, kParameters> is_determined{};  ///< false: the data say nothing about it, its value is arbitrary
+  std::array<bool, kParameters> is_determined{};  ///< false: the data do not determine it, its value is arbitrary
   double sigma = 0;                               ///< standard deviation of the distances
-  /// The mean square of the distances' means over patches of the surface, over what independent distances would give. 1 where the
-  /// body is of the right family; above, neighbouring distances agree with one another, and count for less than their number.
+  /// The mean square of the patch means of the distances, relative to its value for independent distances. It is 1 for a body of
+  /// the right family. If it is larger, neighbouring distances are correlated and count for less than their number.
   double lack_of_fit = 1;
-  bool is_significant = false;  ///< whether lack_of_fit is too large for chance; standard errors are then larger by its root
+  bool is_significant = false;  ///< whether lack_of_fit is too large for chance; standard errors then include its square root
 };
 
 using SquareMatrix = Eigen::Matrix<double, kParameters, kParameters>;
 
-/// J^T J: the sum of g g^T over the gradients g of the distances. A family varies the first of the numbers.
+/// J^T J: the sum of g g^T over the gradients g of the distances. A family uses the leading parameters.
 SquareMatrix normal_matrix(const DistanceFunction& function, std::span<const Witness> witnesses);
 
-/// From the distances of the points that were fitted, less what they should be (`residuals`).
+/// Computes the uncertainty from `residuals`: the distances of the fitted points minus their target distances.
 ///
 /// The covariance of least squares is sigma^2 (J^T J)^-1 with the Jacobian J at the solution (Seber and Wild, Nonlinear Regression,
-/// section 2.1). A number is not determined where a direction of J^T J without weight has a share in it (a body of revolution may
-/// turn about its axis), or where its standard error is as large as the number itself could be.
+/// section 2.1). A parameter is undetermined if it contributes to a null direction of J^T J: a body of revolution may rotate about
+/// its axis. It is also undetermined if its standard error is as large as its range.
 Uncertainty find_uncertainty(const Body& body, std::span<const Witness> witnesses, std::span<const double> residuals);
 
 }  // namespace fit

@@ -20,7 +20,7 @@ std::string number(double value, int digits) {
   return text.data();
 }
 
-/// As a literal of the type double in either language.
+/// A literal of type double in C and TOML.
 std::string literal(double value, int digits = kDigits) {
   const std::string text = number(value, digits);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
@@ -35,7 +35,7 @@ std::string list(std::initializer_list<double> values) {
   return text;
 }
 
-/// A place, to a billionth of the body.
+/// A position, accurate to 1e-9 of the body.
 std::string list_of_place(const Body& body) {
   std::string text;
   for (const double x : body.position) {
@@ -48,7 +48,7 @@ std::string name_of_part(const std::string& name, std::size_t parts, std::size_t
   return parts == 1 ? name : name + "_" + std::to_string(i + 1);
 }
 
-/// What may stand in a comment of C, on one line.
+/// Makes a text safe for a one-line comment in C.
 std::string harmless(std::string text) {
   std::ranges::replace_if(
       text, [](unsigned char c) { return std::iscntrl(c) != 0 || c == '*' || c == '\\' || c == '?'; }, '_');
@@ -69,7 +69,7 @@ std::string create_call(const Body& body) {
          ")";
 }
 
-/// The keys of a catalogue that give the shape.
+/// The catalogue keys of the shape.
 std::string shape_keys(const Body& body, const std::string& separator) {
   std::string text = "half_axes = [" + list({body.half_axes.x(), body.half_axes.y(), body.half_axes.z()}) + "]";
   text += separator + "delta = " + literal(body.delta) + separator + "epsilon = " + literal(body.epsilon);
@@ -77,7 +77,7 @@ std::string shape_keys(const Body& body, const std::string& separator) {
   return text;
 }
 
-/// Those that give the place in a compound.
+/// The catalogue keys of the pose in a compound.
 std::string place_keys(const Body& body, const Vector3& origin) {
   const Vector3 at = body.position - origin;
   const Eigen::AngleAxisd turn(body.attitude);
@@ -104,7 +104,7 @@ std::string identifier(const std::string& text) {
 }
 
 std::string toml_lines(std::span<const FittedBody> bodies, const std::string& name, double density, const std::string& source) {
-  // A compound's frame has any origin: near the bodies, so that no position is out of a catalogue's range.
+  // The frame of a compound may have any origin. Take it near the bodies, so that no position is out of the catalogue's range.
   Vector3 middle = Vector3::Zero();
   bool is_large = false;
   for (const FittedBody& each : bodies) {

@@ -13,7 +13,7 @@
 namespace fit {
 namespace {
 
-constexpr double kSide = 300, kMargin = 24, kTop = 40;  // px; of a view
+constexpr double kSide = 300, kMargin = 24, kTop = 40;  // px; per view
 constexpr std::size_t kDots = 1500;
 
 using Point = Eigen::Vector2d;
@@ -44,7 +44,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// The outline of a body seen along u x v: the boundary points whose normals lie in the plane of u and v.
+/// The outline of a body along the view direction u x v: the boundary points whose normals lie in the plane of u and v.
 Outline outline_of(const DistanceFunction& function, const Vector3& u, const Vector3& v) {
   constexpr int kSteps = 720;
   const Body& body = function.body();
@@ -67,7 +67,7 @@ std::string colour_of(double distance, double rms) {
   return text.data();
 }
 
-/// One view, its middle at `middle` (px).
+/// Draws one view about `middle` (px).
 std::string draw_view(std::span<const DistanceFunction> functions, std::span<const Dot> dots, const Vector3& u, const Vector3& v,
                       double scale, const Vector3& centre, const Point& middle, double rms) {
   const Point origin(u.dot(centre), v.dot(centre));

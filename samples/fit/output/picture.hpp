@@ -9,8 +9,8 @@
 
 namespace fit {
 
-/// An SVG of three views along the axes of the first body: data as dots, red outside of the bodies and blue inside, and the bodies'
-/// exact outlines. `rms` is the distance at which the colour is full by half.
+/// An SVG with three views along the axes of the first body. The data are dots, red outside the bodies and blue inside. The
+/// outlines of the bodies are exact. At the distance `rms` the colour is half saturated.
 std::string draw(std::span<const Body> bodies, const Cloud& data, double rms, const std::string& title);
 
 }  // namespace fit

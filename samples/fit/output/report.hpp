@@ -1,4 +1,4 @@
-// What the fit found, in words and numbers.
+// The result of a fit as text.
 #pragma once
 
 #include <span>
@@ -9,14 +9,14 @@
 
 namespace fit {
 
-/// The numbers of a body, each with one standard error, or why it has none.
+/// The parameters of a body, each with one standard error, or the reason why it has none.
 std::string describe(const FittedBody& fitted);
 
-/// The points of the cloud that the fits left out: how many, and the farthest of them by number (from 1), place and distance from
-/// the bodies. "" where there are none.
+/// The points that the fits ignored: how many, and the farthest ones with index (from 1), position and distance from the bodies. ""
+/// if there are none.
 std::string describe_outliers(std::span<const FittedBody> fitted, const Cloud& cloud);
 
-/// Distances, volume and inertia beside those of the data.
+/// Distances, volume and inertia of the bodies, next to the values of the data.
 std::string describe(const FitError& error);
 
 }  // namespace fit

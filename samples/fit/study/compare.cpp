@@ -23,7 +23,7 @@ Compared compare(const FittedBody& fitted, const Body& truth) {
           fitted.uncertainty.is_determined[static_cast<std::size_t>(first + source)];
     }
   }
-  constexpr double kOtherAxes = 0.6;  // rad; half a right angle is 0.79
+  constexpr double kOtherAxes = 0.6;  // rad; 45 degrees are 0.79
   for (int i = kRotation; i < kRotation + 3; ++i) {
     const bool counts = result.is_determined[static_cast<std::size_t>(i)];
     if (counts && std::abs(result.deviation[i]) > kOtherAxes) result.has_other_axes = true;

@@ -51,7 +51,7 @@ std::vector<Body> make_compound(const std::string& name) {
 Cloud scatter_union(const std::vector<Body>& bodies, std::size_t count, double sigma, std::uint64_t seed) {
   Cloud cloud;
   for (const Body& body : bodies) {
-    // Both draws come from the same seed: the places without noise tell which points are covered.
+    // Both draws use the same seed: the points without noise show which points are covered.
     Scatter settings{.points = count, .seed = ++seed};
     const Cloud exact = scatter(body, settings);
     settings.noise = sigma / mean_half_axis(body);

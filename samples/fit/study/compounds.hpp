@@ -1,4 +1,4 @@
-// The compound bodies of samples/compound, as unions whose surface gives data.
+// The compounds of samples/compound, as unions whose surfaces are sampled.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace fit {
 
-/// "dumbbell": two discs and a bar; "molar": a crown on two roots, whose bodies are superovoids. std::invalid_argument otherwise.
+/// "dumbbell": two discs and a bar. "molar": a crown on two roots, all superovoids. Throws std::invalid_argument for other names.
 std::vector<Body> make_compound(const std::string& name);
 
-/// `count` random points on each body, less those inside another, with isotropic noise of standard deviation `sigma` (m).
+/// `count` random points on each body, without those inside another, with isotropic noise of standard deviation `sigma` (m).
 Cloud scatter_union(const std::vector<Body>& bodies, std::size_t count, double sigma, std::uint64_t seed);
 
 }  // namespace fit

@@ -53,7 +53,7 @@ struct Count {
 void print_row(const Case& chosen, int bodies) {
   std::mt19937_64 random(11);
   std::array<Count, kKinds.size()> counts;
-  Count below_noise;  // exponents of bodies whose edges are
+  Count below_noise;  // exponents of bodies with edges below the noise
   int other_axes = 0, edges_below_noise = 0;
   for (int k = 0; k < bodies; ++k) {
     const bool is_ovoid = chosen.family == Family::Superovoid;

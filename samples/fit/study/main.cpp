@@ -1,4 +1,4 @@
-// How well fit recovers bodies that are known: the tables of samples/fit/README.md.
+// Measures how well fit recovers known bodies: the tables of samples/fit/README.md.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

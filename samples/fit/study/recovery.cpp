@@ -16,10 +16,10 @@ constexpr std::array kExponents = {1.2, 1.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0};
 constexpr std::array kTaperShares = {0.25, 0.5, 0.9};
 constexpr std::size_t kPoints = 2000;
 
-/// Relative errors of one kind of number, over several fits, and the standard errors that these state.
+/// Relative errors of one kind of parameter over several fits, and the stated standard errors.
 struct Errors {
   std::vector<double> sizes, stated;
-  double most = 0;  // an error over its standard error
+  double most = 0;  // largest error over its standard error
   int undetermined = 0;
 
   void add(const Compared& compared, int parameter, double scale) {
@@ -39,7 +39,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// A share in percent; what is less than a millionth is rounding.
+/// A fraction in per cent. Less than a millionth is rounding.
 std::string percent(double share) {
   if (share < 1e-6) return "< 1e-4";
   std::array<char, 32> text{};
@@ -57,7 +57,7 @@ struct Row {
   Errors half_axes, shape;
   int fits = 0, other_axes = 0, edges_below_noise = 0;
 
-  /// `parameter` is the number of the shape that the table is about.
+  /// `parameter` is the index of the shape parameter of the table.
   void add(const Compared& compared, const Body& truth, int parameter, double scale) {
     ++fits;
     if (compared.is_edge_below_noise) ++edges_below_noise;
@@ -76,7 +76,7 @@ struct Row {
   }
 };
 
-/// Prints a row for whole and half bodies with each noise, of `bodies` fits each.
+/// Prints a row for whole and half bodies with each noise, each from `bodies` fits.
 template <typename AddFit>
 void print_rows(double value, int bodies, AddFit add_fit) {
   for (const bool is_half : {false, true}) {

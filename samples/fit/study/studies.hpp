@@ -3,13 +3,13 @@
 
 namespace fit {
 
-/// Errors of half-axes, exponents and tapers of bodies that are known, beside the standard errors that the fits state.
+/// Errors of half-axes, exponents and tapers of known bodies, next to the stated standard errors.
 void print_recovery(int bodies);
 
-/// How often the truth lies within one and two standard errors.
+/// How often the truth is within one and two standard errors.
 void print_coverage(int bodies);
 
-/// Unions of several bodies, and what the fits make of them.
+/// Fits of unions of several bodies.
 void print_unions();
 
 /// Processor time of 100 000 points.

@@ -11,7 +11,7 @@
 namespace fit {
 namespace {
 
-/// Normal numbers that are the same with every library (Box and Muller).
+/// Normal random numbers, the same with every standard library (Box and Muller).
 class NormalNumbers {
  public:
   explicit NormalNumbers(std::uint64_t seed) : random_(seed) {}
@@ -30,7 +30,7 @@ double mean_half_axis(const Body& body) { return std::cbrt(body.half_axes.prod()
 
 Cloud scatter(const Body& truth, const Scatter& settings) {
   const std::size_t wanted = settings.points;
-  // Half of them are about half of the points: a few more than twice as many are made.
+  // About half of the points are removed: sample slightly more than twice as many.
   const std::size_t made = settings.is_half_missing ? 2 * wanted + wanted / 2 + 50 : wanted;
   const Cloud surface = sample_boundary(*make_shape(truth), made, settings.seed);
   NormalNumbers normal(settings.seed + 1000);

@@ -17,7 +17,7 @@ constexpr std::size_t kPointsOfPart = 1000;
 constexpr std::size_t kSurfacePoints = 5000;
 constexpr int kLargestCount = 4;
 
-/// The largest distance of the first union's surface from the second's.
+/// The largest distance of the first union's surface from the surface of the second.
 double largest_distance(const std::vector<Body>& from, const std::vector<Body>& to) {
   const std::vector<DistanceFunction> own(from.begin(), from.end()), others(to.begin(), to.end());
   double largest = 0;

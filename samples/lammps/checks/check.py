@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds supernormal_lammps against closed forms and against itself: check.py PROGRAM FOLDER [NAME...]."""
+"""Compares supernormal_lammps with closed forms and with itself: check.py PROGRAM FOLDER [NAME...]."""
 
 import argparse
 import sys

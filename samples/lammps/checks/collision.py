@@ -4,7 +4,7 @@ import math
 
 MASS, SPEED = 0.01, 0.25  # kg; m/s of each body
 REDUCED = MASS / 2
-MODULUS = 1e8 / (2 * (1 - 0.3**2))  # Pa; of two equal bodies with Young's modulus 1e8 Pa and Poisson's ratio 0.3
+MODULUS = 1e8 / (2 * (1 - 0.3**2))  # Pa; effective modulus for Young's modulus 1e8 Pa and Poisson's ratio 0.3
 
 
 def elliptic_integrals(b):
@@ -24,7 +24,7 @@ def hertz_stiffness(curvature1, curvature2):
     larger, smaller = max(curvature1, curvature2), min(curvature1, curvature2)
     correction = 1.0
     if larger > smaller * (1 + 1e-9):
-        low, high = 1e-4, 1.0  # of the ratio of the axes of the contact
+        low, high = 1e-4, 1.0  # axis ratio of the contact
         for _ in range(100):
             b = (low + high) / 2
             K, E = elliptic_integrals(b)
@@ -38,7 +38,7 @@ def hertz_stiffness(curvature1, curvature2):
 
 
 def collide(driver, ranks, timestep, time, **variables):
-    """The time in contact (s), the largest overlap (m), and the first body's state in the end."""
+    """The time in contact (s), the largest overlap (m), and the final state of the first body."""
     defaults = dict(a=0.01, b=0.01, c=0.01, slip=0, spin=0, newton="on", speed=SPEED)
     settings = {**defaults, **variables}
     (table,) = driver.run("collision", ranks, timestep=timestep, steps=int(1.2 * time / timestep), **settings)
@@ -65,20 +65,20 @@ def check_restitution(driver, ranks):
 
 
 def check_oblique(driver, ranks):
-    """Balls that slip past each other and spin. The stiffness is such that the normal hardly turns during the impact."""
+    """Spinning balls in an oblique impact. They are so stiff that the normal hardly rotates during the impact."""
     radius, stiffness, slip, spin = 0.01, 1e8, 0.02, 0.7  # m, N/m, m/s, rad/s
     inertia = 0.4 * MASS * radius**2
     time = math.pi * math.sqrt(REDUCED / stiffness)
     rate = 2 * slip + 2 * radius * spin
     settings = dict(slip=slip, spin=inertia * spin)
-    # Sticking: the tangential spring and the mass 2/7 of the relative motion make their part of an oscillation.
+    # Sticking: the tangential spring and 2/7 of the reduced mass oscillate.
     *_, end = collide(driver, ranks, time / 4000, time, law=f"hooke {stiffness} friction 1e6 tangential 0.3", **settings)
     left = 2 * end["v_vy"] + 2 * radius * end["v_spin1"] / inertia
     yield "oblique, sticking: slip", abs(left / rate - math.cos(math.sqrt(3.5 * 0.3) * math.pi)), 0.01
-    # Sliding: friction takes mu times the impulse along the normal.
+    # Sliding: the friction impulse is mu times the normal impulse.
     slip, spin = 1.0, 20.0
     *_, end = collide(driver, ranks, time / 4000, time, law=f"hooke {stiffness} friction 0.1", slip=slip, spin=inertia * spin)
-    impulse = 0.1 * 2 * SPEED  # over the mass
+    impulse = 0.1 * 2 * SPEED  # divided by the mass
     yield "oblique, sliding: velocity", abs(end["v_vy"] / (slip - impulse) - 1), 0.01
     yield "oblique, sliding: spin", abs(end["v_spin1"] / inertia - (spin - 2.5 * impulse / radius)) / (2.5 * impulse / radius), 0.01
 

@@ -1,4 +1,4 @@
-"""Runs supernormal_lammps, and reads what it writes."""
+"""Runs supernormal_lammps and reads its output."""
 
 import os
 import pathlib
@@ -8,7 +8,7 @@ INPUTS = pathlib.Path(__file__).parent
 
 
 class Driver:
-    """The program, and the folder that it runs in."""
+    """The program and its working folder."""
 
     def __init__(self, program, folder):
         self.program = pathlib.Path(program).resolve()
@@ -20,11 +20,11 @@ class Driver:
         return read_tables(self.output(name, ranks, **variables))
 
     def output(self, name, ranks=1, **variables):
-        """Runs the input NAME.in and returns what LAMMPS prints."""
+        """Runs the input NAME.in and returns the output of LAMMPS."""
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), str(self.program), "-in", str(INPUTS / f"{name}.in"), "-log", "none"]
         for variable, value in {"inputs": INPUTS, **variables}.items():
             command += ["-var", variable, str(value)]
-        # Open MPI refuses root without these; in a container there is no one else.
+        # Open MPI refuses root without these. In a container the user is root.
         environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
         if done.returncode != 0:
@@ -32,7 +32,7 @@ class Driver:
         return done.stdout
 
     def dump(self, name):
-        """The rows of a dump of text, as lists of numbers, by step."""
+        """The rows of a text dump by step, as lists of numbers."""
         frames = {}
         lines = (self.folder / name).read_text().splitlines()
         for number, line in enumerate(lines):
@@ -44,7 +44,7 @@ class Driver:
 
 
 def read_tables(text):
-    """The tables of thermo_style that LAMMPS prints."""
+    """The thermo_style tables in the output of LAMMPS."""
     tables, columns = [], None
     for line in text.splitlines():
         if line.startswith("Step "):

@@ -1,4 +1,4 @@
-"""An elastic gas keeps its energy and momentum."""
+"""An elastic gas conserves energy and momentum."""
 
 import math
 
@@ -10,7 +10,7 @@ def check(driver, steps=10000, law="hooke 1e4", limit=1e-4):
     (table,) = driver.run("gas", 1, law=law, timestep=2e-6, steps=steps, every=steps // 10)
     start = table[0]["v_energy"]
     drift = max(abs(row["v_energy"] / start - 1) for row in table)
-    # A sum of 1000 momenta, of which each is good to rounding.
+    # A sum of 1000 momenta, each exact to rounding.
     scale = math.sqrt(2 * table[0]["KinEng"] * MASS * 1000)
     momentum = max(abs(row[f"f_move[{axis}]"]) for row in table for axis in (1, 2, 3)) / scale
     name = f"gas, {law.split()[0]}, {steps} steps"

@@ -1,4 +1,4 @@
-"""One heap in two engines: what a second of the same grains costs with rigid contacts and with soft ones."""
+"""One heap in two engines: the cost of a second of the same grains with rigid and with soft contacts."""
 
 import pathlib
 import re
@@ -8,11 +8,11 @@ import tomllib
 
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "scenes/heap.toml"
 SPRINGS = 5000  # N/m
-FROM, TO = 0.2, 0.6  # of the charge: where falling_particles measures the flow
+FROM, TO = 0.2, 0.6  # fractions of the charge between which falling_particles measures the flow
 
 
 def study(driver):
-    """A hopper that pours 900 soybeans on a dish: falling_particles, and LAMMPS on one rank."""
+    """A hopper pours 900 soybeans on a dish: falling_particles, and LAMMPS on one rank."""
     build = driver.program.parent.parent
     scene = tomllib.loads(SCENE.read_text())
     print("| contacts | step, s | deepest overlap at the end | angle of repose | flow, kg/s | processor time for a simulated second, s |")
@@ -52,20 +52,20 @@ def in_lammps(program, driver):
 
 
 def soft_scene():
-    """The scene with springs, instead of what keeps rigid contacts from pushing too fast."""
+    """The scene with springs instead of the velocity limit of rigid contacts."""
     text = re.sub(r"\[max_correcting_velocity\][^\[]*", f"[compliance]\nstiffness = {SPRINGS}\ndamping = 1\n", SCENE.read_text(encoding="utf-8"))
     catalogue = SCENE.parent / tomllib.loads(text)["catalogue"]
     return re.sub(r"^catalogue = .*$", f'catalogue = "{catalogue}"', text, flags=re.MULTILINE)
 
 
 def end_of_dump(heap_of_dump, dump):
-    """Deepest overlap, angle, and its error."""
+    """The deepest overlap, the angle, and its error."""
     angle, error, overlap = subprocess.run([heap_of_dump, SCENE, dump], check=True, capture_output=True, text=True).stdout.split()
     return float(overlap), float(angle), float(error)
 
 
 def flow(frames, step, scene, charge):
-    """kg/s: the mean while FROM to TO of the charge (kg) run out; between frames the number of grains is interpolated."""
+    """The mean flow (kg/s) between the fractions FROM and TO of the charge (kg). Frames are interpolated."""
     clearance = scene["container"]["clearance"]
     out = [(number * step, sum(grain[4] < clearance for grain in rows) / len(rows)) for number, rows in sorted(frames.items())]
     return (TO - FROM) * charge / (time_when(out, TO) - time_when(out, FROM))

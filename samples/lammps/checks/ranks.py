@@ -1,4 +1,4 @@
-"""Forces do not depend on how many ranks share the particles, and a restarted run makes the same bytes."""
+"""Forces do not depend on the number of ranks, and a restarted run gives the same bytes."""
 
 import filecmp
 
@@ -6,13 +6,13 @@ BED = "bed.restart"
 
 
 def largest_difference(rows, reference, columns):
-    """The largest difference of the vectors in these columns, over the longest of the reference."""
+    """The largest difference of the vectors in these columns, relative to the longest reference vector."""
     longest = max(sum(row[c] ** 2 for c in columns) ** 0.5 for row in reference)
     return max(sum((row[c] - other[c]) ** 2 for c in columns) ** 0.5 for row, other in zip(rows, reference)) / longest
 
 
 def check_forces(driver):
-    """Against one rank with Newton's third law on; after 20 steps, springs of friction and rolling have grown."""
+    """Compares with one rank and newton on. After 20 steps the springs of friction and rolling have grown."""
     reference = None
     for ranks in (1, 2, 4):
         for newton in ("on", "off"):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures that take longer than the checks: study.py PROGRAM FOLDER NAME."""
+"""Measurements that take longer than the checks: study.py PROGRAM FOLDER NAME."""
 
 import argparse
 import re
@@ -9,11 +9,11 @@ import heap
 import walls
 from driver import Driver, read_tables
 
-COPIES = {10240: (5, 2, 2), 100352: (7, 7, 4)}  # of the bed with 512 particles
+COPIES = {10240: (5, 2, 2), 100352: (7, 7, 4)}  # replications of the bed with 512 particles
 
 
 def processor_times(text):
-    """Of the last run: processor time of a rank (s) for a step, and for its pairs. Waiting for other programs is left out."""
+    """Processor time of a rank (s) per step of the last run, in total and for pairs. Waiting is excluded."""
     loop, steps = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", text)[-1]
     share = float(re.findall(r"([\d.]+)% CPU use", text)[-1]) / 100
     pairs = re.findall(r"^Pair +\| *\S+ *\| *(\S+)", text, re.MULTILINE)[-1]
@@ -26,7 +26,7 @@ def prepare_bed(driver):
 
 
 def study_cost(driver):
-    """What a pair costs, beside LAMMPS' own styles: 10 240 particles on one rank."""
+    """The cost of a pair, compared with styles of LAMMPS: 10 240 particles on one rank."""
     bed = prepare_bed(driver)
     copies = dict(zip(("nx", "ny", "nz"), COPIES[10240]))
     print("| style | pairs computed | in contact | ns per pair | ns per contact |\n|---|---:|---:|---:|---:|")
@@ -47,7 +47,7 @@ def study_cost(driver):
 
 
 def study_scaling(driver):
-    """Time of a step and memory for 10 240 and 100 352 particles on 1 and 2 ranks."""
+    """Time per step and memory for 10 240 and 100 352 particles on 1 and 2 ranks."""
     bed = prepare_bed(driver)
     print("| particles | ranks | ms per step | us per particle and step | in pairs | ns per pair asked | MB per rank |\n|---:|---:|---:|---:|---:|---:|---:|")
     for particles, copies in COPIES.items():
@@ -63,14 +63,14 @@ def study_scaling(driver):
 
 
 def study_gas(driver):
-    """An elastic gas over 100 000 steps, with Hooke's and with Hertz's force."""
+    """An elastic gas over 100 000 steps, with Hooke and Hertz forces."""
     for law in ("hooke 1e4", "hertz 1e7 0.3"):
         for what, value, _ in gas.check(driver, steps=100000, law=law):
             print(f"{what}: {value:.2g}", flush=True)
 
 
 def study_drum(driver):
-    """A drum that turns for a million steps."""
+    """A drum that rotates for a million steps."""
     for what, value, _ in walls.check_drum(driver, steps=1000000):
         print(f"{what}: {value:.2g}", flush=True)
 

@@ -1,4 +1,4 @@
-"""Walls carry what lies on them, and a drum turns what is in it."""
+"""Walls carry their load, and a drum moves its charge."""
 
 import filecmp
 import itertools
@@ -7,7 +7,7 @@ WEIGHT_STEPS = 16000
 
 
 def write_pan(path, half, height, cells):
-    """An open box of triangles as an STL file: z = 0 to `height`, seen from inside."""
+    """An open box of triangles as an STL file, z = 0 to `height`, facing inwards."""
     facets = []
 
     def quad(a, b, c, d):
@@ -52,7 +52,7 @@ def check_drum(driver, steps=60000):
 
 
 def check_restart(driver):
-    """A drum that goes on from a restart file: springs at the walls and the motion go on, too."""
+    """A drum resumes from a restart file, including wall springs and motion."""
     common = dict(rpm=40, every=2000)
     for ranks in (1, 2):
         whole, again = f"whole_drum_{ranks}", f"again_drum_{ranks}"
@@ -63,7 +63,7 @@ def check_restart(driver):
 
 
 def check_time(driver):
-    """A moving wall is where the time says, whatever becomes of LAMMPS' step and of its counter of steps."""
+    """The position of a moving wall follows the time, whatever happens to the step and the step counter of LAMMPS."""
 
     def farthest(tables, before=0.0):
         touching = [row for table in tables for row in table if row["f_wall[7]"] > 0]
@@ -74,7 +74,7 @@ def check_time(driver):
         tables = driver.run("moving_wall", 1, change=change, out=f"{change}.restart")
         yield f"moving wall, {change}: distance from its place, m", farthest(tables), 1e-12
     tables = driver.run("moving_wall_again", 1, **{"from": "none.restart"})
-    # LAMMPS' own time starts again at 0, after 8000 steps of 1e-5 s at 0.1 m/s.
+    # The time of LAMMPS restarts at 0, after 8000 steps of 1e-5 s at 0.1 m/s.
     yield "moving wall, restart with another step: distance from its place, m", farthest(tables, 0.008), 1e-12
 
 

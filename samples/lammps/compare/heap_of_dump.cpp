@@ -1,4 +1,4 @@
-// Measures the heap at the end of LAMMPS' run of a scene as falling_particles measures that of its own.
+// Measures the final heap in the LAMMPS run of a scene, with the same measures as falling_particles.
 //   heap_of_dump SCENE DUMP      (of falling_particles --to-lammps SCENE)
 // prints the angle of repose and its standard error, in degrees, and the deepest overlap, relative to the smallest half-axis.
 #include <array>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace falling_particles;
 
-/// A line of the dump: where a grain is. `id`, `type` and the position, then diameters, then the quaternion with its real part
+/// Reads the placement of a grain from a line of the dump: `id`, `type`, position, diameters, and quaternion with the real part
 /// last.
 Placement read_grain(const std::string& line, const Scene& scene, int& id) {
   std::istringstream words(line);
@@ -38,7 +38,7 @@ Placement read_grain(const std::string& line, const Scene& scene, int& id) {
   return grain;
 }
 
-/// The grains of the last frame, by their numbers.
+/// The grains of the last frame, sorted by id.
 std::vector<Placement> read_last_frame(const std::string& path, const Scene& scene) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);

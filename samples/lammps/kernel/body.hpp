@@ -1,4 +1,4 @@
-// A rigid body as contacts see it.
+// A rigid body in contacts.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@ namespace granular {
 using supernormal::Matrix3;
 using supernormal::Vector3;
 
-/// A body at an instant, in the world's frame.
+/// The state of a body in the world frame.
 struct Body {
   const supernormal::Shape* shape = nullptr;
   supernormal::Pose pose;
@@ -21,7 +21,7 @@ struct Body {
   Matrix3 inverse_inertia = Matrix3::Zero();   ///< 1/(kg m^2)
   double width = 0;                            ///< m; the mean half-extent
 
-  /// The velocity, m/s, of the body's point with the given arm from its centre.
+  /// The velocity of the body's point at `arm` from its centre, m/s.
   Vector3 velocity_at(const Vector3& arm) const { return velocity + angular_velocity.cross(arm); }
 };
 

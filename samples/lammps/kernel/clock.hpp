@@ -1,15 +1,15 @@
-// The time of a run.
+// The physical time of a run.
 #pragma once
 
 namespace granular {
 
-/// The time (s) that has passed in the steps of a run, which need not be alike. LAMMPS' counter of steps tells no time: it may be
-/// set anew, and the step may change at any moment. While the step is the same, the time is an exact product.
+/// The time (s) of a run with steps of any length. The step counter of LAMMPS is no measure of time: it may be reset, and the step
+/// may change at any moment. While the step is constant, the time is an exact product.
 class Clock {
  public:
   struct State {
-    double before = 0;  ///< s, passed before the step had its present length
-    double steps = 0;   ///< steps of this length so far; a whole number
+    double before = 0;  ///< s; time before the first step of the present length
+    double steps = 0;   ///< steps of the present length so far; an integer
     double step = 0;    ///< s
   };
 
@@ -19,7 +19,7 @@ class Clock {
   double now() const { return state_.before + state_.steps * state_.step; }
   const State& state() const { return state_; }
 
-  /// A step (s) has been made.
+  /// Adds one step (s).
   void advance(double step) {
     if (step != state_.step) state_ = {now(), 0, step};
     ++state_.steps;

@@ -1,4 +1,4 @@
-// What a pair of bodies remembers from one step to the next.
+// The state of a pair of bodies between two steps.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,14 +7,14 @@
 
 namespace granular {
 
-/// The memory of a pair, in the world's frame, as seen from body 1.
+/// The history of a pair, in the world frame, for body 1.
 struct ContactHistory {
-  Vector3 normal = Vector3::Zero();   ///< of the last query, from body 1 to body 2; zero: there was none
+  Vector3 normal = Vector3::Zero();   ///< of the last query, from body 1 to body 2; zero if there was none
   Vector3 sliding = Vector3::Zero();  ///< m; deflection of the tangential spring
   Vector3 rolling = Vector3::Zero();  ///< rad; deflection of the rolling spring
   double stiffness = 0;               ///< N/m; of the tangential spring in the last step
 
-  static constexpr int kSize = 10;  ///< how many numbers it takes to store one
+  static constexpr int kSize = 10;  ///< how many numbers store one history
 
   bool has_normal() const { return normal != Vector3::Zero(); }
   void release_springs() {
@@ -23,7 +23,7 @@ struct ContactHistory {
     stiffness = 0;
   }
 
-  /// Reads and writes the numbers, so that the program keeps them as it keeps numbers.
+  /// Reads and writes a history as an array of numbers.
   static ContactHistory load(const double* values) {
     return {Vector3::Map(values), Vector3::Map(values + 3), Vector3::Map(values + 6), values[9]};
   }

@@ -6,27 +6,27 @@
 namespace granular {
 namespace {
 
-constexpr double kRollingStiffness = 2.25;  // of the rolling spring, over that of the normal one times rolling_length^2 (Ai et al.,
-                                            // Powder Technology 206, 269 (2011))
+constexpr double kRollingStiffness =
+    2.25;  // rolling stiffness over normal stiffness * rolling_length^2 (Ai et al., Powder Technology 206, 269 (2011))
 
-/// What a unit force at the contact changes of the relative velocity there: 1/kg.
+/// The change of the relative velocity at the contact by a unit impulse, 1/kg.
 struct Mobility {
   double normal = 0;      ///< along the normal
-  double tangential = 0;  ///< mean over the directions across it
+  double tangential = 0;  ///< mean over the directions in the tangent plane
 };
 
-/// Adds the share of one body.
+/// Adds the mobility of one body.
 void add_mobility(const Body& body, const Vector3& arm, const Vector3& n, Mobility& mobility) {
   const Vector3 lever = arm.cross(n);
   const double along = lever.dot(body.inverse_inertia * lever);
-  // The trace of [arm]^T J [arm], in which [arm] x = arm cross x.
+  // The trace of [arm]^T J [arm], where [arm] x = arm cross x.
   const double all = body.inverse_inertia.trace() * arm.squaredNorm() - arm.dot(body.inverse_inertia * arm);
   mobility.normal += body.inverse_mass + along;
   mobility.tangential += body.inverse_mass + 0.5 * (all - along);
 }
 
-/// Turns the springs from the contact's last frame into the present one: by the smallest turn that takes the normal along, and
-/// about the normal with the mean of both bodies.
+/// Rotates the springs from the last contact frame to the present one: by the smallest rotation between the normals, and about the
+/// normal by the mean spin of both bodies.
 class FrameTurn {
  public:
   FrameTurn(const Vector3& from, const Vector3& to, double spin)
@@ -35,7 +35,7 @@ class FrameTurn {
   Vector3 operator()(const Vector3& spring) const {
     const Vector3 tilted = spring + axis_.cross(spring) + axis_.cross(axis_.cross(spring)) / (1 + std::max(cosine_, -0.5));
     const Vector3 spun = tilted + spin_ * to_.cross(tilted);
-    // What rounding and the second order of the spin have changed is put right: the spring lies in the plane and keeps its length.
+    // Correct rounding and the second order of the spin: the spring stays in the plane and keeps its length.
     const Vector3 flat = spun - spun.dot(to_) * to_;
     const double length = flat.norm();
     return length > 0 ? Vector3(spring.norm() / length * flat) : Vector3(Vector3::Zero());
@@ -48,8 +48,8 @@ class FrameTurn {
   double spin_;
 };
 
-/// Advances the springs by a step: turns them, lengthens them by the motion, and keeps their force where the contact grows stiffer:
-/// what comes into contact is not yet strained, so that loading never adds energy to them.
+/// Advances the springs by a step. Rotates them and extends them by the motion. If the contact becomes stiffer, their force is
+/// kept: new contact area is unstrained, so loading adds no energy to them.
 void advance(const Contact& contact, const Vector3& sliding_rate, const Vector3& rolling_rate, double spin, double stiffness,
              double step, ContactHistory& history) {
   const FrameTurn turn(history.has_normal() ? history.normal : contact.normal, contact.normal, spin * step);
@@ -73,7 +73,7 @@ ContactForce contact_force(const Contact& contact, const NormalForce& elastic, c
 
   const Vector3 velocity = body1.velocity_at(contact.arm1) - body2.velocity_at(contact.arm2);
   const double approach = velocity.dot(n);
-  // The damper of hertz_damping_ratio() refers to 5/6 of the tangent.
+  // The damper of hertz_damping_ratio() uses 5/6 of the tangent stiffness.
   const double damped_stiffness = material.law == NormalLaw::Hertz ? 5.0 / 6 * elastic.stiffness : elastic.stiffness;
   ContactForce found;
   found.normal = std::max(0.0, elastic.force + damper(damped_stiffness, mobility.normal) * approach);

@@ -19,7 +19,7 @@ constexpr double kLargest = std::numeric_limits<double>::max();
   throw std::invalid_argument(message.str());
 }
 
-/// Written so that NaN is refused.
+/// This form of the test refuses NaN.
 void require(const char* name, double value, double least, double most, const char* range) {
   if (!(value >= least && value <= most)) refuse(name, value, range);
 }

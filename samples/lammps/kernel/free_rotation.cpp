@@ -2,9 +2,9 @@
 
 namespace granular {
 
-Eigen::Quaterniond rotate_freely(const Eigen::Quaterniond& attitude, const Eigen::Vector3d& angular_momentum,
+Eigen::Quaterniond rotate_freely(const Eigen::Quaterniond& orientation, const Eigen::Vector3d& angular_momentum,
                                  const Eigen::Vector3d& inertia, double step) {
-  Eigen::Quaterniond q = attitude;
+  Eigen::Quaterniond q = orientation;
   Eigen::Vector3d momentum = q.conjugate() * angular_momentum;  // in the body's frame
   const auto turn = [&](int axis, double duration) {
     const Eigen::Quaterniond part(Eigen::AngleAxisd(duration * momentum[axis] / inertia[axis], Eigen::Vector3d::Unit(axis)));

@@ -1,4 +1,4 @@
-// Two bodies: where they are in contact, and what they do to each other.
+// The contact of two bodies and its forces.
 #pragma once
 
 #include "kernel/contact_law.hpp"
@@ -13,21 +13,21 @@ enum class PairState {
   Failed,  ///< a pose is not finite
 };
 
-/// The answer for a pair.
+/// The result for a pair.
 struct PairContact {
   PairState state = PairState::Apart;
-  Contact contact;      ///< where they touch; undefined when they do not
+  Contact contact;      ///< undefined unless they touch
   ContactForce force;   ///< on body 1
-  int evaluations = 0;  ///< of the gap function
+  int evaluations = 0;  ///< evaluations of the gap function
 
-  /// N m; about the centre of body 1, and of body 2.
+  /// Torque about the centre of body 1, and of body 2, N m.
   Vector3 torque1() const { return contact.arm1.cross(force.force) + force.rolling_torque; }
   Vector3 torque2() const { return -contact.arm2.cross(force.force) - force.rolling_torque; }
 };
 
-/// The contact of two bodies. `settings` should end at the first proof that they are apart (stop_when_apart). `history` gives the
-/// query its first normal and is advanced by `step` (s); with a step of 0 it is only read. It neither allocates nor throws, and any
-/// number of threads may call it for different pairs.
+/// The contact of two bodies. Set stop_when_apart in `settings`, so that a query ends at the first proof of separation. `history`
+/// gives the query its first normal and is advanced by `step` (s). With a step of 0 it is only read. The function neither allocates
+/// nor throws. Threads may call it in parallel for different pairs.
 PairContact find_pair_contact(const Body& body1, const Body& body2, const ContactMaterial& material,
                               const supernormal::Settings& settings, double step, ContactHistory& history);
 

@@ -6,7 +6,7 @@
 namespace granular {
 namespace {
 
-/// The largest sqrt(x^2 + y^2) on |x/a|^e + |y/b|^e = 1: by Hoelder's inequality, another norm of (a, b).
+/// The largest sqrt(x^2 + y^2) on |x/a|^e + |y/b|^e = 1. By Hoelder's inequality it is another norm of (a, b).
 double farthest(double a, double b, double e) {
   const double longer = std::max(a, b);
   if (e <= 2) return longer;

@@ -1,4 +1,4 @@
-// A superellipsoid with what a particle simulation asks of it at every step.
+// A superellipsoid with the quantities that a particle simulation needs at every step.
 #pragma once
 
 #include "supernormal/shapes/superellipsoid.hpp"
@@ -7,19 +7,19 @@ namespace granular {
 
 using supernormal::Vector3;
 
-/// The body of particles of one size and kind.
+/// The shape of all particles of one size and kind.
 struct ParticleShape {
-  /// Half-axes in m and exponents as Superellipsoid takes them; std::invalid_argument otherwise.
+  /// Half-axes (m) and exponents must be valid for Superellipsoid. Throws std::invalid_argument otherwise.
   ParticleShape(const Vector3& half_axes, double delta, double epsilon);
 
   supernormal::Superellipsoid body;
-  double bounding_radius;  ///< m; the farthest that a point of the body is from its centre
+  double bounding_radius;  ///< m; largest distance of a point of the body from its centre
   double width;            ///< m; the mean half-axis
   double volume;           ///< m^3
   Vector3 unit_inertia;    ///< m^2; principal moments of inertia over the mass, along the axes of the body
 };
 
-/// The distance (m) of the farthest point of a superellipsoid from its centre.
+/// The largest distance of a point of a superellipsoid from its centre, m.
 double bounding_radius(const Vector3& half_axes, double delta, double epsilon);
 
 }  // namespace granular

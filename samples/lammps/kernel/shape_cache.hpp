@@ -1,4 +1,4 @@
-// The shapes of many particles, each made once.
+// The shapes of many particles, each created once.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace granular {
 
-/// Owns shapes. They stay where they are until clear().
+/// Owns shapes. Their addresses are valid until clear().
 class ShapeCache {
  public:
-  /// The shape with these half-axes (m) and exponents; std::invalid_argument as Superellipsoid throws it.
+  /// The shape with these half-axes (m) and exponents. Throws std::invalid_argument like Superellipsoid.
   const ParticleShape& find(const Vector3& half_axes, double delta, double epsilon);
 
   std::size_t size() const { return shapes_.size(); }

@@ -31,7 +31,7 @@ const ParticleShape& BodyTable::find_shape(int i) {
     return cache_.find(Vector3::Map(ellipsoids_->bonus[atom.ellipsoid[i]].shape), exponents.delta, exponents.epsilon);
   } catch (const std::invalid_argument& refusal) {
     lammps_->error->one(FLERR, name + ": " + refusal.what());
-    throw;  // not reached: LAMMPS has ended the program or thrown
+    throw;  // not reached: LAMMPS ends the program or throws
   }
 }
 
@@ -51,7 +51,7 @@ const std::vector<double>& BodyTable::find_largest_radii() {
 void BodyTable::assign_shapes() {
   const Atom& atom = *lammps_->atom;
   const auto count = static_cast<std::size_t>(atom.nlocal) + static_cast<std::size_t>(atom.nghost);
-  // Shapes of particles that have left would pile up.
+  // Otherwise shapes of deleted particles would accumulate.
   if (cache_.size() > 2 * count + 100) cache_.clear();
   shapes_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// The particles of a rank, owned and ghosts, as the kernel's bodies.
+// The particles of a rank, owned and ghosts, as bodies of the kernel.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@ class AtomVecEllipsoid;
 
 namespace granular {
 
-/// Reads LAMMPS' ellipsoid particles. Exponents belong to types, half-axes to particles.
+/// Reads the ellipsoid particles of LAMMPS. Exponents belong to types, half-axes to particles.
 class BodyTable {
  public:
-  /// For the atom types 1 to `types`; exponents are 2 until they are set.
+  /// For the atom types 1 to `types`. Their exponents are initially 2.
   BodyTable(LAMMPS_NS::LAMMPS* lammps, int types);
 
   struct Exponents {
@@ -25,11 +25,11 @@ class BodyTable {
   };
   Exponents& exponents(int type) { return exponents_[static_cast<std::size_t>(type)]; }
 
-  /// The largest bounding radius (m) of the particles of a type, on all ranks; 0 where there is none. To be asked when a run
-  /// starts: a particle that is larger is refused later on.
+  /// The largest bounding radius (m) of each type, on all ranks; 0 if it has no particles. Call it when a run starts: larger
+  /// particles are refused during the run.
   const std::vector<double>& find_largest_radii();
 
-  /// Finds the shapes of all particles: whenever their order or number changes.
+  /// Finds the shapes of all particles. Call it whenever their order or number changes.
   void assign_shapes();
 
   /// Reads poses and velocities of all particles.
@@ -37,9 +37,9 @@ class BodyTable {
 
   const ParticleShape& shape(int i) const { return *shapes_[static_cast<std::size_t>(i)]; }
   const Body& body(int i) const { return bodies_[static_cast<std::size_t>(i)]; }
-  double bytes() const;  ///< of memory
+  double bytes() const;  ///< memory in use
 
-  /// The quaternion (w, x, y, z; body to world) of particle i, in LAMMPS' memory.
+  /// The quaternion (w, x, y, z; body to world) of particle i, in memory of LAMMPS.
   double* quaternion(int i) const;
 
  private:
@@ -47,10 +47,10 @@ class BodyTable {
 
   LAMMPS_NS::LAMMPS* lammps_;
   LAMMPS_NS::AtomVecEllipsoid* ellipsoids_;
-  std::vector<Exponents> exponents_;  // by type
+  std::vector<Exponents> exponents_;  // per type
   std::vector<double> largest_radii_;
   ShapeCache cache_;
-  std::vector<const ParticleShape*> shapes_;  // by particle
+  std::vector<const ParticleShape*> shapes_;  // per particle
   std::vector<Body> bodies_;
 };
 

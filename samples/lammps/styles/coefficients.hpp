@@ -1,4 +1,4 @@
-// The words of pair_coeff and of the walls that say what a contact is like.
+// The contact parameters in pair_coeff and in the commands of walls.
 #pragma once
 
 #include "kernel/contact_material.hpp"
@@ -6,7 +6,7 @@
 
 namespace granular {
 
-/// What the words set.
+/// The parsed parameters.
 struct Coefficients {
   bool has_material = false;
   ContactMaterial material;
@@ -14,10 +14,10 @@ struct Coefficients {
   double delta = 2, epsilon = 2;
 };
 
-/// Reads
+/// Parses, in any order,
 ///     hooke STIFFNESS | hertz YOUNGS_MODULUS POISSON_RATIO, restitution E, friction MU, tangential RATIO, rolling LENGTH,
 ///     exponents DELTA EPSILON
-/// in any order; all but the law have defaults. std::invalid_argument says what is wrong.
+/// All have defaults except the law. Throws std::invalid_argument with the error.
 Coefficients read_coefficients(Words words);
 
 }  // namespace granular

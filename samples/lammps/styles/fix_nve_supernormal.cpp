@@ -117,7 +117,7 @@ int FixNveSupernormal::unpack_exchange(int i, double* buffer) {
   return kForces;
 }
 
-// The first of a fix's numbers in a restart file says how many there are.
+// In a restart file, the first number of a fix is the count of its numbers.
 int FixNveSupernormal::pack_restart(int i, double* buffer) {
   buffer[0] = kForces + 1;
   std::copy_n(forces_[i], kForces, buffer + 1);

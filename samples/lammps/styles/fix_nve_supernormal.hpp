@@ -1,4 +1,4 @@
-// fix nve/supernormal: moves the particles.
+// fix nve/supernormal: integrates the motion of the particles.
 #pragma once
 
 #include <array>
@@ -8,12 +8,12 @@
 
 namespace granular {
 
-/// Velocity Verlet with the inertia of superellipsoids and a symplectic rotation; LAMMPS' own fix nve/asphere takes the inertia of
-/// ellipsoids. Its scalar is the kinetic energy of rotation, J; its vector are linear and angular momentum (about the origin, with
-/// unwrapped positions).
+/// Velocity Verlet with the inertia of superellipsoids and a symplectic rotation. (The fix nve/asphere of LAMMPS uses the inertia
+/// of ellipsoids.) Its scalar is the kinetic energy of rotation, J. Its vector contains the linear momentum and the angular
+/// momentum about the origin, with unwrapped positions.
 ///
-/// With every particle, forces of the last step go into the restart file: LAMMPS would compute them anew from velocities half a
-/// step later, and dampers depend on these. So a run that is restarted makes the same digits.
+/// The restart file stores the forces of the last step for every particle. LAMMPS would recompute them from velocities half a step
+/// later, and dampers depend on velocities. So a restarted run gives the same digits.
 class FixNveSupernormal : public LAMMPS_NS::Fix {
  public:
   FixNveSupernormal(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
@@ -44,7 +44,7 @@ class FixNveSupernormal : public LAMMPS_NS::Fix {
 
   BodyTable* bodies_ = nullptr;
   double** forces_ = nullptr;  // of the last step: force and torque of each particle
-  bool restored_ = false;      // forces_ come from a restart file
+  bool restored_ = false;      // whether forces_ come from a restart file
   std::array<double, 6> momentum_{};
   LAMMPS_NS::bigint momentum_step_ = -1;
 };

@@ -43,7 +43,8 @@ int FixWallSupernormal::setmask() { return FixConst::POST_FORCE; }
 
 void FixWallSupernormal::init() { bodies_ = &PairSupernormal::require(lmp, "fix wall/supernormal").bodies(); }
 
-// A run goes on where the wall is. The snapshots of a `rerun` follow from no step: there the counter tells the time.
+// A run continues with the wall where it is. The snapshots of a `rerun` have no previous step: there the step counter gives the
+// time.
 void FixWallSupernormal::setup(int vflag) {
   const bool is_run = update->ntimestep == update->firststep && update->laststep - update->firststep == update->nsteps;
   if (!is_run) clock_ = Clock({0, static_cast<double>(update->ntimestep - first_counter_), update->dt});
@@ -55,8 +56,8 @@ Body FixWallSupernormal::wall_body(double step) const {
   const PartPose start{command_.anchor, Eigen::Quaterniond::Identity()};
   const double time = clock_.now(), before = time - step, after = time + step;
   const PartPose now = pose_at(start, command_.motions, time);
-  // Springs grow by the velocity of this moment, which is the particles' too. The mean of the steps before and after it adds up to
-  // the wall's displacement and, unlike that of one of them, has no component away from the axis of a rotation.
+  // Springs grow by the velocity at this moment, as for the particles. The mean velocity of the steps before and after it adds up
+  // to the displacement of the wall. In a rotation it has no radial component, unlike the mean of a single step.
   const PartVelocity moved =
       mean_velocity(pose_at(start, command_.motions, before), pose_at(start, command_.motions, after), after - before);
   const PartVelocity belt = conveyor_velocity(start, now, command_.motions, before, after);
@@ -117,7 +118,7 @@ int FixWallSupernormal::unpack_exchange(int i, double* buffer) {
   return size;
 }
 
-// The first of a fix's numbers in a restart file says how many there are.
+// In a restart file, the first number of a fix is the count of its numbers.
 int FixWallSupernormal::pack_restart(int i, double* buffer) {
   const int size = pack_exchange(i, buffer + 1) + 1;
   buffer[0] = size;

@@ -1,4 +1,4 @@
-// fix wall/supernormal: walls that stand or move as prescribed.
+// fix wall/supernormal: walls at rest or with prescribed motion.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace granular {
 
-/// Its scalar is the energy of the springs, J; its vector the force on the wall (N), the torque on it about its anchor (N m), which
-/// moves with it, and the number of contacts.
+/// Its scalar is the energy of the springs, J. Its vector contains the force on the wall (N), the torque on it about its moving
+/// anchor (N m), and the number of contacts.
 class FixWallSupernormal : public LAMMPS_NS::Fix {
  public:
   FixWallSupernormal(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
@@ -48,11 +48,11 @@ class FixWallSupernormal : public LAMMPS_NS::Fix {
 
   WallCommand command_;
   BodyTable* bodies_ = nullptr;
-  Clock clock_;                      // of the motions, since the fix was made
-  LAMMPS_NS::bigint first_counter_;  // LAMMPS' counter of steps when the fix was made
+  Clock clock_;                      // time of the motions since the fix was created
+  LAMMPS_NS::bigint first_counter_;  // step counter of LAMMPS when the fix was created
   std::vector<WallHistory> histories_;
   std::vector<WallContact> scratch_;
-  std::array<double, kSums> sums_{}, totals_{};  // of this rank, of all
+  std::array<double, kSums> sums_{}, totals_{};  // of this rank; of all ranks
   LAMMPS_NS::bigint totals_step_ = -1;
 };
 

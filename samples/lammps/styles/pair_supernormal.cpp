@@ -28,15 +28,15 @@ PairSupernormal::PairSupernormal(LAMMPS* lammps) : Pair(lammps) {
   single_enable = 1;
   restartinfo = 1;
   no_virial_fdotr_compute = 1;
-  // The history goes along with every pair of which anything is known, also of those that are apart.
+  // The history is stored for every pair with a known normal, also if the bodies are apart.
   beyond_contact = 1;
   nondefault_history_transfer = 1;
   nextra = SumCount;
   pvector = sums_.data();
   single_extra = kSingles;
   svector = singles_.data();
-  // The fix that keeps the history can be made when the run starts only; until then another one keeps its place in the list of
-  // fixes.
+  // The fix that stores the history can only be created when the run starts. Until then a placeholder keeps its position in the
+  // list of fixes.
   modify->add_fix("SUPERNORMAL_PLACE_" + std::to_string(instance_me) + " all DUMMY");
 }
 
@@ -110,7 +110,7 @@ void PairSupernormal::set_material(int low, int high, int low2, int high2, const
 }
 
 void PairSupernormal::report_volumes() const {
-  // LAMMPS' `set density` makes masses of the volumes of ellipsoids.
+  // `set density` of LAMMPS computes masses from the volumes of ellipsoids.
   for (int type = 1; type <= atom->ntypes && comm->me == 0; ++type) {
     const BodyTable::Exponents& exponents = bodies_->exponents(type);
     const double share = ParticleShape(Vector3::Ones(), exponents.delta, exponents.epsilon).volume / (4.0 / 3 * std::numbers::pi);
@@ -148,7 +148,7 @@ void PairSupernormal::compute(int eflag, int vflag) {
   sums_.fill(0);
   if (neighbor->ago == 0) bodies_->assign_shapes();
   bodies_->read_motion();
-  // What is computed before the first step is computed from a state whose springs are up to date.
+  // In the setup of a run, the springs are already up to date.
   const double step = update->setupflag != 0 ? 0 : update->dt;
   for (int k = 0; k < list->inum; ++k) compute_neighbors(list->ilist[k], step);
 }
@@ -175,7 +175,7 @@ void PairSupernormal::compute_neighbors(int i, double step) {
       known[k] = 1;
       history.store(pair_values);
     }
-    // With newton off, two ranks count a pair of an owned particle and a ghost.
+    // With newton off, two ranks count each pair of an owned particle and a ghost.
     const double share = force->newton_pair != 0 || j < atom->nlocal ? 1 : 0.5;
     sums_[Queries] += share;
     sums_[Evaluations] += share * pair.evaluations;

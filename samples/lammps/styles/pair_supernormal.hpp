@@ -1,4 +1,4 @@
-// pair_style supernormal: superellipsoids that touch.
+// pair_style supernormal: superellipsoids in contact.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ class FixNeighHistory;
 
 namespace granular {
 
-/// The pair style (README.md has its commands). A pair is always solved with the particle of the smaller tag as body 1, so that
-/// every rank that solves it finds the same force, and its history means the same to both.
+/// The pair style; see README.md for its commands. Body 1 is always the particle with the smaller tag. So every rank that solves a
+/// pair computes the same force, and both agree on the meaning of its history.
 class PairSupernormal : public LAMMPS_NS::Pair {
  public:
   explicit PairSupernormal(LAMMPS_NS::LAMMPS* lammps);
@@ -34,7 +34,7 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   void write_restart(FILE* file) override;
   void read_restart(FILE* file) override;
 
-  /// The style of a simulation, or an error of LAMMPS that names who needs it.
+  /// The style of a simulation. Raises a LAMMPS error that names `who` if there is none.
   static PairSupernormal& require(LAMMPS_NS::LAMMPS* lammps, const char* who);
 
   BodyTable& bodies() { return *bodies_; }
@@ -56,8 +56,8 @@ class PairSupernormal : public LAMMPS_NS::Pair {
   const double* find_history(int i, int j) const;
 
   std::unique_ptr<BodyTable> bodies_;
-  std::vector<double> largest_radii_;       // m; by type
-  std::vector<ContactMaterial> materials_;  // by pair of types
+  std::vector<double> largest_radii_;       // m; per type
+  std::vector<ContactMaterial> materials_;  // per pair of types
   supernormal::Settings query_settings_;
   LAMMPS_NS::FixNeighHistory* history_ = nullptr;
   std::array<double, SumCount> sums_{};

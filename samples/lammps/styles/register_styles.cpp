@@ -13,7 +13,7 @@ using LAMMPS_NS::Fix;
 using LAMMPS_NS::LAMMPS;
 using LAMMPS_NS::Pair;
 
-// LAMMPS takes plain pointers and deletes what they point to.
+// LAMMPS takes raw pointers and owns the objects.
 template <typename Style>
 Pair* create_pair(LAMMPS* lammps) {
   return new Style(lammps);

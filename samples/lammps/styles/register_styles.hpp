@@ -1,11 +1,11 @@
-// Makes the styles of this folder known to LAMMPS.
+// Registers the styles of this folder with LAMMPS.
 #pragma once
 
 #include "lammps.h"
 
 namespace granular {
 
-/// To be called before LAMMPS reads its input.
+/// Call it before LAMMPS reads its input.
 void register_styles(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace granular

@@ -30,7 +30,7 @@ std::vector<supernormal::MeshTriangle> load_triangles(const std::string& file, d
   return triangles;
 }
 
-/// Each wall is made around its anchor, about which its torque is reported.
+/// Each wall is created around its anchor, the reference point of its torque.
 void read_shape(Words& words, WallCommand& command) {
   const std::string kind = words.next("wall/supernormal");
   if (kind == "plane") {

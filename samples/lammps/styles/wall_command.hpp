@@ -1,4 +1,4 @@
-// The words of fix wall/supernormal.
+// Parses the command fix wall/supernormal.
 #pragma once
 
 #include <memory>
@@ -11,20 +11,20 @@
 
 namespace granular {
 
-/// What the command says.
+/// The parsed command.
 struct WallCommand {
   std::unique_ptr<Wall> wall;
-  Vector3 anchor = Vector3::Zero();  ///< m; where the origin of the wall's frame is at the start
+  Vector3 anchor = Vector3::Zero();  ///< m; initial origin of the wall's frame
   ContactMaterial material;
   std::vector<falling_particles::PartMotion> motions;
 };
 
-/// Reads
+/// Parses
 ///     plane POINT NORMAL | box LOW HIGH | cylinder POINT AXIS RADIUS | mesh FILE UNIT
-/// with three numbers for each but RADIUS and UNIT (m), then the contact law of pair_coeff, and any number of
+/// Each takes three numbers, except RADIUS and UNIT (m). Then follow the contact law of pair_coeff, and any number of
 ///     move linear VELOCITY | rotate AXIS POINT RPM | vibrate AMPLITUDE FREQUENCY PHASE | conveyor VELOCITY
-/// each with from SECONDS and until SECONDS where it is not on all the time.
-/// std::invalid_argument or std::runtime_error says what is wrong.
+/// each with optional `from SECONDS` and `until SECONDS`.
+/// Throws std::invalid_argument or std::runtime_error with the error.
 WallCommand read_wall_command(Words words);
 
 }  // namespace granular

@@ -1,4 +1,4 @@
-// The words of a command, one after the other.
+// Reads the words of a command in order.
 #pragma once
 
 #include <span>
@@ -9,24 +9,24 @@
 
 namespace granular {
 
-/// What is left of a command.
+/// The remaining words of a command.
 class Words {
  public:
   Words(std::span<char*> words, LAMMPS_NS::LAMMPS* lammps) : words_(words), lammps_(lammps) {}
 
   bool is_empty() const { return words_.empty(); }
 
-  /// The next word; std::invalid_argument when there is none, with `keyword`, which wanted one.
+  /// The next word. Throws std::invalid_argument, with `keyword`, if there is none.
   std::string next(const std::string& keyword);
 
-  /// Whether the next word is this one, which is then taken.
+  /// Consumes the next word if it equals `word`. Returns whether it did.
   bool accept(const std::string& word);
 
-  /// The next one, or the next three, as numbers. LAMMPS ends the program where they are none.
+  /// The next number, or the next three. LAMMPS ends the program on any other word.
   double number(const std::string& keyword);
   Vector3 vector(const std::string& keyword);
 
-  /// The words before the first one that is `separator`; it and what follows is left.
+  /// The words before the first `separator`. Leaves the separator and the rest.
   Words take_until(const std::string& separator);
 
  private:

@@ -99,7 +99,7 @@ void Throw::place_bodies(bool is_disturbed) {
     int tries = 0;
     do {
       if (++tries > kMostTries) throw std::runtime_error("a body finds no room in the lattice");
-      pose.rotation = accuracy_cost::random_attitude(random);
+      pose.rotation = accuracy_cost::random_orientation(random);
     } while (!is_free());
     poses.push_back(pose);
 

@@ -1,4 +1,4 @@
-// Our bodies among themselves.
+// Pairs of our bodies.
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/solve_pair.hpp"
 
@@ -9,7 +9,7 @@ ContactManifold query_body(dGeomID ours, dGeomID collider, Goal goal) {
   const PairKey key = pair.key();
   LastNormal last;
   ContactManifold manifold = pair.solve(reserve_entry(key), goal, last);
-  last.remember(key);
+  last.store(key);
   return manifold;
 }
 

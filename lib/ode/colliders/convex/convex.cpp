@@ -1,4 +1,4 @@
-// Our bodies and dConvex: the convex hull of its vertices, whatever its polygons and planes say.
+// Our bodies and dConvex: the convex hull of its vertices. Its polygons and planes are ignored.
 #include "ode/colliders/collider.hpp"
 #include "ode/colliders/convex/convex_vertices.hpp"
 #include "ode/colliders/solve_pair.hpp"
@@ -9,7 +9,7 @@
 namespace supernormal::ode {
 namespace {
 
-/// This thread's vertices, kept from query to query for their memory.
+/// The vertices of this thread; kept to reuse their memory.
 ConvexVertices& kept_vertices() {
   thread_local ConvexVertices kept;
   return kept;

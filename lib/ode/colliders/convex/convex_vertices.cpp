@@ -11,8 +11,8 @@
 namespace supernormal::ode {
 namespace {
 
-constexpr std::size_t kFirstRoom = 256;
-constexpr std::size_t kMostRoom = 0xffff;  // the largest number of contacts that dCollide accepts
+constexpr std::size_t kFirstContacts = 256;
+constexpr std::size_t kMaxContacts = 0xffff;  // the largest max_contacts that dCollide accepts
 
 using Box = Eigen::AlignedBox3d;
 
@@ -32,17 +32,17 @@ bool is_finite(const Box& box) { return box.min().allFinite() && box.max().allFi
 
 }  // namespace
 
-ConvexVertices::ConvexVertices() : plane_(dCreatePlane(nullptr, 1, 0, 0, 0)), contacts_(kFirstRoom) {}
+ConvexVertices::ConvexVertices() : plane_(dCreatePlane(nullptr, 1, 0, 0, 0)), contacts_(kFirstContacts) {}
 
 ConvexVertices::~ConvexVertices() { dGeomDestroy(plane_); }
 
-// The plane, and with it the order of the vertices, follows from the box, which ODE computes when it needs it: inside a
-// dGeomTransform it may be that of an earlier pose. Then a first list, if it succeeds, serves to find the right box.
+// The plane, and with it the order of the vertices, depends on the bounding box. Inside a dGeomTransform this box may belong to an
+// earlier pose. The first list, if it succeeds, then serves to find the right box.
 bool ConvexVertices::read(dGeomID convex) {
   const Pose geom_pose = pose_of(convex);
   if (!geom_pose.position.allFinite() || !geom_pose.rotation.allFinite()) return false;
   Box box = aabb_of(convex);
-  if (!list(convex, box) && dGeomGetSpace(convex) == nullptr) {  // a space may be locked, and dGeomMoved would abort
+  if (!list(convex, box) && dGeomGetSpace(convex) == nullptr) {  // not in a space, which may be locked: dGeomMoved would abort
     dGeomMoved(convex);
     box = aabb_of(convex);
     list(convex, box);
@@ -58,8 +58,8 @@ bool ConvexVertices::read(dGeomID convex) {
   return std::all_of(points_.begin(), points_.end(), [](const Vector3& point) { return point.allFinite(); });
 }
 
-// Lists the vertices in the world frame, by a plane across the longest side of a box around them, which thus has vertices on both
-// sides or on it. Returns false, and no points, when it has none: ODE makes no contacts then.
+// Lists the vertices in the world frame, with a plane across the longest side of their bounding box. Both half-spaces then contain
+// vertices, or the plane does. Returns false and no points if a half-space is empty, because ODE then makes no contacts.
 bool ConvexVertices::list(dGeomID convex, const Eigen::AlignedBox3d& box) {
   points_.clear();
   int axis = 0;
@@ -70,7 +70,7 @@ bool ConvexVertices::list(dGeomID convex, const Eigen::AlignedBox3d& box) {
   return false;
 }
 
-// Lists the vertices v with side * v[axis] <= offset, or < if not `with_plane`.
+// Lists the vertices v with side * v[axis] <= offset, or < without `with_plane`.
 bool ConvexVertices::list_below(dGeomID convex, int axis, double side, double offset, bool with_plane) {
   const Vector3 normal = side * Vector3::Unit(axis);
   dGeomPlaneSetParams(plane_, to_real(normal.x()), to_real(normal.y()), to_real(normal.z()), to_real(offset));
@@ -79,8 +79,8 @@ bool ConvexVertices::list_below(dGeomID convex, int axis, double side, double of
     count = static_cast<std::size_t>(
         dCollide(convex, plane_, static_cast<int>(contacts_.size()), contacts_.data(), sizeof(dContactGeom)));
     if (count < contacts_.size()) break;
-    if (count == kMostRoom) throw std::invalid_argument("the dConvex has more vertices than can be read: 65534 on each side");
-    contacts_.resize(std::min(4 * contacts_.size(), kMostRoom));
+    if (count == kMaxContacts) throw std::invalid_argument("the dConvex has more vertices than can be read: 65534 on each side");
+    contacts_.resize(std::min(4 * contacts_.size(), kMaxContacts));
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (with_plane || contacts_[k].depth != 0) points_.push_back(to_vector(contacts_[k].pos));
@@ -88,8 +88,8 @@ bool ConvexVertices::list_below(dGeomID convex, int axis, double side, double of
   return count > 0;
 }
 
-// Coordinates are counted in units of the size, so that the rounding of a pose does not change them. Round numbers are far from
-// where the count changes.
+// Coordinates are counted in units of the size and rounded down, so the rounding of a pose hardly ever changes a count. The shift
+// keeps round numbers far from the steps.
 double ConvexVertices::fingerprint() const {
   constexpr double kUnits = 1000;
   constexpr double kOffRoundNumbers = 0.382;

@@ -1,4 +1,4 @@
-// The vertices of a dConvex, which ODE has no function to ask for.
+// The vertices of a dConvex. ODE has no function that returns them.
 #pragma once
 
 #include <ode/ode.h>
@@ -12,9 +12,9 @@
 
 namespace supernormal::ode {
 
-/// Collides the geom with a plane through its middle, from both sides: the contacts are all its vertices (dCollideConvexPlane in
-/// ODE's convex.cpp). They are read anew for every query, because dGeomSetConvex may have changed them. Keeps its memory from one
-/// query to the next.
+/// Collides the geom with a plane through its middle, from both sides. The contacts are its vertices (dCollideConvexPlane in the
+/// convex.cpp of ODE). Every query reads them again, because dGeomSetConvex may have changed them. Keep an instance to reuse its
+/// memory.
 class ConvexVertices {
  public:
   ConvexVertices();
@@ -24,18 +24,17 @@ class ConvexVertices {
   ConvexVertices& operator=(const ConvexVertices&) = delete;
   ConvexVertices& operator=(ConvexVertices&&) = delete;
 
-  /// Returns false when the pose of the geom or one of its vertices is not finite. Throws std::invalid_argument when ODE does not
-  /// tell its vertices: more than 65534 on one side, none at all, or a bounding box that is out of date since dGeomSetConvex
-  /// (dGeomMoved renews it).
+  /// Returns false when the pose of the geom or a vertex is not finite. Throws std::invalid_argument when the vertices cannot be
+  /// read: more than 65534 on one side, none at all, or a bounding box that is stale since dGeomSetConvex (dGeomMoved renews it).
   bool read(dGeomID convex);
 
-  /// The vertices, m, in the frame of pose(). Each is listed once, in an order that depends on nothing but vertices and pose.
+  /// The vertices, m, in the frame of pose(). Each occurs once. The order depends only on vertices and pose.
   std::span<const Vector3> points() const { return points_; }
 
-  /// A number for the vertices, whatever their order and wherever the geom is: another one for other vertices.
+  /// A hash of the vertices, independent of their order and of the pose.
   double fingerprint() const;
 
-  /// The attitude of the geom, with the middle of its vertices as origin.
+  /// The orientation of the geom, with the middle of its vertices as origin.
   const Pose& pose() const { return pose_; }
 
  private:
@@ -43,7 +42,7 @@ class ConvexVertices {
   bool list_below(dGeomID convex, int axis, double side, double offset, bool with_plane);
   void move_to_middle(const Pose& geom_pose);
 
-  dGeomID plane_;  // not in a space; it outlives dCloseODE
+  dGeomID plane_;  // not in a space; outlives dCloseODE
   std::vector<dContactGeom> contacts_;
   std::vector<Vector3> points_;
   Pose pose_;

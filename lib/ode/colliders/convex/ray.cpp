@@ -1,8 +1,8 @@
 // Our bodies and dRay.
 //
-// ODE's contact of a ray is no overlap: `depth` is the distance along the ray, `pos` the hit, and the normal opposes the ray, so
-// that it is the outward one from outside and the inward one from inside. A ray of length 0 hits nothing. As with ODE's own
-// convex geoms, firstContact, backfaceCull and closestHit make no difference.
+// A contact of a ray is not an overlap: `depth` is the distance along the ray and `pos` the hit. The normal opposes the ray: it is
+// the outward normal from outside, and the inward normal from inside. A ray of length 0 hits nothing. As with the convex geoms of
+// ODE, firstContact, backfaceCull and closestHit have no effect.
 #include "supernormal/raycast/ray.hpp"
 
 #include "ode/colliders/collider.hpp"
@@ -16,7 +16,7 @@
 namespace supernormal::ode {
 namespace {
 
-/// A dRay, read without the geom's rotation: dGeomRaySet writes only one column of it.
+/// A dRay. The rotation of the geom is not read, because dGeomRaySet writes only one column of it.
 struct Ray {
   Vector3 origin, direction;
   double length;
@@ -29,7 +29,7 @@ struct Ray {
   }
 };
 
-/// Describes the hit as the contact that the writer turns into ODE's.
+/// The hit in the form that write_contacts() converts.
 Proximity as_contact(const RayHit& hit) {
   Proximity contact;
   contact.gap = -hit.distance;

@@ -1,4 +1,4 @@
-// ODE's own convex classes as shapes of the core, from the parameters of a geom.
+// Shapes of the core for the convex classes of ODE, from the parameters of a geom.
 #pragma once
 
 #include <ode/ode.h>

@@ -7,9 +7,9 @@
 
 namespace supernormal::ode {
 
-// However the sphere is turned, it may be considered as fixed to the body: so it has the same pose as long as it is at the same
-// place on the body. And the normals at which s has its maxima do not depend on the radius, so the last normal of any sphere at
-// this place will do.
+// The rotation of a sphere is irrelevant, so the sphere gets the rotation of our body. Its relative pose then changes only when its
+// centre moves relative to the body. The maxima of s(n) do not depend on the radius: any sphere with this centre can use the cached
+// normal.
 ContactManifold query_sphere(dGeomID ours, dGeomID collider, Goal goal) {
   const Sphere sphere = sphere_of(collider);
   const Pose pose{to_vector(dGeomGetPosition(collider)), rotation_of(ours)};

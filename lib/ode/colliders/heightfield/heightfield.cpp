@@ -21,10 +21,10 @@
 namespace supernormal::ode {
 namespace {
 
-// The region is wider than the body by this share of it, so that rounding loses no triangle that touches it.
+// Relative margin of the body's region, so that rounding loses no triangle that touches it.
 constexpr double kMargin = 1e-6;
 
-// A heightfield that is not placeable has no pose, and its frame is the world's.
+// A heightfield that is not placeable has no pose: its frame is the world frame.
 Pose pose_of_heightfield(dGeomID heightfield) {
   Pose pose;
   dVector3 column;
@@ -64,7 +64,7 @@ struct Visitor {
   }
 };
 
-/// Objects that a thread keeps from query to query, for their memory.
+/// Objects of this thread; kept to reuse their memory.
 struct Scratch {
   HeightfieldPatch patch;
   MeshContacts mesh;
@@ -93,15 +93,15 @@ ContactManifold to_world(ContactManifold local, const Pose& frame) {
   return local;
 }
 
-// A body without any surface in its box is above it or below. If it is below, it is moved out along the normal of the plane above
-// its middle.
-bool find_way_up(HeightfieldProbe& probe, const Visitor& visitor, Proximity& way_up) {
+// If no triangle touches the body, the body is above the surface or below. From below it is pushed out along the normal of the
+// plane above its middle.
+bool find_upward_contact(HeightfieldProbe& probe, const Visitor& visitor, Proximity& upward) {
   Facet facet;
   if (!probe.find_facet(visitor.centre.x(), visitor.centre.z(), visitor.size(), facet)) return false;
   if (visitor.centre.y() > facet.height) return false;
   const Vector3 on_surface{facet.x, facet.height, facet.z};
-  way_up = find_plane_proximity(visitor.shape, visitor.pose, facet.normal, facet.normal.dot(on_surface));
-  return way_up.gap <= 0;
+  upward = find_plane_proximity(visitor.shape, visitor.pose, facet.normal, facet.normal.dot(on_surface));
+  return upward.gap <= 0;
 }
 
 bool is_above_all(const HeightfieldProbe& probe, const Visitor& visitor) {
@@ -121,8 +121,8 @@ Found find_contacts(HeightfieldProbe& probe, const Visitor& visitor) {
   for (const MeshContact& contact : kept.mesh.find(visitor.shape, visitor.pose, triangles, visitor.settings)) {
     kept.contacts.push_back(contact.proximity);
   }
-  Proximity way_up;
-  if (kept.contacts.empty() && find_way_up(probe, visitor, way_up)) kept.contacts.push_back(way_up);
+  Proximity upward;
+  if (kept.contacts.empty() && find_upward_contact(probe, visitor, upward)) kept.contacts.push_back(upward);
   Proximity all;
   all.status = kept.contacts.empty() ? Status::Apart : kept.contacts.front().status;
   all.evaluations = kept.mesh.evaluations();
@@ -138,7 +138,7 @@ MotionAhead in_frame(MotionAhead world, const Pose& frame) {
   return world;
 }
 
-/// Finds the contacts ahead of a body, in scratch(), in the world frame.
+/// Appends the contacts ahead of the body to scratch().manifolds, in the world frame.
 void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, dGeomID ours, dGeomID heightfield) {
   const Body& body = require_body(ours);
   const Vector3 origin = to_vector(dGeomGetPosition(ours));
@@ -160,12 +160,12 @@ void look_ahead(HeightfieldProbe& probe, const Visitor& visitor, const Pose& fra
   for (const MeshManifold& contact : found) kept.manifolds.push_back({to_world(contact.manifold, frame), -1});
 }
 
-/// Finds the contacts of the overlap, in scratch(), in the world frame.
-void look_at_overlap(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, int room) {
+/// Appends the contacts of the overlap to scratch().manifolds, in the world frame.
+void look_at_overlap(HeightfieldProbe& probe, const Visitor& visitor, const Pose& frame, int max_contacts) {
   const Found found = find_contacts(probe, visitor);
   for (const Proximity& contact : found.contacts) {
     ContactManifold manifold = contact;
-    if (room > 1) {
+    if (max_contacts > 1) {
       manifold = find_plane_contact_manifold(visitor.shape, visitor.pose, contact);
       draw_in_corners(manifold, found.triangles);
     }
@@ -173,8 +173,8 @@ void look_at_overlap(HeightfieldProbe& probe, const Visitor& visitor, const Pose
   }
 }
 
-// The nearest triangle of those below the body is at least as far away as the nearest of all, which is therefore below the body
-// widened by that distance.
+// The nearest triangle below the body bounds the distance of the nearest triangle of all. The latter is therefore below the body
+// widened by this bound.
 Proximity find_nearest(HeightfieldProbe& probe, const Visitor& visitor) {
   const Region region = visitor.region();
   Settings settings = visitor.settings;
@@ -210,11 +210,11 @@ Impact find_heightfield_impact(dGeomID ours, dGeomID collider, double horizon) {
   const Motion start = motion_of(ours, pose_of(ours));
   if (!Visitor(body, start.pose, frame).is_finite()) return {};
   const BodyBox box = BodyBox::of(body.shape());
-  const Way way(start, motion_of(collider, frame), (box.centre - start.centre).norm() + box.half_lengths.norm(), horizon);
+  const Path path(start, motion_of(collider, frame), (box.centre - start.centre).norm() + box.half_lengths.norm(), horizon);
   HeightfieldProbe& probe = HeightfieldProbe::looking_at(collider);
-  return way.first([&](const Motion& here, const Motion& field, double duration) {
+  return path.first([&](const Motion& here, const Motion& field, double duration) {
     const Visitor visitor(body, here.pose, field.pose);
-    const Region region = visitor.region().widened(way.travel() + kMargin * visitor.size());
+    const Region region = visitor.region().widened(path.travel() + kMargin * visitor.size());
     const std::span<const MeshTriangle> triangles = scratch().patch.read(probe, region);
     return find_mesh_time_of_impact(body.shape(), here, triangles, field, duration, body.settings()).impact;
   });
@@ -230,8 +230,8 @@ int collide_with_heightfield(dGeomID ours, dGeomID collider, int flags, dContact
     std::vector<LocatedManifold>& manifolds = scratch().manifolds;
     manifolds.clear();
     if (require_body(ours).look_ahead() > 0) look_ahead(probe, visitor, frame, ours, collider);
-    // What is wholly below the surface has nothing ahead of it but the way up.
-    if (manifolds.empty() && !is_above_all(probe, visitor)) look_at_overlap(probe, visitor, frame, out.room());
+    // A body wholly below the surface has no contact ahead, but must be pushed up.
+    if (manifolds.empty() && !is_above_all(probe, visitor)) look_at_overlap(probe, visitor, frame, out.max_contacts());
     return write_contacts(manifolds, out);
   });
 }

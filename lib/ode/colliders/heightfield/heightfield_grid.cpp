@@ -8,18 +8,18 @@
 namespace supernormal::ode {
 namespace {
 
-// Three columns and rows of samples determine their spacing without ambiguity.
+// Three distinct columns and rows of samples determine the spacing without ambiguity.
 constexpr std::size_t kEnough = 3;
 
-// The first listing is for cells much smaller than the body, the last one for cells a million times larger.
+// The first radius suits cells much smaller than the body, the last cells a million times larger.
 constexpr double kFirstRadius = 1.0 / 64;
 constexpr int kDoublings = 26;
 
-// A sample is at its place if it is within this share of a cell. Grids with fewer than a million cells along an axis differ by more
-// from the second sample on.
+// A sample must be within this fraction of a cell from its place. A grid with another spacing, and fewer than a million cells along
+// an axis, differs by more from the second sample on.
 constexpr double kOnSample = 1e-6;
 
-// Steps from a sample into the six triangles around it, in cells.
+// Steps from a sample into its six adjacent triangles, in cells.
 constexpr std::array<std::array<double, 2>, 6> kIntoTriangles = {
     {{0.125, 0.125}, {-0.25, 0.125}, {-0.125, 0.25}, {0.125, -0.25}, {0.25, -0.125}, {-0.125, -0.125}}};
 
@@ -46,9 +46,10 @@ bool is_on(const SampleAxis& axis, const std::vector<double>& coordinates) {
   });
 }
 
-// A whole number of cells lies between the borders, which makes the spacing exact.
+// The extent is a whole number of cells, which makes the spacing exact.
 std::optional<SampleAxis> finite_axis(std::vector<double> coordinates, double half) {
-  std::erase_if(coordinates, [&](double x) { return std::abs(x) > half * (1 - kBorder); });  // the border itself, to rounding
+  std::erase_if(coordinates,
+                [&](double x) { return std::abs(x) > half * (1 - kBorder); });  // border samples, exact only to rounding
   coordinates.push_back(half);
   coordinates.insert(coordinates.begin(), -half);
   const double cells = std::round(2 * half / smallest_step(coordinates));
@@ -58,7 +59,7 @@ std::optional<SampleAxis> finite_axis(std::vector<double> coordinates, double ha
   return axis;
 }
 
-// All samples are at whole multiples of half the spacing: the one farthest from the origin determines the spacing to the most
+// All samples are at whole multiples of half the spacing. The sample farthest from the origin determines the spacing to most
 // digits.
 std::optional<SampleAxis> infinite_axis(const std::vector<double>& coordinates) {
   const double step = smallest_step(coordinates);
@@ -85,7 +86,7 @@ std::optional<SampleGrid> grid_through(const HeightfieldProbe& probe, const std:
 
 enum class Verdict { Agrees, Disagrees, Unknown };
 
-// Rays hit three places of each triangle: all of a triangle see one plane, and both planes meet at b and c.
+// Three rays hit each triangle. Those in one triangle must find one plane, and the two planes must meet at b and c.
 Verdict check_cell(HeightfieldProbe& probe, const SampleGrid& grid, std::int64_t i, std::int64_t j) {
   constexpr std::array<std::array<double, 2>, 6> kPlaces = {
       {{0.1, 0.1}, {0.8, 0.1}, {0.1, 0.8}, {0.9, 0.9}, {0.9, 0.2}, {0.2, 0.9}}};
@@ -128,12 +129,12 @@ bool is_confirmed(HeightfieldProbe& probe, const SampleGrid& grid, const Facet& 
   return agreeing > 0;
 }
 
-// Lists all samples around, with those that ODE omits for the plane of one facet added from another facet.
+// Lists all samples around. ODE omits the samples on the plane of the facet below: a second facet adds them.
 bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std::vector<Vector3>& samples) {
   if (!probe.list_samples(spot.place(), radius, samples)) return false;
   if (samples.empty()) return true;
-  const Vector3 sample = samples[samples.size() / 2];  // off the plane of the spot
-  // The second facet is beside the sample, also after rounding.
+  const Vector3 sample = samples[samples.size() / 2];  // not on the plane of the spot
+  // The second facet must be beside the sample, also after rounding.
   const double aside = std::max(1e-6 * radius, 16 * kRealEpsilon * (std::abs(sample.x()) + std::abs(sample.z())));
   for (const double step : {aside, -aside}) {
     Facet other;
@@ -144,7 +145,8 @@ bool list_around(HeightfieldProbe& probe, const Facet& spot, double radius, std:
   return true;
 }
 
-// A rectangle without samples inside has a plane surface if its corners are on one, because any other would have a kink.
+// A rectangle without interior samples has a plane surface if its corners are coplanar with the spot. Otherwise it would have an
+// edge.
 bool is_plane_around(HeightfieldProbe& probe, const Facet& spot, double reach) {
   const double limit_x = probe.half_width() * kInside;
   const double limit_z = probe.half_depth() * kInside;
@@ -161,7 +163,7 @@ bool is_plane_around(HeightfieldProbe& probe, const Facet& spot, double reach) {
   return true;
 }
 
-// Whether two of the samples, all of which are on the grid, are in neighbouring columns, or rows.
+// Whether two of the samples are in neighbouring columns, or rows. All of them must be on the grid.
 bool has_neighbours(const SampleAxis& axis, const std::vector<Vector3>& samples, int along) {
   const auto is_next_to = [&](const Vector3& a, const Vector3& b) {
     return axis.sample_at(b[along]) == *axis.sample_at(a[along]) + 1;
@@ -171,9 +173,9 @@ bool has_neighbours(const SampleAxis& axis, const std::vector<Vector3>& samples,
   });
 }
 
-// Looks for a witness among the four cells around a sample. All samples of a cell are within 0.6 of its diagonal from a place near
-// its middle. Those of a gentle ridge are in the planes on both sides: the samples beside it are listed only if they are far enough
-// from one another to be on one side.
+// Looks for a witness among the four cells around a sample. A circle of 0.6 diagonals about a place near the middle of a cell
+// contains all its samples. On a gentle ridge the samples lie in the planes of both sides: the larger radius lists enough samples
+// on one side.
 GridWitness find_witness_at(HeightfieldProbe& probe, const SampleGrid& grid, const Vector3& sample) {
   const double diagonal = std::hypot(grid.x.spacing, grid.z.spacing);
   for (const double radius : {0.6 * diagonal, 2 * diagonal}) {
@@ -224,11 +226,11 @@ bool is_same_height(double height1, double height2, const Facet& facet, double e
 }
 
 bool is_shown(HeightfieldProbe& probe, const SampleGrid& grid, const GridWitness& witness) {
-  thread_local std::vector<Vector3> samples;  // keeps its memory from one query to the next
+  thread_local std::vector<Vector3> samples;  // kept to reuse its memory
   samples.clear();
   const auto is_on_grid = [&](const Vector3& sample) { return grid.x.sample_at(sample.x()) && grid.z.sample_at(sample.z()); };
   if (!(witness.radius > 0)) return false;
-  // The second triangle shows the samples that are on the plane of the first one.
+  // The second triangle shows the samples on the plane of the first.
   for (const double in_cell : {0.45, 0.55}) {
     const Vector3 place{grid.x.at(witness.i) + in_cell * grid.x.spacing, witness.height,
                         grid.z.at(witness.j) + in_cell * grid.z.spacing};

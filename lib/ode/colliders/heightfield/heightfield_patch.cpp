@@ -11,8 +11,8 @@ namespace {
 constexpr int kMostCells = 512;  // largest number of cells along one axis
 constexpr int kPoints = 32;      // number of points along one axis if there is no grid
 
-// Farther away than this, in units of the region, a region's place among the samples is a matter of rounding, and their number is
-// no int.
+// Largest distance of a region from the origin, in units of its size. Beyond it, rounding decides where the region is among the
+// samples, and the sample number overflows an int.
 constexpr double kFarthest = 1e8;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -21,7 +21,7 @@ struct Interval {
   double low, high;
 };
 
-// The part of the interval that the field covers; if the interval is beyond the border, as much of the field at the border.
+// The part of the interval that the field covers. An interval beyond the border is moved to the border.
 Interval moved_inside(double low, double high, double half) {
   const double width = std::min(high - low, 2 * half);
   if (std::min(high, half) - std::max(low, -half) > 1e-6 * width) return {std::max(low, -half), std::min(high, half)};
@@ -47,7 +47,7 @@ bool has_extent_of(const SampleGrid& grid, const HeightfieldProbe& probe) {
   return grid.x.count > 0 && grid.x.half == probe.half_width() && grid.z.half == probe.half_depth();
 }
 
-// A place in the region with a surface: its middle, or the middle of a quarter.
+// A place in the region that has a surface: its middle, or near the middle of a quarter.
 bool find_spot(HeightfieldProbe& probe, const Region& region, Facet& spot) {
   for (const auto& [share_x, share_z] :
        {std::pair(0.5, 0.5), std::pair(0.25, 0.3), std::pair(0.7, 0.25), std::pair(0.3, 0.75), std::pair(0.75, 0.7)}) {
@@ -117,7 +117,7 @@ bool HeightfieldPatch::read_grid(HeightfieldProbe& probe, const SampleGrid& grid
   return is_consistent();
 }
 
-// The plane that a ray met near the corner a of a cell must pass through the corners b and c.
+// The plane found near the vertex a of a cell must pass through b and c.
 bool HeightfieldPatch::is_consistent() const {
   for (std::size_t i = 0; i + 1 < x_.size(); ++i) {
     for (std::size_t j = 0; j + 1 < z_.size(); ++j) {

@@ -11,26 +11,27 @@
 
 namespace supernormal::ode {
 
-/// A rectangle of the heightfield's own x and z, m.
+/// A rectangle in the x and z of the heightfield, m.
 struct Region {
   double x_low, x_high, z_low, z_high;
 
   Region widened(double by) const { return {x_low - by, x_high + by, z_low - by, z_high + by}; }
-  double reach() const;  ///< distance from the middle to the farther side
+  double reach() const;  ///< half of the longer side
 };
 
-/// Reads triangles, in the heightfield's own frame. It owns the memory and the grids found so far: keep one per thread.
+/// Reads triangles, in the frame of the heightfield. Owns the memory and the grids found so far: keep one per thread.
 ///
-/// Samples are read anew in every query, because ODE lets the program change them at any time. The same data may also get another
-/// grid, and other data the same address: every query that uses the grid of an earlier one first looks at its witness. The
-/// triangles are exact when the grid is known, or when the surface is a plane there. When neither is so (samples that are not
-/// numbers everywhere, very long cells), or when the region holds more than 512 cells along x or z, the triangles are those of 32 x
-/// 32, or 512 x 512, points of the surface.
+/// Every query reads the samples again, because the program may change them at any time. The data may also get another grid, or
+/// other data the same address: before an earlier grid is used, its witness is checked.
+///
+/// The triangles are exact when the grid is known or the surface is a plane. Without a grid (some samples NaN, very long cells)
+/// they interpolate 32 x 32 points of the surface. In a region of more than 512 cells along x or z they interpolate 512 x 512
+/// points.
 class HeightfieldPatch {
  public:
-  /// All triangles with a part above or below the region. The region is moved to the border if it lies beyond: there is at least
-  /// one triangle, unless samples are not numbers. Valid until the next call. Throws std::domain_error when the region is so far
-  /// from the origin that ODE could not tell its cells apart.
+  /// All triangles with a part above or below the region. A region beyond the border is moved to it, so there is at least one
+  /// triangle unless samples are NaN. Valid until the next call. Throws std::domain_error when the region is so far from the origin
+  /// that ODE cannot resolve its cells.
   std::span<const MeshTriangle> read(HeightfieldProbe& probe, const Region& region);
 
  private:
@@ -45,9 +46,9 @@ class HeightfieldPatch {
   std::size_t node(std::size_t i, std::size_t j) const { return i * z_.size() + j; }
 
   std::unordered_map<dHeightfieldDataID, FoundGrid> grids_;
-  std::vector<double> x_, z_;    // m, ascending; coordinates of a lattice of points on the surface
-  std::vector<double> heights_;  // m, at the node (i, j); not a number where there is no surface
-  std::vector<Facet> facets_;    // one that meets the node; that of the cell's triangle abc if it has one
+  std::vector<double> x_, z_;    // m, ascending; coordinates of a lattice of surface points
+  std::vector<double> heights_;  // m, at the node (i, j); NaN where there is no surface
+  std::vector<Facet> facets_;    // a facet at the node; that of the triangle abc if the cell has one
   std::vector<MeshTriangle> triangles_;
 };
 

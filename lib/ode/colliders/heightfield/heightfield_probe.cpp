@@ -10,12 +10,13 @@
 namespace supernormal::ode {
 namespace {
 
-// Longer than any ray that has to get through a surface, and finite, because ODE would multiply infinity by zero.
+// Longer than any ray needs to be, and finite, because ODE would multiply infinity by zero.
 constexpr double kRayLength = 1e18;
 
 constexpr int kMaxListed = 2048;
 
-// Heights are found as a ray's start minus the distance to the surface: a start this many scales above the surface costs digits.
+// A height is the start of the ray minus the distance to the surface. A start more than this many scales above the surface loses
+// digits.
 constexpr double kNear = 16;
 
 }  // namespace
@@ -59,12 +60,12 @@ bool HeightfieldProbe::cast_down(double x, double z, double start, Facet& facet)
   facet.normal = -to_vector(hit.normal);
   const double slope = std::hypot(facet.normal.x(), facet.normal.z()) / facet.normal.y();
   facet.rounding = kRealEpsilon * (std::abs(start) + std::abs(facet.height) + slope * (std::abs(x) + std::abs(z)));
-  // For a start below all samples around, ODE reports a hit although the ray goes down (heightfield.cpp, "totally under").
+  // If the start is below all samples around, ODE reports a hit although the ray goes down (heightfield.cpp, "totally under").
   return facet.height < start && facet.normal.allFinite() && facet.normal.y() > 0;
 }
 
-// A ray that starts below the surface does not find it, and where the surface ends is not always known: the start goes up until
-// there is a hit, and comes down again for the last digits.
+// A ray from below the surface does not hit it, and an upper bound of the surface is not always known. Raise the start until a ray
+// hits, then lower it for the last digits.
 bool HeightfieldProbe::find_facet(double x, double z, double scale, Facet& facet) {
   if (!(std::abs(x) < half_width_ * (1 - kBorder)) || !(std::abs(z) < half_depth_ * (1 - kBorder))) return false;
   if (std::isfinite(max_height_) && cast_down(x, z, max_height_ + scale, facet)) return true;
@@ -75,8 +76,8 @@ bool HeightfieldProbe::find_facet(double x, double z, double scale, Facet& facet
   return true;
 }
 
-// ODE lists the samples within the deep capsule, except for those of the triangle's planes that meet the capsule's lower end in
-// that very triangle (heightfield.cpp, "pass 2"); the points of these come first, far below.
+// ODE lists the samples inside the deep capsule. It omits the samples on planes that the capsule's lower end meets in the triangle
+// itself (heightfield.cpp, "pass 2"). Those planes give points far below, which are skipped here.
 bool HeightfieldProbe::list_samples(const Vector3& place, double radius, std::vector<Vector3>& samples) {
   const double reach = 1e9 * radius;
   dGeomCapsuleSetParams(capsule_, to_real(radius), to_real(2 * reach));

@@ -1,5 +1,5 @@
-// Queries of a dHeightfield through ODE's public interface: it has no function for the samples, but ODE's own geoms can be
-// collided with it.
+// Queries of a dHeightfield through the public interface of ODE. ODE has no function that returns samples, but the heightfield can
+// be collided with other geoms.
 #pragma once
 
 #include <ode/ode.h>
@@ -12,19 +12,19 @@
 
 namespace supernormal::ode {
 
-/// The precision of dReal: the numbers that ODE takes and returns are rounded to it.
+/// The precision of dReal. ODE rounds its inputs and outputs to it.
 inline constexpr double kRealEpsilon = double{std::numeric_limits<dReal>::epsilon()};
 
-/// Width of the border that is avoided, relative to the extent: ODE 0.16 aborts if a geom reaches beyond the far border by a
-/// rounding error (heightfield.cpp, dIASSERT(nMinX < nMaxX)), and finds no rays on the border.
+/// Relative width of the border to avoid. ODE 0.16 aborts if a geom passes the far border by a rounding error (heightfield.cpp,
+/// dIASSERT(nMinX < nMaxX)). It also finds no ray hits on the border.
 inline constexpr double kBorder = std::max(1e-9, 8 * kRealEpsilon);
 inline constexpr double kInside = 1 - 10 * kBorder;
 
 /// The plane of the triangle at some (x, z).
 struct Facet {
-  double x = 0, z = 0;                ///< m; the point at which the plane was found
+  double x = 0, z = 0;                ///< m; where the plane was found
   double height = 0;                  ///< m; y of the surface there
-  double rounding = 0;                ///< m; rounding error of the height, from the terms that ODE adds up for it
+  double rounding = 0;                ///< m; rounding error of the height, from the terms that ODE adds
   Vector3 normal = Vector3::UnitY();  ///< unit, upward
 
   Vector3 place() const { return {x, height, z}; }
@@ -35,14 +35,14 @@ struct Facet {
   }
 };
 
-/// A private geom with the samples of a heightfield, non-placeable, so that everything is in the heightfield's own frame (origin
-/// in the middle, y up) and free of the rounding of a pose, and the geoms it is probed with. All of them are kept by the thread:
-/// they stay usable when ODE is closed and initialised again.
+/// A private geom with the samples of a heightfield, and the geoms that probe it. The private geom is not placeable: everything is
+/// in the frame of the heightfield (origin in the middle, y up), without the rounding of a pose. Each thread keeps its geoms; they
+/// survive dCloseODE and dInitODE.
 ///
-/// ODE keeps scratch memory in the heightfield data: at any time only one thread may collide anything with the same data.
+/// ODE keeps scratch memory in the heightfield data: two threads must not collide with the same data at once.
 class HeightfieldProbe {
  public:
-  /// This thread's probe, with the samples of `heightfield`.
+  /// The probe of this thread, with the samples of `heightfield`.
   static HeightfieldProbe& looking_at(dGeomID heightfield);
 
   HeightfieldProbe(const HeightfieldProbe&) = delete;
@@ -57,16 +57,16 @@ class HeightfieldProbe {
   double half_depth() const { return half_depth_; }
   bool is_infinite() const;
 
-  /// An upper bound of the samples, m; infinite when ODE does not know (height callback without dGeomHeightfieldDataSetBounds).
+  /// An upper bound of the samples, m. Infinite when ODE has none (height callback without dGeomHeightfieldDataSetBounds).
   double max_height() const { return max_height_; }
 
-  /// Returns false where there is no surface: beyond the border, on it (some 1e-9 of the extent), or where a sample is not a
-  /// number. `scale` (m) is the length that matters to the caller.
+  /// Returns false where there is no surface: beyond or on the border (some 1e-9 of the extent), or where a sample is NaN. `scale`
+  /// (m) is the length scale of the caller.
   bool find_facet(double x, double z, double scale, Facet& facet);
 
-  /// Adds samples within `radius` (m) of the place's (x, z), at their exact places: as a rule all of them, but ODE omits those of
-  /// some planes, above all that of the triangle there. The place is no more than 5e8 radii above or below the surface. Returns
-  /// false when there are more than it can list.
+  /// Adds the samples within `radius` (m) of the place in (x, z), with their exact coordinates. ODE omits the samples of some
+  /// planes, above all of the triangle there. The place must be within 5e8 radii above or below the surface. Returns false when
+  /// there are too many samples to list.
   bool list_samples(const Vector3& place, double radius, std::vector<Vector3>& samples);
 
  private:

@@ -7,7 +7,7 @@
 namespace supernormal::ode {
 namespace {
 
-// The tree is searched in float, which may lose this share of the reach of the coordinates.
+// Relative margin: the tree is searched in float, which loses this fraction of the coordinates.
 constexpr double kFloatMargin = 4e-6;
 
 std::array<Vector3, 3> vertices_of(dGeomID mesh, int index) {
@@ -16,29 +16,29 @@ std::array<Vector3, 3> vertices_of(dGeomID mesh, int index) {
   return {to_vector(v[0]), to_vector(v[1]), to_vector(v[2])};
 }
 
-// The vector has its capacity before ODE calls: nothing may be thrown through ODE.
-int write_down(dGeomID /*mesh*/, dGeomID box, int index) {
+// The vector has its capacity before ODE calls: no exception may pass through ODE.
+int collect_index(dGeomID /*mesh*/, dGeomID box, int index) {
   static_cast<std::vector<int>*>(dGeomGetData(box))->push_back(index);
-  return 0;  // ODE is to make no contacts
+  return 0;  // no contacts from ODE
 }
 
-/// Takes the callbacks off a mesh and puts them back. This also protects the mesh's memory of the box that it met last: ours is
-/// always the same one, elsewhere.
+/// Replaces the callbacks of a mesh while it lives. It also disables the mesh's temporal coherence cache for boxes, which would
+/// hold our query box.
 class Interception {
  public:
   explicit Interception(dGeomID mesh)
       : mesh_(mesh),
         callback_(dGeomTriMeshGetCallback(mesh)),
         array_callback_(dGeomTriMeshGetArrayCallback(mesh)),
-        remembers_boxes_(dGeomTriMeshIsTCEnabled(mesh, dBoxClass)) {
-    dGeomTriMeshSetCallback(mesh, write_down);
+        caches_boxes_(dGeomTriMeshIsTCEnabled(mesh, dBoxClass)) {
+    dGeomTriMeshSetCallback(mesh, collect_index);
     dGeomTriMeshSetArrayCallback(mesh, nullptr);
-    if (remembers_boxes_ != 0) dGeomTriMeshEnableTC(mesh, dBoxClass, 0);
+    if (caches_boxes_ != 0) dGeomTriMeshEnableTC(mesh, dBoxClass, 0);
   }
   ~Interception() {
     dGeomTriMeshSetCallback(mesh_, callback_);
     dGeomTriMeshSetArrayCallback(mesh_, array_callback_);
-    if (remembers_boxes_ != 0) dGeomTriMeshEnableTC(mesh_, dBoxClass, remembers_boxes_);
+    if (caches_boxes_ != 0) dGeomTriMeshEnableTC(mesh_, dBoxClass, caches_boxes_);
   }
   Interception(const Interception&) = delete;
   Interception(Interception&&) = delete;
@@ -49,7 +49,7 @@ class Interception {
   dGeomID mesh_;
   dTriCallback* callback_;
   dTriArrayCallback* array_callback_;
-  int remembers_boxes_;
+  int caches_boxes_;
 };
 
 }  // namespace
@@ -67,7 +67,7 @@ std::span<const MeshTriangle> MeshCandidates::find(dGeomID mesh, dGeomID geom, c
       box.half_lengths.sum() + box.centre.lpNorm<1>() + (pose.position - to_vector(dGeomGetPosition(mesh))).lpNorm<1>();
   const BodyBox searched = box.widened(kFloatMargin * reach);
   if (has_tree) {
-    ask_tree(mesh, searched, pose);
+    search_tree(mesh, searched, pose);
   } else {
     search_all(mesh, searched, pose);
   }
@@ -80,7 +80,7 @@ std::span<const MeshTriangle> MeshCandidates::find(dGeomID mesh, dGeomID geom, c
   return triangles_;
 }
 
-void MeshCandidates::ask_tree(dGeomID mesh, const BodyBox& box, const Pose& pose) {
+void MeshCandidates::search_tree(dGeomID mesh, const BodyBox& box, const Pose& pose) {
   const Vector3 sides = 2 * box.half_lengths;
   const Vector3 centre = pose.position + pose.rotation * box.centre;
   dMatrix3 rotation{};

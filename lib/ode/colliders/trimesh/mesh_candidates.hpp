@@ -12,10 +12,9 @@
 
 namespace supernormal::ode {
 
-/// Searches ODE's own tree of bounding volumes, with a dBox and a callback that writes down the triangles that it is called for:
-/// the callbacks of the mesh are replaced for that time and put back. Like everything with a dTriMesh, it is not for several
-/// threads at once. A mesh without such a tree (GIMPACT) is searched from end to end. Keeps its memory and its dBox from one
-/// query to the next, also when ODE is closed and initialised again in between.
+/// Searches the tree of bounding volumes of ODE with a dBox and a callback that collects triangles. The callbacks of the mesh are
+/// replaced during the search and then restored. Like every use of a dTriMesh, it is not thread-safe. A mesh without such a tree
+/// (GIMPACT) is searched linearly. Keep an instance to reuse its memory and its dBox. It survives dCloseODE and dInitODE.
 class MeshCandidates {
  public:
   MeshCandidates();
@@ -25,13 +24,13 @@ class MeshCandidates {
   MeshCandidates& operator=(const MeshCandidates&) = delete;
   MeshCandidates& operator=(MeshCandidates&&) = delete;
 
-  /// All triangles of the mesh that touch the box, and perhaps some more, in ODE's order; world frame. Valid until the next call.
-  /// When the program has set a dTriCallback, only those are listed that it accepts for the body `geom`; a dTriArrayCallback gets
-  /// all of them first if `is_collision`.
+  /// All triangles of the mesh that touch the box, and perhaps some more, in the order of ODE. Frame: world. Valid until the next
+  /// call. A dTriCallback of the program filters the triangles for the body `geom`. If `is_collision`, a dTriArrayCallback gets all
+  /// of them first.
   std::span<const MeshTriangle> find(dGeomID mesh, dGeomID geom, const BodyBox& box, const Pose& pose, bool is_collision);
 
  private:
-  void ask_tree(dGeomID mesh, const BodyBox& box, const Pose& pose);
+  void search_tree(dGeomID mesh, const BodyBox& box, const Pose& pose);
   void search_all(dGeomID mesh, const BodyBox& box, const Pose& pose);
   void read_triangles(dGeomID mesh);
 

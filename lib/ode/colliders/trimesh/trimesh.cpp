@@ -1,4 +1,4 @@
-// Our bodies and dTriMesh: what is behind its triangles is solid.
+// Our bodies and dTriMesh. The space behind the triangles is solid.
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -23,10 +23,10 @@
 namespace supernormal::ode {
 namespace {
 
-// The box around the way of a body is wider by this share of the body, so that rounding loses no triangle that touches it.
+// Relative margin of the box around a body's path, so that rounding loses no triangle that touches it.
 constexpr double kMargin = 1e-6;
 
-/// Objects that a thread keeps from query to query, for their memory.
+/// Objects of this thread; kept to reuse their memory.
 struct Scratch {
   MeshCandidates candidates;
   MeshContacts contacts;
@@ -50,20 +50,20 @@ struct Visit {
   Visit(dGeomID ours, dGeomID collider)
       : geom(ours), mesh(collider), body(require_body(ours)), pose(pose_of(ours)), box(BodyBox::of(body.shape())) {}
 
-  // ODE aborts on a box whose numbers are not finite.
+  // ODE aborts on a box that is not finite.
   bool is_usable() const {
     const Pose frame{to_vector(dGeomGetPosition(mesh)), to_rotation(dGeomGetRotation(mesh))};
     return supernormal::is_usable(pose) && supernormal::is_usable(frame) && box.centre.allFinite() &&
            box.half_lengths.allFinite() && (box.half_lengths.array() > 0).all();
   }
 
-  /// The triangles that are no farther from the body than `distance`.
+  /// The triangles within `distance` (m) of the body.
   std::span<const MeshTriangle> triangles_within(double distance, bool is_collision = false) const {
     return scratch().candidates.find(mesh, geom, box.widened(distance), pose, is_collision);
   }
 };
 
-/// Counts a query that found `all`, the smallest gap first, as one.
+/// Counts as one query. `first` has the smallest gap.
 void count_query_of(const Proximity* first, int evaluations) {
   Proximity all;
   all.status = first == nullptr ? Status::Apart : first->status;
@@ -78,7 +78,7 @@ std::span<const MeshContact> find_contacts(const Visit& visit, std::span<const M
   return found;
 }
 
-/// Finds the contacts ahead, in scratch().
+/// Appends the contacts ahead to scratch().manifolds.
 void look_ahead(const Visit& visit) {
   const double time = visit.body.look_ahead();
   const BodyAhead body{visit.body.shape(), visit.pose,
@@ -94,15 +94,15 @@ void look_ahead(const Visit& visit) {
   for (const MeshManifold& contact : found) scratch().manifolds.push_back({contact.manifold, contact.triangle});
 }
 
-/// Finds the contacts of the overlap, in scratch(); with corners if there is room for more than one.
-void look_at_overlap(const Visit& visit, int room) {
+/// Appends the contacts of the overlap to scratch().manifolds; with all manifold points if max_contacts > 1.
+void look_at_overlap(const Visit& visit, int max_contacts) {
   const std::span<const MeshContact> found = find_contacts(visit, visit.triangles_within(0, true));
   std::vector<LocatedManifold>& manifolds = scratch().manifolds;
   std::span<const MeshTriangle> near;
-  double margin = -1;  // margin within which the triangles were searched
+  double margin = -1;  // the last search covered this margin
   for (const MeshContact& contact : found) {
     manifolds.push_back({contact.proximity, contact.triangle});
-    if (room < 2) continue;
+    if (max_contacts < 2) continue;
     ContactManifold& manifold = manifolds.back().manifold;
     manifold = find_plane_contact_manifold(visit.body.shape(), visit.pose, contact.proximity);
     if (manifold.corner_count == 0) continue;
@@ -114,7 +114,7 @@ void look_at_overlap(const Visit& visit, int room) {
   }
 }
 
-/// Distances from the body's centre to the nearest and the farthest point of the mesh's box.
+/// Distances from the centre of the body to the nearest and farthest point of the mesh's box.
 struct Range {
   double least = 0;
   double greatest = 0;
@@ -136,8 +136,8 @@ struct Range {
   }
 };
 
-// Searches a growing box until there is a triangle, then again as far as that one is away: a nearer one may be outside of the box
-// that the first was found in.
+// Widens the box until it contains a triangle. Then searches again within the distance of that triangle, because a nearer one may
+// be outside the first box.
 MeshContact find_nearest(const Visit& visit) {
   const Range range(visit);
   const auto nearest_within = [&](double distance) {
@@ -159,9 +159,9 @@ MeshContact find_nearest(const Visit& visit) {
 
 }  // namespace
 
-// Returns the deepest of several contacts, as dCollide does, or, if there is none, the distance of the nearest triangle from
-// either side. That distance is negative only for a body that touches the mesh from behind, at the border of a sheet: that makes
-// no contact.
+// Returns the deepest contact, as dCollide does. Without a contact it returns the distance to the nearest triangle from either
+// side. This distance is negative only for a body that touches the mesh from behind at the border of a sheet, which makes no
+// contact.
 ContactManifold query_trimesh(dGeomID ours, dGeomID collider, Goal /*goal*/) {
   const Visit visit(ours, collider);
   if (!visit.is_usable()) return {};
@@ -173,21 +173,22 @@ ContactManifold query_trimesh(dGeomID ours, dGeomID collider, Goal /*goal*/) {
   return nearest.proximity;
 }
 
-// The triangles near each piece of the way are those of a box that is turned as the body is at its start.
+// The triangles near a piece of the path are searched in a box with the orientation of the body at the start of the piece.
 Impact find_trimesh_impact(dGeomID ours, dGeomID collider, double horizon) {
   Visit visit(ours, collider);
   if (!visit.is_usable()) return {};
   const Pose frame = pose_of(collider);
   const Motion body = motion_of(ours, visit.pose);
-  const Way way(body, motion_of(collider, frame), (visit.box.centre - body.centre).norm() + visit.box.half_lengths.norm(), horizon);
-  return way.first([&](const Motion& here, const Motion& mesh, double duration) {
-    // ODE's mesh is where it is now: the body is brought to where it is as seen from there.
+  const Path path(body, motion_of(collider, frame), (visit.box.centre - body.centre).norm() + visit.box.half_lengths.norm(),
+                  horizon);
+  return path.first([&](const Motion& here, const Motion& mesh, double duration) {
+    // ODE keeps the mesh at its present pose. Move the body to where it is relative to this pose.
     const Matrix3 back = frame.rotation * mesh.pose.rotation.transpose();
     visit.pose = {frame.position + back * (here.pose.position - mesh.pose.position), back * here.pose.rotation};
     Motion world = mesh;
     world.pose = {mesh.pose.position - back.transpose() * frame.position, back.transpose()};
     world.centre = frame.rotation * mesh.centre + frame.position;
-    const std::span<const MeshTriangle> triangles = visit.triangles_within(way.travel() + kMargin * visit.box.half_lengths.norm());
+    const std::span<const MeshTriangle> triangles = visit.triangles_within(path.travel() + kMargin * visit.box.half_lengths.norm());
     return find_mesh_time_of_impact(visit.body.shape(), here, triangles, world, duration, visit.body.settings()).impact;
   });
 }
@@ -201,7 +202,7 @@ int collide_with_trimesh(dGeomID ours, dGeomID collider, int flags, dContactGeom
     if (visit.body.look_ahead() > 0) {
       look_ahead(visit);
     } else {
-      look_at_overlap(visit, out.room());
+      look_at_overlap(visit, out.max_contacts());
     }
     return write_contacts(scratch().manifolds, out);
   });

@@ -22,7 +22,7 @@ btTransform to_bullet(const supernormal::Pose& pose) {
   return btTransform(basis, to_bullet(pose.position));
 }
 
-/// One of our shapes as a shape of Bullet, without a margin.
+/// A Supernormal shape as a Bullet shape without a margin.
 class BulletShape final : public btConvexInternalShape {
  public:
   explicit BulletShape(const supernormal::Shape& shape) : shape_(shape) {
@@ -35,7 +35,7 @@ class BulletShape final : public btConvexInternalShape {
   btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
     ++evaluations_;
     supernormal::Jet jet;
-    shape_.evaluate(from_bullet(direction), supernormal::Order::Point, jet);  // of any length: the point is the same
+    shape_.evaluate(from_bullet(direction), supernormal::Order::Point, jet);  // any length: the point is the same
     return to_bullet(jet.r);
   }
   btVector3 localGetSupportingVertex(const btVector3& direction) const override {
@@ -73,8 +73,8 @@ class BulletGjkEpa final : public Method {
     if (!found && !is_apart) return {Answer::Kind::None, 0, Vector3::UnitX(), evaluations};
     const Vector3 point1 = from_bullet(results.witnesses[0]);
     const Vector3 point2 = from_bullet(results.witnesses[1]);
-    // Bullet's normal points from body 2 to body 1 when they are apart, as far as its two branches agree at all, so the points
-    // decide.
+    // The normal of Bullet points from body 2 to body 1 if the bodies are apart, but its two branches are not consistent. So use
+    // the points.
     const Vector3 normal = (is_apart ? 1 : -1) * (point2 - point1).normalized();
     return {Answer::Kind::Gap, static_cast<double>(results.distance), normal, evaluations, 0.5 * (point1 + point2)};
   }

@@ -23,14 +23,14 @@ fcl::Transform3d to_fcl(const supernormal::Pose& pose) {
   return transform;
 }
 
-sigjmp_buf way_back;
+sigjmp_buf return_point;
 
-/// Leaves abort() for the time of a call: Debian's FCL has its assertions on, and some fail.
+/// Survives abort() during a call: FCL in Debian is built with assertions, and some fail.
 class AbortCatcher {
  public:
   AbortCatcher() {
     struct sigaction action {};
-    action.sa_handler = [](int /*signal*/) { siglongjmp(way_back, 1); };
+    action.sa_handler = [](int /*signal*/) { siglongjmp(return_point, 1); };
     action.sa_flags = SA_NODEFER;
     sigaction(SIGABRT, &action, &before_);
   }
@@ -63,7 +63,7 @@ class FclDistance final : public Method {
  private:
   std::optional<Answer> ask_unless_it_aborts(const Pair& pair) const {
     const AbortCatcher catcher;
-    if (sigsetjmp(way_back, 0) != 0) return std::nullopt;  // memory that FCL had allocated is lost
+    if (sigsetjmp(return_point, 0) != 0) return std::nullopt;  // leaks the memory that FCL had allocated
     return ask(pair);
   }
 
@@ -74,7 +74,7 @@ class FclDistance final : public Method {
     double gap = std::numeric_limits<double>::quiet_NaN();
     try {
       gap = fcl::distance(&body1, to_fcl(pair.pose1), &body2, to_fcl(pair.pose2), request_, result);
-    } catch (const std::exception&) {  // its two stages disagree on bodies that touch
+    } catch (const std::exception&) {  // its two stages disagree on touching bodies
     }
     if (!std::isfinite(gap)) return {};
     const auto& [point1, point2] = result.nearest_points;

@@ -6,11 +6,11 @@
 
 namespace accuracy_cost {
 
-// Of two triangles with a common edge, which are nearly in one plane, the hull may have the other diagonal. So their other two
-// vertices are neighbours, too.
+// Two adjacent triangles may be nearly coplanar, and then the hull may have the other diagonal. So their opposite vertices count as
+// neighbours, too.
 Hull::Hull(const Mesh& mesh) : vertices_(mesh.vertices) {
   std::vector<std::set<unsigned>> neighbours(vertices_.size());
-  std::map<std::pair<unsigned, unsigned>, unsigned> opposite;  // of the edges of the triangles in their order
+  std::map<std::pair<unsigned, unsigned>, unsigned> opposite;  // opposite vertices of the directed edges
   const auto connect = [&](unsigned a, unsigned b) {
     neighbours[a].insert(b);
     neighbours[b].insert(a);

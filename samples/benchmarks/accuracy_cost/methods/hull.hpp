@@ -5,14 +5,14 @@
 
 namespace accuracy_cost {
 
-/// The convex hull of a closed mesh whose vertices are all on it. Its support function climbs from vertex to vertex.
+/// The convex hull of a closed mesh whose vertices are all extreme. Its support function climbs from vertex to vertex.
 class Hull {
  public:
   explicit Hull(const Mesh& mesh);
 
   const supernormal::Vector3& vertex(unsigned index) const { return vertices_[index]; }
 
-  /// The farthest vertex along a direction of any length, found from any other.
+  /// The farthest vertex along a direction of any length. The search starts at `start`.
   unsigned support(const supernormal::Vector3& direction, unsigned start) const;
 
  private:

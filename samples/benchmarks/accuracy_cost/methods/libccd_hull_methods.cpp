@@ -10,11 +10,11 @@ using supernormal::Vector3;
 
 constexpr double kTolerance = 1e-6;  // m
 
-/// A hull in its place, as libccd's callbacks need it.
+/// A hull in its pose, for the callbacks of libccd.
 struct PlacedHull {
   const Hull& hull;
   const supernormal::Pose& pose;
-  mutable unsigned nearest = 0;  // the vertex of the last direction, where the next search starts
+  mutable unsigned nearest = 0;  // vertex of the last direction, the start of the next search
 };
 
 void copy(const Vector3& from, ccd_vec3_t* to) { ccdVec3Set(to, from.x(), from.y(), from.z()); }
@@ -42,7 +42,7 @@ class CcdHull final : public Method {
   }
 
  private:
-  /// The hull is made once, outside of the measured time: the first query of a pair is not timed.
+  /// Creates the hull once, outside the measured time, because the first query of a pair is not timed.
   const Hull& hull(const std::shared_ptr<const supernormal::Shape>& shape) const {
     const auto known = hulls_.find(shape.get());
     if (known != hulls_.end()) return known->second.hull;
@@ -50,7 +50,7 @@ class CcdHull final : public Method {
   }
 
   struct Kept {
-    std::shared_ptr<const supernormal::Shape> shape;  // kept, so that no other shape can have its address
+    std::shared_ptr<const supernormal::Shape> shape;  // kept alive, so that no other shape gets its address
     Hull hull;
   };
   MeshSize size_;

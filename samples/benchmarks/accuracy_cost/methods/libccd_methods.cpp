@@ -12,7 +12,7 @@ static_assert(std::is_same_v<ccd_real_t, double>, "the comparison is with libccd
 constexpr double kEpaTolerance = 1e-6;
 constexpr double kMprTolerance = 1e-4;
 
-/// A body as libccd's callbacks need it.
+/// A body for the callbacks of libccd.
 struct CcdBody {
   const supernormal::Shape& shape;
   const supernormal::Pose& pose;
@@ -24,7 +24,7 @@ void copy(const Vector3& from, ccd_vec3_t* to) { ccdVec3Set(to, from.x(), from.y
 void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
   const auto& body = *static_cast<const CcdBody*>(object);
   ++body.evaluations;
-  // libccd's directions have any length. The point is the same for all of them, so libccd is spared the square root.
+  // The directions of libccd have any length. The point does not depend on it, so the square root is omitted.
   const Vector3 n = body.pose.rotation.transpose() * Vector3(direction->v[0], direction->v[1], direction->v[2]);
   supernormal::Jet jet;
   body.shape.evaluate(n, supernormal::Order::Point, jet);
@@ -56,7 +56,7 @@ class Libccd final : public Method {
 }  // namespace
 
 ccd_t ccd_settings(ccd_support_fn support_of, ccd_center_fn centre_of, double tolerance) {
-  constexpr unsigned long kMaxIterations = 100;  // limit of GJK and MPR; libccd's EPA has none
+  constexpr unsigned long kMaxIterations = 100;  // for GJK and MPR; EPA of libccd has no limit
   ccd_t settings;
   CCD_INIT(&settings);
   settings.support1 = support_of;

@@ -3,7 +3,7 @@
 
 namespace accuracy_cost {
 
-// CMakeLists.txt defines the version of each library that it finds, and compiles that library's methods.
+// CMakeLists.txt defines the version of each library that it finds, and compiles its methods.
 
 #ifndef ACCURACY_COST_BULLET_VERSION
 #define ACCURACY_COST_BULLET_VERSION ""

@@ -33,8 +33,8 @@ class OdeMeshes final : public Method {
   }
 
  private:
-  /// The geom is made once, and placed once where bodies do not move, outside of the measured time: the first query of a pair is
-  /// not timed.
+  /// Creates the geom once, and places it once unless the bodies move, outside the measured time: the first query of a pair is not
+  /// timed.
   dGeomID geom(const Pair& pair, const std::shared_ptr<const supernormal::Shape>& shape, const supernormal::Pose& pose) const {
     const auto known = geoms_.find(shape.get());
     if (known != geoms_.end()) {
@@ -48,7 +48,7 @@ class OdeMeshes final : public Method {
   }
 
   struct Kept {
-    std::shared_ptr<const supernormal::Shape> shape1, shape2;  // kept, so that no other shape can have their addresses
+    std::shared_ptr<const supernormal::Shape> shape1, shape2;  // kept alive, so that no other shape gets their addresses
     OdeGeom geom;
   };
   GeomMaker (*maker_)(const Mesh&);

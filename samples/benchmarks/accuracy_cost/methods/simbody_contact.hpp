@@ -1,4 +1,4 @@
-// Simbody behind an interface of plain numbers: its headers are not C++20, which all of ours are.
+// Simbody behind a plain interface: its headers do not compile as C++20, our language.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class SimbodyEllipsoid {
  public:
   explicit SimbodyEllipsoid(const std::array<double, 3>& half_axes);
 
-  /// The method of its tracker of convex implicit surfaces: MPR for a start, then Newton's method on the two points.
+  /// The method of its tracker for convex implicit surfaces: MPR for a start, then Newton's method for the two points.
   SimbodyContact meet(const SimbodyPose& pose, const SimbodyEllipsoid& other, const SimbodyPose& other_pose, double accuracy) const;
 
  private:

@@ -31,7 +31,7 @@ class Simbody final : public Method {
   }
 
  private:
-  /// The body is made once, outside of the measured time: the first query of a pair is not timed.
+  /// Creates the body once, outside the measured time, because the first query of a pair is not timed.
   const SimbodyEllipsoid& body(const std::shared_ptr<const supernormal::Shape>& shape) const {
     const auto known = bodies_.find(shape.get());
     if (known != bodies_.end()) return known->second.body;
@@ -40,7 +40,7 @@ class Simbody final : public Method {
   }
 
   struct Kept {
-    std::shared_ptr<const supernormal::Shape> shape;  // kept, so that no other shape can have its address
+    std::shared_ptr<const supernormal::Shape> shape;  // kept alive, so that no other shape gets its address
     SimbodyEllipsoid body;
   };
   double accuracy_;

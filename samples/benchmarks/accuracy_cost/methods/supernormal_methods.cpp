@@ -15,7 +15,7 @@ using supernormal::Status;
 Answer::Kind kind_of(Status status) {
   switch (status) {
     case Status::Converged:
-    case Status::Stalled:  // a stalled solver answers too; its error is measured like that of the others
+    case Status::Stalled:  // a stalled solver has an answer, too; its error is measured like any other
       return Answer::Kind::Gap;
     case Status::Apart:
       return Answer::Kind::Apart;

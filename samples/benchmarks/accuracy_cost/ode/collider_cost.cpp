@@ -14,8 +14,8 @@
 namespace accuracy_cost {
 namespace {
 
-constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m; depth of the overlap, and distance when apart
-constexpr double kRayShare = 0.5;                    // share of the distance at which a ray grazes
+constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m; depth of the overlap, and gap when apart
+constexpr double kRayShare = 0.5;                    // of the distance at which a ray grazes
 
 enum class Lie { Overlap, Apart };
 constexpr std::array kLies = {Lie::Overlap, Lie::Apart};
@@ -35,15 +35,15 @@ struct Cell {
 struct Row {
   ColliderClass collider = ColliderClass::Plane;
   Lie lie = Lie::Overlap;
-  std::vector<Cell> cells;  // one for each of ode_bodies()
+  std::vector<Cell> cells;  // one for each entry of ode_bodies()
 };
 
-/// The bodies and the colliders that they meet in two rows of the table.
+/// The bodies and the colliders for two rows of the table.
 class Meeting {
  public:
   explicit Meeting(ColliderClass collider) : collider_(collider), bodies_(ode_bodies()) {
     for (const OdeBody& body : bodies_) geoms_.push_back(body.make());
-    // All bodies meet one collider, so that a mesh is in the caches for all or for none.
+    // All bodies collide with the same collider, so that a mesh is in the caches for all or for none.
     const std::size_t count = collider == ColliderClass::Itself ? bodies_.size() : 1;
     for (std::size_t k = 0; k < count; ++k) colliders_.push_back(make_collider(collider, bodies_[k]));
   }

@@ -1,4 +1,4 @@
-// The cost of dCollide for our bodies against every class of ODE, and for ODE's own bodies of the same size in their place.
+// The cost of dCollide for our bodies with every geometry class of ODE, and for ODE bodies of the same size.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace accuracy_cost {
 
-/// Places every body at every collider `poses` times, 2 % overlapping and 2 % apart, times dCollide, and writes tables in
-/// Markdown of the medians, their ratios and the numbers of contacts. Bodies take turns on each pose, so that whatever slows the
-/// machine down slows all of them. A query follows one of a pose 1e-3 (m and rad) away, as in a simulation, so that a warm start
-/// has its usual effect.
+/// Places every body at every collider `poses` times, overlapping by 2 % and apart by 2 %, and measures dCollide. Writes Markdown
+/// tables of the medians, their ratios and the numbers of contacts. The bodies take turns on each pose, so that a disturbance of
+/// the machine affects all of them. Consecutive queries differ by 1e-3 (m and rad), as in a simulation, so a warm start has its
+/// usual effect.
 void write_collider_costs(std::size_t poses, std::uint64_t seed, const Effort& effort, std::ostream& out);
 
 }  // namespace accuracy_cost

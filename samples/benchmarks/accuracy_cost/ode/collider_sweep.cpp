@@ -48,7 +48,7 @@ std::vector<Contender> contenders() {
   return all;
 }
 
-/// m; the depth of the deepest contact at the first pose; NaN when there is none.
+/// The depth of the deepest contact at the first pose, m; NaN if there is none.
 double depth_of(const OdeQuery& query) {
   std::array<dContactGeom, kMaxContacts> contacts;
   query.pair.move_body(query.poses[0]);

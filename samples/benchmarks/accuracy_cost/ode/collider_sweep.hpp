@@ -1,4 +1,4 @@
-// The cost of accuracy in comparison with ODE's own classes.
+// The cost of accuracy, compared with the geometry classes of ODE.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace accuracy_cost {
 
-/// A superellipsoid overlaps a collider by 2 %, ours at all tolerances and as polyhedra of growing vertex count. Measures the
-/// time of a dCollide and the error of its depth, in one task for each collider, with `poses` poses.
+/// A superellipsoid overlaps a collider by 2 %: ours at all tolerances, and polyhedra with increasing numbers of vertices. Measures
+/// the time of dCollide and the error of its depth, in one task for each collider, with `poses` poses.
 Part collider_sweep(std::size_t poses, std::uint64_t seed, const Effort& effort);
 
 }  // namespace accuracy_cost

@@ -28,17 +28,17 @@ const Vector3 kBrick(0.5, 0.25, 0.15);  // m; half-axes
 constexpr std::array kExponents = {2.3, 3.0, 4.0, 8.0, 12.0, 20.0, 60.0, 200.0};
 constexpr std::array kRooms = {1, 8};
 constexpr double kLeastOverlap = 1e-5, kGreatestOverlap = 1e-3;  // relative to the half-height
-constexpr double kLean = 0.2;  // of the angle at which one end of the brick is as deep as the overlap and the other touches
+constexpr double kLean = 0.2;  // of the angle at which one end of the brick has the full overlap and the other touches
 constexpr std::size_t kOverlaps = 8, kSteps = 8;
 constexpr double kFloorSize = 20;  // m
 constexpr int kBisections = 50;
-constexpr int kBatches = 15;  // number of batches in a round
+constexpr int kBatches = 15;  // per round
 
 enum class Floor { Plane, Box, Face, Bond, Trimesh };
 constexpr std::array kFloors = {Floor::Plane, Floor::Box, Floor::Face, Floor::Bond, Floor::Trimesh};
 constexpr std::array<const char*, kFloors.size()> kFloorNames = {"`dPlane`", "`dBox`", "face on face", "brick bond", "`dTriMesh`"};
 
-/// A body of the size of a brick: a superellipsoid with this exponent in both sections, or a dBox.
+/// A body with the size of the brick: a superellipsoid with this exponent in both sections, or a dBox.
 struct Brick {
   std::string name;
   double exponent = 0;  // 0: dBox
@@ -57,8 +57,8 @@ std::vector<Brick> bricks() {
   return all;
 }
 
-/// How far the brick has moved since the last query, whose normal may be remembered, in units of the overlap: a body at rest
-/// moves by less than a hundredth of it in a step.
+/// The displacement of the brick since the last query, whose normal may be cached, in overlaps. A body at rest moves by less than
+/// 0.01 overlaps in a step.
 struct Start {
   const char* name;
   bool is_warm;
@@ -66,7 +66,7 @@ struct Start {
 };
 constexpr std::array kStarts = {Start{"cold", false, 0.01}, Start{"warm", true, 0.01}, Start{"warm, jolted", true, 1}};
 
-/// Poses of a resting brick whose height of touching is 0.
+/// Poses of a resting brick. It touches at height 0.
 std::vector<Pose> resting_poses(double move) {
   Random random(1);
   const auto any = [&] { return Vector3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)); };
@@ -84,7 +84,7 @@ std::vector<Pose> resting_poses(double move) {
   return poses;
 }
 
-/// The geoms that the brick lies on: one, or two in a bond.
+/// The geoms under the brick: one, or two in a bond.
 std::vector<OdeGeom> make_floor(Floor floor, const Brick& brick) {
   std::vector<OdeGeom> geoms;
   const auto add_brick = [&](double x) {
@@ -113,7 +113,7 @@ std::vector<OdeGeom> make_floor(Floor floor, const Brick& brick) {
   return geoms;
 }
 
-/// The height at which a brick ceases to collide with a floor whose top is at z = 0. In a bond round bodies sink in.
+/// The height at which a brick stops colliding with a floor whose top is at z = 0. Round bodies sink into a bond.
 double touching_height(const OdePair& pair) {
   std::array<dContactGeom, kMaxContacts> contacts;
   double low = 0, high = 2 * kBrick.z();
@@ -125,25 +125,25 @@ double touching_height(const OdePair& pair) {
   return low;
 }
 
-/// A brick on its floor, and the cost of a query of one pair there.
+/// A brick on its floor, and the cost of a pair query there.
 class Rest {
  public:
   Rest(Floor floor, const Brick& brick) : brick_(brick.make()), floor_(make_floor(floor, brick)) {
     height_ = touching_height({brick_.id(), floor_.front().id()});
   }
 
-  void measure(const std::vector<Pose>& poses, int room, bool is_warm) {
+  void measure(const std::vector<Pose>& poses, int max_contacts, bool is_warm) {
     snSetWarmStart(is_warm ? 1 : 0);
-    pass(poses, room);
+    pass(poses, max_contacts);
     snResetStatistics();
-    const double contacts = pass(poses, room);
+    const double contacts = pass(poses, max_contacts);
     snStatistics counted;
     snGetStatistics(&counted);
     const auto queries = static_cast<double>(poses.size() * floor_.size());
     contacts_ = contacts / queries;
     evaluations_ = static_cast<double>(counted.evaluations_cold + counted.evaluations_warm) / queries;
     for (int batch = 0; batch < kBatches; ++batch) {
-      const double asking = time_of([&] { pass(poses, room); });
+      const double asking = time_of([&] { pass(poses, max_contacts); });
       const double moving = time_of([&] { pass(poses, 0); });
       times_.push_back((asking - moving) / queries);
     }
@@ -161,14 +161,15 @@ class Rest {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  // With a room of 0 it only moves the brick.
-  double pass(const std::vector<Pose>& poses, int room) const {
+  // With max_contacts = 0 it only moves the brick.
+  double pass(const std::vector<Pose>& poses, int max_contacts) const {
     std::array<dContactGeom, kMaxContacts> contacts;
     double count = 0;
     for (const Pose& pose : poses) {
       OdePair{brick_.id(), nullptr}.move_body({pose.position + height_ * Vector3::UnitZ(), pose.rotation});
-      if (room == 0) continue;
-      for (const OdeGeom& geom : floor_) count += dCollide(brick_.id(), geom.id(), room, contacts.data(), sizeof(dContactGeom));
+      if (max_contacts == 0) continue;
+      for (const OdeGeom& geom : floor_)
+        count += dCollide(brick_.id(), geom.id(), max_contacts, contacts.data(), sizeof(dContactGeom));
     }
     return count;
   }
@@ -182,19 +183,19 @@ class Rest {
 
 struct Row {
   std::string name;
-  std::vector<Rest> rests;  // one for each of bricks()
+  std::vector<Rest> rests;  // one for each entry of bricks()
 };
 
 std::vector<Row> measure_rows(const Effort& effort) {
   std::vector<Row> rows;
   for (std::size_t f = 0; f < kFloors.size(); ++f) {
-    for (const int room : kRooms) {
+    for (const int max_contacts : kRooms) {
       for (const Start& start : kStarts) {
         const std::vector<Pose> poses = resting_poses(start.move);
-        Row row{std::string(kFloorNames[f]) + " | " + std::to_string(room) + " | " + start.name, {}};
+        Row row{std::string(kFloorNames[f]) + " | " + std::to_string(max_contacts) + " | " + start.name, {}};
         for (const Brick& brick : bricks()) row.rests.emplace_back(kFloors[f], brick);
         for (int round = 0; round < effort.rounds; ++round) {
-          for (Rest& rest : row.rests) rest.measure(poses, room, start.is_warm);
+          for (Rest& rest : row.rests) rest.measure(poses, max_contacts, start.is_warm);
         }
         rows.push_back(std::move(row));
       }

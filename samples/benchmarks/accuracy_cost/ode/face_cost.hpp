@@ -1,4 +1,4 @@
-// The cost of dCollide where bodies rest: faces on faces, with room for one contact and for eight.
+// The cost of dCollide for resting bodies: faces on faces, with max_contacts of one and eight.
 #pragma once
 
 #include <ostream>
@@ -7,9 +7,9 @@
 
 namespace accuracy_cost {
 
-/// Lays superellipsoids of several exponents, and ODE's dBox of the same size, on a plane, a dBox, a dTriMesh and bodies of their
-/// own kind, as deep as bodies at rest overlap, times dCollide, and writes tables in Markdown of the medians and of the
-/// evaluations. Bodies take turns, and each query has another pose than the last.
+/// Lays superellipsoids of several exponents, and a dBox of the same size, on a plane, a dBox, a dTriMesh and bodies of their own
+/// kind. They overlap as deep as bodies at rest. Measures dCollide and writes Markdown tables of the medians and of the
+/// evaluations. The bodies take turns, and each query has another pose than the preceding one.
 void write_face_costs(const Effort& effort, std::ostream& out);
 
 }  // namespace accuracy_cost

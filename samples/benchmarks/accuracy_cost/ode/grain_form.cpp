@@ -12,7 +12,7 @@ namespace {
 
 using falling_particles::Grain;
 
-constexpr int kMostEvaluations = 1000;  // the library's default
+constexpr int kMostEvaluations = 1000;  // default of the library
 
 Mesh grain_mesh(const Grain& grain, MeshSize size) {
   const auto [a, b, c] = grain.half_axes;

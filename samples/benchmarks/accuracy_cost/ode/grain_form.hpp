@@ -1,4 +1,4 @@
-// The grains of a scene in the form of bodies of several classes.
+// The grains of a scene as bodies of several geometry classes.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace accuracy_cost {
 
-enum class FormKind { Smooth, Box, Convex, Trimesh };  // Smooth is our class, the others are ODE's
+enum class FormKind { Smooth, Box, Convex, Trimesh };  // Smooth is our class; the others are classes of ODE
 
 struct Form {
   FormKind kind = FormKind::Smooth;
-  double tolerance = 1e-9;   ///< used by Smooth
-  MeshSize mesh = {24, 20};  ///< used by Convex and Trimesh, whose vertices are on the grain's boundary
-  int threads = 0;           ///< threads that collide, in a batch; 0: one pair after the other
+  double tolerance = 1e-9;   ///< for Smooth
+  MeshSize mesh = {24, 20};  ///< for Convex and Trimesh, whose vertices are on the boundary of the grain
+  int threads = 0;           ///< collision threads of a batch; 0: one pair after the other
 
   std::string name() const;      ///< "dConvex"
-  std::string accuracy() const;  ///< the tolerance, or the number of vertices; "" for a box
+  std::string accuracy() const;  ///< tolerance, or number of vertices; "" for a box
 };
 
-/// Makes geoms of the grain, in no space; a dBox has the half-axes of its grain.
+/// Makes geoms of the grain, in no space. A dBox has the half-axes of its grain.
 GeomMaker grain_maker(const Form& form, const falling_particles::Grain& grain);
 
 }  // namespace accuracy_cost

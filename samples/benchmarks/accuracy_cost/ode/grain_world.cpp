@@ -19,7 +19,7 @@ dSpaceID create_space(SpaceKind kind, const falling_particles::Scene& scene) {
     case SpaceKind::Hash:
       return dHashSpaceCreate(nullptr);
     case SpaceKind::QuadTree: {
-      // Blocks are as wide as about two of the largest grains, over the plan of the container; ODE's tree divides x and y.
+      // Blocks are about two of the largest grains wide, over the plan of the container. The quadtree of ODE divides x and y.
       const auto plan = falling_particles::plan_of(scene.container);
       const dVector3 half = {0.5 * plan.width[0], 0.5 * plan.width[1], 1};
       const dVector3 middle = {plan.corner[0] + half[0], plan.corner[1] + half[1], 0};
@@ -40,7 +40,7 @@ void collect(void* pairs, dGeomID g1, dGeomID g2) {
 
 bool is_unit(const dReal* normal) {
   const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-  return std::abs(square - 1) < 1e-6;  // false for a NaN, too
+  return std::abs(square - 1) < 1e-6;  // false for NaN, too
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ void GrainWorld::add_geoms(const Form& form) {
     const falling_particles::Body& body = world_.bodies()[i];
     const dGeomID geom = geoms_.emplace_back(makers[kinds_[i]]()).id();
     dGeomSetBody(geom, body.body);
-    dGeomSetData(geom, dGeomGetData(body.geom));  // the effects find the grain by it
-    dGeomSetBody(body.geom, nullptr);             // the twin stays behind: moving it would be part of the time
+    dGeomSetData(geom, dGeomGetData(body.geom));  // the effects find the grain through it
+    dGeomSetBody(body.geom, nullptr);             // the smooth geom stays behind: moving it would cost time
     dGeomSetCategoryBits(geom, kGrainBit);
     dGeomSetCollideBits(geom, kGrainBit | kWallBit);
     dSpaceAdd(space_, geom);
@@ -96,8 +96,7 @@ void GrainWorld::set_velocities(const Snapshot& start) {
   }
 }
 
-/// There is a level for every power of two between the smallest and the largest box of a grain: each lies in cells of its own
-/// size.
+/// Every power of two between the smallest and the largest box of a grain has a level. So each grain is in cells of its own size.
 void GrainWorld::set_space_cells(SpaceKind kind) {
   if (kind != SpaceKind::Hash) return;
   double smallest = std::numeric_limits<double>::infinity();
@@ -160,7 +159,7 @@ void GrainWorld::collide_batch() {
 int GrainWorld::name_pair(void* self, dGeomID g1, dGeomID g2) {
   auto& world = *static_cast<GrainWorld*>(self);
   world.pairs_.emplace_back(g1, g2);
-  world.costs_.broad.lap();  // the last pair that ODE names ends the broad phase
+  world.costs_.broad.lap();  // the last pair from ODE ends the broad phase
   return 1;
 }
 

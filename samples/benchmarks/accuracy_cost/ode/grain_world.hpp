@@ -1,4 +1,4 @@
-// A scene of grains in the form of one class, stepped and timed.
+// A scene of grains in one form, stepped and timed.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct PhaseCosts {
   falling_particles::Stopwatch broad, narrow, joints, solver;
   int steps = 0;
   unsigned long long pairs = 0, contacts = 0;
-  unsigned long long refused = 0;  ///< contacts whose normal is not a unit vector: dJointAttach would abort (libccd)
+  unsigned long long refused = 0;  ///< contacts without a unit normal, on which dJointAttach would abort (libccd)
 
   double seconds() const { return broad.seconds() + narrow.seconds() + joints.seconds() + solver.seconds(); }
 };
@@ -36,7 +36,7 @@ struct Snapshot {
 
 class GrainWorld {
  public:
-  /// The scene must outlive this object. Masses are those of the smooth grains, whatever the form.
+  /// The scene must outlive this object. In every form the grains have the masses of the smooth ones.
   GrainWorld(const falling_particles::Scene& scene, const Snapshot& start, const Form& form, SpaceKind space = SpaceKind::Hash);
   ~GrainWorld();
   GrainWorld(const GrainWorld&) = delete;
@@ -49,7 +49,7 @@ class GrainWorld {
 
   Snapshot snapshot() const;
 
-  /// The bodies, to measure energies. Its own geoms are those of the smooth grains and meet no others.
+  /// The bodies, to measure energies. Their smooth geoms do not collide.
   const falling_particles::World& world() const { return world_; }
 
  private:

@@ -12,14 +12,14 @@ namespace {
 
 double signed_power(double x, double exponent) { return std::copysign(std::pow(std::abs(x), exponent), x); }
 
-/// The point of the surface (|x|^delta + |y|^delta)^(epsilon/delta) + |z|^epsilon = 1 for a direction of the parameters.
+/// The point of the surface (|x|^delta + |y|^delta)^(epsilon/delta) + |z|^epsilon = 1 in a direction of the parameters.
 Vector3 surface_point(double x, double y, double z, double delta, double epsilon) {
   const double across = std::pow(std::hypot(x, y), 2 / epsilon);
   const double length = std::hypot(x, y);
   return {across * signed_power(x / length, 2 / delta), across * signed_power(y / length, 2 / delta), signed_power(z, 2 / epsilon)};
 }
 
-/// The gradient of the left side of that equation, over epsilon.
+/// The gradient of the left side of this equation, divided by epsilon.
 Vector3 gradient(const Vector3& p, double delta, double epsilon) {
   const double across = std::pow(std::pow(std::abs(p.x()), delta) + std::pow(std::abs(p.y()), delta), 1 / delta);
   const double factor = std::pow(across, epsilon - 1);
@@ -70,7 +70,7 @@ Mesh icosahedron(double radius) {
       mesh.vertices.emplace_back(other, 0, one);
     }
   }
-  // Edges are 2 long; three vertices at that distance from one another are a face.
+  // Edges have length 2. Three vertices at this distance from each other form a face.
   const auto is_edge = [&](unsigned i, unsigned j) { return (mesh.vertices[i] - mesh.vertices[j]).norm() < 2.1; };
   const auto count = static_cast<unsigned>(mesh.vertices.size());
   for (unsigned i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Polyhedra for ODE's dConvex and dTriMesh.
+// Polyhedra for dConvex and dTriMesh.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ struct Mesh {
   std::vector<std::array<unsigned, 3>> triangles;  ///< counter-clockwise from outside
 };
 
-/// The fineness of a mesh: the numbers of meridians and of rings between the two poles.
+/// The resolution of a mesh: the numbers of meridians and of rings between the poles.
 struct MeshSize {
   unsigned meridians, rings;
 
@@ -21,13 +21,13 @@ struct MeshSize {
   unsigned triangles() const { return 2 * meridians * rings; }
 };
 
-/// The mesh of a superellipsoid swept by a sphere of the radius `rounding` (m); the vertices are on its boundary.
+/// The mesh of a superellipsoid swept by a sphere of radius `rounding` (m). The vertices are on its boundary.
 Mesh superellipsoid_mesh(const supernormal::Vector3& half_axes, double delta, double epsilon, double rounding, MeshSize size);
 
 Mesh icosahedron(double radius);
 
-/// The mesh of cells x cells squares of two triangles each, around the origin; heights along z, up to `amplitude`, like an egg
-/// carton.
+/// A mesh of cells x cells squares of two triangles each about the origin, shaped like an egg carton. Heights are along z, up to
+/// `amplitude`.
 Mesh terrain(unsigned cells, double cell, double amplitude);
 
 }  // namespace accuracy_cost

@@ -1,4 +1,4 @@
-// The bodies whose queries are timed, and the colliders of all of ODE's classes.
+// The bodies whose queries are timed, and colliders of all geometry classes of ODE.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@ namespace accuracy_cost {
 struct OdeBody {
   std::string name;
   OdeGeom (*make)();
-  bool is_warm;  ///< ours, started from the last normal of the pair; the other classes have no warm start
+  bool is_warm;  ///< ours, with a warm start; the other classes have none
 };
 
 inline constexpr double kSmallestHalfAxis = 0.3;  // m
 
-/// Our bodies and those of ODE's classes that a program would use instead, with a convex of 960 triangles among them.
+/// Our bodies and the ODE bodies that a program would use instead, including a convex of 960 triangles.
 std::vector<OdeBody> ode_bodies();
 
-/// Indices of those of ode_bodies() that are compared.
+/// Indices of the compared entries of ode_bodies().
 inline constexpr std::size_t kOursCold = 0, kOursWarm = 1;
 inline constexpr std::array<std::size_t, 3> kOthers = {4, 5, 6};
 
@@ -32,7 +32,7 @@ inline constexpr std::array kColliderClasses = {ColliderClass::Plane,   Collider
 
 std::string name_of(ColliderClass collider);
 
-/// A collider of this class; for Itself it is another of `body`.
+/// A collider of this class. For Itself it is a copy of `body`.
 OdeGeom make_collider(ColliderClass collider, const OdeBody& body);
 
 }  // namespace accuracy_cost

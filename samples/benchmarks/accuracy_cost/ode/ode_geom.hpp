@@ -1,4 +1,4 @@
-// Geoms of ODE and of ours that own the data that they refer to.
+// Geoms that own the data to which they refer.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,10 +10,10 @@
 
 namespace accuracy_cost {
 
-/// Owns a geom and the data that it looks at.
+/// Owns a geom and its data.
 class OdeGeom {
  public:
-  /// Throws std::runtime_error when `id` is null.
+  /// Throws std::runtime_error if `id` is null.
   explicit OdeGeom(dGeomID id, std::shared_ptr<void> data = nullptr);
   OdeGeom(OdeGeom&& other) noexcept;
   OdeGeom& operator=(OdeGeom&&) = delete;
@@ -28,12 +28,12 @@ class OdeGeom {
   std::shared_ptr<void> data_;
 };
 
-/// Makes geoms of one mesh, which share the data that ODE refers to.
+/// Makes geoms of one mesh. They share its data.
 using GeomMaker = std::function<OdeGeom()>;
 
 GeomMaker convex_maker(const Mesh& mesh);
 
-/// The mesh has the face angles that ODE's collider with dConvex asserts.
+/// The mesh has the face angles that the ODE collider with dConvex asserts.
 GeomMaker trimesh_maker(const Mesh& mesh);
 
 inline OdeGeom make_convex(const Mesh& mesh) { return convex_maker(mesh)(); }

@@ -15,12 +15,12 @@ using supernormal::Vector3;
 namespace {
 
 constexpr double kNudge = 1e-3;       // m and rad
-constexpr double kTerrainReach = 2;   // m; bodies are strewn over so much
+constexpr double kTerrainReach = 2;   // m; bodies are scattered over this range
 constexpr double kFar = 3;            // m; nothing collides at this distance
 constexpr double kSearchStep = 0.02;  // m
 constexpr int kBisections = 40;
 
-/// Writes a rotation in rows of four, as ODE's matrices have them.
+/// Writes a rotation in rows of four, the layout of ODE.
 void set_rotation(dGeomID geom, const Matrix3& rotation) {
   dMatrix3 matrix{};
   for (int row = 0; row < 3; ++row) {
@@ -36,7 +36,7 @@ bool stands_level(ColliderClass collider) { return collider == ColliderClass::Pl
 void OdePair::move_body(const Pose& pose) const {
   dGeomSetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
   set_rotation(body, pose.rotation);
-  // A space does this before it calls dCollide: ODE's collider of dConvex and dTriMesh uses the box that was computed last.
+  // A space does this before dCollide. The ODE collider of dConvex and dTriMesh uses the last computed box.
   dReal aabb[6];
   dGeomGetAABB(body, aabb);
 }
@@ -47,8 +47,8 @@ int OdePair::collide(std::array<dContactGeom, kMaxContacts>& contacts) const {
 
 Approach Approach::draw(ColliderClass collider, Random& random) {
   Approach approach;
-  approach.attitude = random_attitude(random);
-  approach.collider_attitude = random_attitude(random);
+  approach.orientation = random_orientation(random);
+  approach.collider_orientation = random_orientation(random);
   const Vector3 anywhere = random_normal(random);
   approach.direction = stands_level(collider) ? Vector3(Vector3::UnitZ()) : anywhere;
   approach.ray = anywhere.unitOrthogonal();
@@ -67,13 +67,13 @@ void Approach::move_collider(ColliderClass collider, dGeomID geom) const {
     const Vector3 origin = -0.5 * dGeomRayGetLength(geom) * ray;
     dGeomRaySet(geom, origin.x(), origin.y(), origin.z(), ray.x(), ray.y(), ray.z());
   } else {
-    set_rotation(geom, collider_attitude);
+    set_rotation(geom, collider_orientation);
   }
 }
 
 std::array<Pose, 2> Approach::poses_at(double distance) const {
   const Vector3 position = start + distance * direction;
-  return {Pose{position, attitude}, Pose{position + nudge.position, nudge.rotation * attitude}};
+  return {Pose{position, orientation}, Pose{position + nudge.position, nudge.rotation * orientation}};
 }
 
 std::optional<double> touching_distance(const OdePair& pair, const Approach& approach) {

@@ -11,12 +11,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using supernormal::Pose;
 
-constexpr int kMaxRepeats = 4096;  // even: as many of one pose as of the other
+constexpr int kMaxRepeats = 4096;  // even, for equal counts of both poses
 
-/// A sink, so that the compiler does not drop the queries.
+/// A sink, so that the compiler keeps the queries.
 volatile int sink;
 
-/// s per query, alternating between the two poses.
+/// The time per query, alternating between the two poses, s.
 template <typename Ask>
 double time_of(const OdeQuery& query, const Ask& ask) {
   const auto start = Clock::now();
@@ -56,7 +56,7 @@ void measure_queries(std::vector<OdeQuery>& queries, const Effort& effort) {
   }
   for (int round = 0; round < effort.rounds; ++round) {
     for (std::size_t turn = 0; turn < queries.size(); ++turn) {
-      // No query always follows the same other one.
+      // The predecessor of a query varies.
       time_once(queries[(turn + static_cast<std::size_t>(round)) % queries.size()]);
     }
   }

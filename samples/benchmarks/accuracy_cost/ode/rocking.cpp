@@ -11,7 +11,7 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kA = 0.3, kB = 0.2, kC = 0.1;  // m; the half-axes
 constexpr double kTilt = 0.3;                   // rad, about y
-// s; the period by conservation of energy, g h(theta) + (I + h'^2) theta'^2 / 2 = g h(tilt), in quadrature:
+// The period from conservation of energy, g h(theta) + (I + h'^2) theta'^2 / 2 = g h(tilt), by quadrature, s: see
 // tests/dynamics/rocking_test.cpp.
 constexpr double kPeriod = 0.489837517;
 constexpr double kStep = 1e-4;  // s; error of the period below 1e-4
@@ -28,15 +28,15 @@ class Rocking {
   explicit Rocking(const Form& form) : geom_(grain_maker(form, ellipsoid())()), floor_(dCreateBox(nullptr, 2, 2, 1)) {
     dGeomSetPosition(floor_.id(), 0, 0, -0.5);
     dWorldSetGravity(world_, 0, 0, -kGravity);
-    dWorldSetERP(world_, 0.8);  // the constraint acts on velocities: without it the centre lags behind the rising support
+    dWorldSetERP(world_, 0.8);  // the constraint acts on velocities: without ERP the centre lags behind the rising support
     const OdeGeom exact = grain_maker({}, ellipsoid())();
     dMass mass;
     snMassSet(&mass, ellipsoid().density, exact.id());
     dBodySetMass(body_, &mass);
     dGeomSetBody(geom_.id(), body_);
-    dQuaternion attitude;
-    dQFromAxisAndAngle(attitude, 0, 1, 0, kTilt);
-    dBodySetQuaternion(body_, attitude);
+    dQuaternion orientation;
+    dQFromAxisAndAngle(orientation, 0, 1, 0, kTilt);
+    dBodySetQuaternion(body_, orientation);
     dBodySetPosition(body_, 0, 0, std::hypot(kA * std::sin(kTilt), kC * std::cos(kTilt)));  // touching
   }
   ~Rocking() {
@@ -46,11 +46,11 @@ class Rocking {
   Rocking(const Rocking&) = delete;
   Rocking& operator=(const Rocking&) = delete;
 
-  /// Steps the world and returns the angle about y, rad.
+  /// Steps the world. Returns the angle about y, rad.
   double step() {
     std::array<dContactGeom, kMaxContacts> found;
     dReal aabb[6];
-    dGeomGetAABB(geom_.id(), aabb);  // a space does this before it calls dCollide
+    dGeomGetAABB(geom_.id(), aabb);  // a space does this before dCollide
     const int count = dCollide(geom_.id(), floor_.id(), kMaxContacts, found.data(), sizeof(dContactGeom));
     for (int k = 0; k < count; ++k) {
       dContact contact{};

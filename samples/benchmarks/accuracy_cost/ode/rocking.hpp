@@ -1,11 +1,11 @@
-// One body whose motion is known, and the error that the accuracy of a form brings to it.
+// A body with a known motion, and the error of this motion for a form of limited accuracy.
 #pragma once
 
 #include "grain_form.hpp"
 
 namespace accuracy_cost {
 
-/// |period / exact - 1| of an ellipsoid that rocks on a dBox without friction; NaN when it does not rock.
+/// |period / exact - 1| of an ellipsoid that rocks on a dBox without friction. NaN if it does not rock.
 double rocking_error(const Form& form);
 
 }  // namespace accuracy_cost

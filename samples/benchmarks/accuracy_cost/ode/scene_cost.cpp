@@ -19,8 +19,8 @@ namespace {
 using falling_particles::Random;
 using falling_particles::Scene;
 
-constexpr double kSettlingTime = 0.6;  // s; a bed of this height is at rest after a third of it
-constexpr int kWarmUpSteps = 5;        // steps before a form that takes over another's bed is measured
+constexpr double kSettlingTime = 0.6;  // s; a bed of this height is at rest after a third of this time
+constexpr int kWarmUpSteps = 5;        // steps before the measurement of a form that starts from the bed of another one
 constexpr int kRounds = 8;
 constexpr int kStepsPerRound = 4;
 
@@ -56,8 +56,8 @@ std::vector<Form> polyhedra() {
   return forms;
 }
 
-/// Polyhedra take over the smooth grains' bed, in which they lie, because their vertices are on the boundary. Boxes need more
-/// room.
+/// Polyhedra start from the bed of the smooth grains. They fit into these grains, because their vertices are on the boundary. Boxes
+/// are larger and need their own bed.
 std::vector<std::string> time_forms(const Scene& scene) {
   const Snapshot smooth_bed = settle(scene, {});
   const Snapshot box_bed = settle(scene, {FormKind::Box});
@@ -84,7 +84,7 @@ std::vector<std::string> time_forms(const Scene& scene) {
   return lines;
 }
 
-/// The same grains in a box of half the plan, which is then repeated `columns` x `rows` times.
+/// Half of the grains in a box of half the plan, to be repeated `columns` x `rows` times.
 Scene half_of(Scene scene) {
   for (auto& kind : scene.grains) kind.count /= 2;
   std::get<falling_particles::Box>(scene.container).width[1] /= 2;
@@ -118,7 +118,7 @@ std::vector<std::string> time_size(const Scene& tile, const Tiling& tiling) {
       falling_particles::Box{{box.width[0] * static_cast<double>(tiling.columns), box.width[1] * static_cast<double>(tiling.rows)}};
   std::vector<std::string> lines;
   for (const SpaceKind space : kSpaceKinds) {
-    if (space == SpaceKind::Simple && bed.placements.size() > 5000) continue;  // quadratic: minutes
+    if (space == SpaceKind::Simple && bed.placements.size() > 5000) continue;  // quadratic cost: minutes
     GrainWorld world(scene, bed, {.threads = 1}, space);
     for (int step = 0; step < kWarmUpSteps; ++step) world.step();
     world.forget_costs();
@@ -136,7 +136,7 @@ std::vector<std::string> measure_outcome(const Scene& scene, const Form& form) {
     world.step();
     energy.after_step();
   }
-  // All forms have the same ruler: the smooth grains at the places that these have come to.
+  // All forms are measured in the same way: as smooth grains at their final places.
   const falling_particles::World ruler(scene, world.snapshot().placements);
   const auto overlap = falling_particles::measure_overlap(ruler);
   Random random(scene.seed);

@@ -1,4 +1,4 @@
-// The cost of accuracy in a simulation: a scene of grains in the form of several classes.
+// The cost of accuracy in a simulation: a scene of grains as bodies of several geometry classes.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace accuracy_cost {
 
-/// Measures the time per step of a settled bed of 1000 grains, ours and ODE's classes, all in one run.
+/// Measures the time per step of a settled bed of 1000 grains, with our class and the classes of ODE, in one run.
 Part scene_forms(const std::string& scene_path);
 
 /// Measures the time per step of 500 to 20 000 grains in every space of ODE.
 Part scene_growth(const std::string& scene_path);
 
-/// Lets 1000 grains fall at every tolerance and number of vertices: measures the cost, and how the resulting beds differ.
+/// Drops 1000 grains with every tolerance and number of vertices. Measures the cost and the differences of the final beds.
 Part scene_outcomes(const std::string& scene_path);
 
 }  // namespace accuracy_cost

@@ -159,14 +159,14 @@ void write_floor(const CsvTable& table, std::ostream& out) {
   out << '\n';
 }
 
-/// What a method of the comparison does with a class of bodies.
+/// The results of a method for a class of bodies.
 struct Compared {
   std::string accuracy;
   double time = 0, warm_time = std::nan(""), evaluations = 0, error = 0;
   double no_answer = 0, wrong_verdict = 0, wrong_gap = 0, inexact = 0, queries = 0;
 };
 
-/// The rows of a method for a class at 1 % overlap, over all its accuracies.
+/// The rows of a method for a class at 1 % overlap, for all its accuracies.
 std::vector<const Row*> accuracies_of(const CsvTable& table, const char* body_class, const std::string& method) {
   std::vector<const Row*> rows;
   for (const Row& row : table.rows()) {
@@ -175,7 +175,7 @@ std::vector<const Row*> accuracies_of(const CsvTable& table, const char* body_cl
   return rows;
 }
 
-/// The loosest accuracy with a median error of the gap below 1e-9, cold or warm; the tightest if there is none.
+/// The loosest accuracy with a median gap error below 1e-9, cold or warm. If there is none, the tightest.
 const Row& precise_enough(const std::vector<const Row*>& rows) {
   constexpr double kWanted = 1e-9;
   for (const Row* const row : rows) {
@@ -209,7 +209,7 @@ Compared compared(const CsvTable& table, const char* body_class, const std::stri
   return compared_at(table, body_class, precise_enough(accuracies_of(table, body_class, method)));
 }
 
-/// The names of the methods in their order, without those that start warm.
+/// The names of the methods in order, without warm-started ones.
 std::vector<std::string> cold_methods(const CsvTable& table, const char* body_class) {
   std::vector<std::string> names;
   for (const Row& row : table.rows()) {
@@ -385,7 +385,7 @@ void write_outcomes(const CsvTable& table, std::ostream& out) {
   out << '\n';
 }
 
-/// Writes conclusions; the figures that they rest on are in the tables below them.
+/// Writes conclusions. Their figures are in the tables below them.
 void write_reading(const CsvTable& query, const CsvTable& forms, const CsvTable& outcomes, std::ostream& out) {
   out << "## Reading\n\n";
   const auto time = [&](const char* tolerance) {

@@ -5,8 +5,8 @@
 
 namespace accuracy_cost {
 
-/// Reads the tables in `folder` and writes `folder`/report.md: tables, figures (which figures.gp draws) and conclusions. Parts
-/// that were not measured are left out. Throws when it cannot be written.
+/// Reads the tables in `folder` and writes `folder`/report.md: tables, figures (drawn by figures.gp) and conclusions. Parts without
+/// measurements are omitted. Throws if the report cannot be written.
 void write_report(const std::string& folder);
 
 }  // namespace accuracy_cost

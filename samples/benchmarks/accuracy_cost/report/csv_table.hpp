@@ -1,4 +1,4 @@
-// Reads the tables that run_parts() wrote.
+// Reads the tables of run_parts().
 #pragma once
 
 #include <initializer_list>
@@ -9,20 +9,20 @@
 
 namespace accuracy_cost {
 
-using Row = std::map<std::string, std::string>;  // by the names of the columns
+using Row = std::map<std::string, std::string>;  // by column name
 
 class CsvTable {
  public:
-  /// Empty when there is no such file. Cells may be quoted but have no commas in them.
+  /// Empty if the file does not exist. Cells may be quoted but must not contain commas.
   explicit CsvTable(const std::string& path);
 
-  const std::vector<std::string>& comments() const { return comments_; }  ///< without notes of finished tasks
+  const std::vector<std::string>& comments() const { return comments_; }  ///< without the notes on finished tasks
   const std::vector<Row>& rows() const { return rows_; }
 
-  /// The first row with these cells; null when there is none.
+  /// The first row with these cells; null if there is none.
   const Row* find(std::initializer_list<std::pair<std::string, std::string>> cells) const;
 
-  /// A number of that row; NaN when there is none.
+  /// A number of this row; NaN if there is none.
   double value(std::initializer_list<std::pair<std::string, std::string>> cells, const std::string& column) const;
 
  private:

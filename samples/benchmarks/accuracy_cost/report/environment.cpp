@@ -22,7 +22,7 @@ std::string processor() {
 
 std::string compiler() {
 #if defined(__clang__)
-  return __VERSION__;  // the compiler names itself in it
+  return __VERSION__;  // it names the compiler, too
 #else
   return std::string("GCC ") + __VERSION__;
 #endif

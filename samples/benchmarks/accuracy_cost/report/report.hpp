@@ -1,4 +1,4 @@
-// The measurements as tables.
+// Writes the measurements as tables.
 #pragma once
 
 #include <ostream>
@@ -17,7 +17,8 @@ struct Results {
 /// Writes Markdown for a terminal or a README.
 void write_markdown(const Results& results, std::ostream& out);
 
-/// Writes a line per class, situation and method, after the environment as comment lines. Throws when it cannot be written.
+/// Writes a line for each class, situation and method, after the environment as comment lines. Throws if the file cannot be
+/// written.
 void write_csv(const Results& results, const std::string& path);
 
 }  // namespace accuracy_cost

@@ -8,10 +8,10 @@
 namespace accuracy_cost {
 namespace {
 
-// A thousand times the default tolerance: beyond it the answer belongs to another maximum, or to another kind of method.
+// A thousand times the default tolerance. A larger error belongs to another maximum, or to another kind of method.
 constexpr double kInexact = 1e-6;
 
-constexpr double kLarge = 0.99;  // quantile that counts as large
+constexpr double kLarge = 0.99;  // quantile for "large"
 
 void count_failure(const Answer& answer, const Pair& pair, Statistics& result) {
   const bool is_apart = pair.gap > 0;

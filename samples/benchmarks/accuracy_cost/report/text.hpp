@@ -1,14 +1,14 @@
-// Numbers as text.
+// Formats numbers.
 #pragma once
 
 #include <string>
 
 namespace accuracy_cost {
 
-/// Formats a number for tables that people read, by printf with a format of one double; "–" when there is none (NaN).
+/// Formats a number for readable tables, by printf with a format of one double. "–" for NaN.
 std::string text(const char* format, double value);
 
-/// Formats a number for CSV, to six digits.
+/// Formats a number for CSV with six digits.
 std::string number(double value);
 
 }  // namespace accuracy_cost

@@ -1,4 +1,4 @@
-// A box with particles inside.
+// A box around the particles.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,10 @@
 
 namespace granular {
 
-/// Six flat walls that look inwards.
+/// Six flat walls that face inwards.
 class BoxWall final : public Wall {
  public:
-  /// The lowest and the highest corner, m; std::invalid_argument when they are not.
+  /// The lowest and the highest corner, m. Throws std::invalid_argument unless low < high.
   BoxWall(const Vector3& low, const Vector3& high);
 
   void add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) override;

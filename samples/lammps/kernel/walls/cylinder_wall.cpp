@@ -10,11 +10,11 @@
 namespace granular {
 namespace {
 
-constexpr int kIntervals = 32;  // of the arc of normals on which the body can stick out
+constexpr int kIntervals = 32;  // subdivision of the arc of normals along which the body can protrude
 constexpr int kMaxSteps = 100;
 constexpr double kSameAngle = 1e-14;  // rad
 
-/// The support function of a body over the directions across an axis through the origin.
+/// The support function of a body for directions perpendicular to an axis through the origin.
 class Outline {
  public:
   Outline(const ParticleShape& shape, const supernormal::Pose& pose, const Vector3& across1, const Vector3& across2)
@@ -40,9 +40,8 @@ class Outline {
     return {t.dot(p), t_body.dot(jet.H * t_body) - u.dot(p)};
   }
 
-  /// The angle of a maximum between two angles, at the first of which the slope is positive and at the second not: by Newton's
-  /// method, which halves the interval where it would leave it or does not make it much smaller: flat faces turn the slope over
-  /// within a very small angle.
+  /// The angle of a maximum between two angles. The slope must be positive at the first and not positive at the second. Newton's
+  /// method, safeguarded by bisection: flat faces reverse the slope within a very small angle.
   double find_maximum(double low, double high) const {
     double angle = 0.5 * (low + high), last_step = high - low;
     for (int i = 0; i < kMaxSteps && high - low > kSameAngle; ++i) {
@@ -79,7 +78,7 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
   if (offset.norm() + shape.bounding_radius <= radius_) return;
 
   const Outline outline(shape, from_axis, across1_, across2_);
-  // Where the body sticks out, its bounding sphere does: on an arc around its own direction.
+  // Where the body protrudes, its bounding sphere does, too: on an arc around the sphere's direction.
   const double middle = std::atan2(across2_.dot(offset), across1_.dot(offset));
   const double reach = radius_ - shape.bounding_radius, distance = offset.norm();
   const double half = reach > -distance ? std::acos(reach / distance) : std::numbers::pi;
@@ -87,7 +86,7 @@ void CylinderWall::add_contacts(const ParticleShape& shape, const supernormal::P
   double low = middle - half, low_value = outline.value(low);
   for (int k = 1; k <= kIntervals; ++k) {
     const double high = middle - half + k * spacing, high_value = outline.value(high);
-    // The two tangents meet no farther out than this between the two normals.
+    // The two tangents intersect no farther out than this between the two normals.
     const bool may_stick_out = std::max(low_value, high_value) > radius_ * std::cos(0.5 * spacing);
     if (may_stick_out && outline.slope(low).first > 0 && outline.slope(high).first <= 0) {
       const double angle = outline.find_maximum(low, high);

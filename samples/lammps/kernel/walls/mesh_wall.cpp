@@ -25,12 +25,12 @@ struct Collector {
   const Box box;
   std::vector<supernormal::MeshTriangle>& found;
 
-  // The names are those that Eigen's tree calls.
+  // Eigen's tree requires these names.
   bool intersectVolume(const Box& volume) const { return volume.intersects(box); }  // NOLINT(readability-identifier-naming)
   bool intersectObject(int index) {                                                 // NOLINT(readability-identifier-naming)
     const supernormal::MeshTriangle& triangle = triangles[static_cast<std::size_t>(index)];
     if (body_box.touches(pose, triangle.vertices)) found.push_back(triangle);
-    return false;  // go on
+    return false;  // continue the search
   }
 };
 

@@ -8,17 +8,17 @@
 
 namespace granular {
 
-/// Behind a triangle is solid (MeshContacts).
+/// The space behind a triangle is solid (see MeshContacts).
 class MeshWall final : public Wall {
  public:
-  /// Triangles with their vertices anticlockwise as seen from outside, m; std::invalid_argument without any.
+  /// Triangles with their vertices anticlockwise from outside, m. Throws std::invalid_argument if there are none.
   explicit MeshWall(std::vector<supernormal::MeshTriangle> triangles);
 
   void add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) override;
 
  private:
   std::vector<supernormal::MeshTriangle> triangles_;
-  Eigen::KdBVH<double, 3, int> tree_;  // of indices of triangles_
+  Eigen::KdBVH<double, 3, int> tree_;  // indices of triangles_
   std::vector<supernormal::MeshTriangle> near_;
   supernormal::MeshContacts search_;
 };

@@ -1,4 +1,4 @@
-// A surface that particles touch and that does not give way.
+// A rigid surface in contact with particles.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace granular {
 
 using supernormal::Matrix3;
 
-/// Where a particle overlaps a wall, in the wall's frame.
+/// An overlap of a particle and a wall, in the frame of the wall.
 struct WallContact {
   Vector3 normal;                       ///< unit, from the particle to the wall
   Vector3 point;                        ///< m; where the force acts
   double depth = 0;                     ///< m; > 0
-  Matrix3 curvature = Matrix3::Zero();  ///< 1/m; of the wall: negative where it is hollow
+  Matrix3 curvature = Matrix3::Zero();  ///< 1/m; of the wall; negative where it is concave
 };
 
 /// A wall at rest in its own frame.
@@ -26,7 +26,7 @@ class Wall {
   Wall& operator=(const Wall&) = delete;
   virtual ~Wall() = default;
 
-  /// Adds the contacts of a particle, whose pose is in the wall's frame.
+  /// Appends the contacts of a particle. `pose` is in the frame of the wall.
   virtual void add_contacts(const ParticleShape& shape, const supernormal::Pose& pose, std::vector<WallContact>& contacts) = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 const double kSameNormal = std::cos(std::numbers::pi / 8);
 
-/// Takes out of `old` the history whose normal is nearest to n: a new one where there is none.
+/// Removes from `old` the history whose normal is nearest to n, and returns it. Returns a new history if there is none.
 ContactHistory take_nearest(WallHistory& old, const Vector3& n) {
   const auto begin = old.contacts.begin(), end = begin + old.count;
   const auto nearest = std::max_element(

@@ -1,4 +1,4 @@
-// The contacts of one particle with a wall, and what they remember.
+// The contacts of one particle with a wall, and their histories.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace granular {
 
-/// What a particle remembers of a wall: one history for each contact.
+/// The histories of a particle at a wall, one for each contact.
 struct WallHistory {
-  static constexpr int kMost = 6;  ///< more contacts than these start without springs at every step
+  static constexpr int kMost = 6;  ///< any further contacts start every step without springs
   std::array<ContactHistory, kMost> contacts{};
-  int count = 0;  ///< the first ones are valid
+  int count = 0;  ///< the first `count` are valid
 };
 
-/// What a wall does to a particle.
+/// The action of a wall on a particle.
 struct WallForce {
   Vector3 force = Vector3::Zero();        ///< N; on the particle
   Vector3 torque = Vector3::Zero();       ///< N m; on the particle, about its centre
@@ -25,9 +25,9 @@ struct WallForce {
   int contacts = 0;
 };
 
-/// The forces of a wall. `wall_body` is the wall as a body without mobility: its pose and velocity. A contact takes over the
-/// springs of that of the last step whose normal is nearest, within a quarter of a right angle. `contacts` is scratch memory. With
-/// a step of 0 the history is only read.
+/// The forces of a wall. `wall_body` has the pose and velocity of the wall, and no mobility. A contact continues with the springs
+/// of the last step's contact with the nearest normal, if that is within 22.5 degrees. `contacts` is scratch memory. With a step of
+/// 0 the history is only read.
 WallForce find_wall_force(Wall& wall, const Body& wall_body, const ParticleShape& shape, const Body& particle,
                           const ContactMaterial& material, double step, WallHistory& history, std::vector<WallContact>& contacts);
 
