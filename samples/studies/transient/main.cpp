@@ -45,7 +45,7 @@ class Study {
   explicit Study(const Options& options) : options_(options), contestants_(contestants()) {
     open(options.csv, csv_);
     open(options.motion, motion_);
-    if (motion_.is_open() && motion_.tellp() == 0) motion_ << "class,bodies,contacts,step_s,method,start,time_s,distance\n";
+    if (motion_.is_open() && motion_.tellp() == 0) motion_ << "class,bodies,contacts,step_s,method,start,time_s,distance,seed\n";
     if (!csv_.is_open() || csv_.tellp() > 0) return;
     csv_ << "class,bodies,contacts,step_s,method,start";
     for (const char* world : {"same", "own"}) {
@@ -54,7 +54,7 @@ class Study {
         csv_ << ',' << world << '_' << column;
       }
     }
-    csv_ << ",energy_drift,momentum_drift,parted_s,duration_s\n";
+    csv_ << ",energy_drift,momentum_drift,parted_s,duration_s,seed\n";
   }
 
   void run() {
@@ -78,14 +78,16 @@ class Study {
   static void open(const std::string& path, std::ofstream& file) {
     if (path.empty()) return;
     file.open(path, std::ios::app);
+    file.precision(15);  // counts have all their digits
     if (!file) throw std::runtime_error("cannot write " + path);
   }
 
   void run_all(const std::string& body_class, const std::string& contacts, const Trial& trial) {
     std::printf(
         "\n%s, %d bodies, %s, steps of %g ms, %g s\n\n"
-        "| | | for the same poses: us a query | evaluations | a step | failed, 1e-6 | wrong, 1e-6 | missed, 1e-6 | invented, 1e-6 "
-        "| in its own world: failed, 1e-6 | energy | momentum | parted, s |\n"
+        "| method | start | same poses: us a query | same: evaluations a query | same: evaluations a step | same: failed, 1e-6 "
+        "| same: wrong, 1e-6 | same: missed, 1e-6 | same: invented, 1e-6 "
+        "| own world: failed, 1e-6 | own: energy drift | own: momentum drift | own: parted, s |\n"
         "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         body_class.c_str(), trial.setup.bodies, contacts.c_str(), 1e3 * trial.setup.step, trial.duration);
     Path certified;
@@ -100,7 +102,12 @@ class Study {
       const Contestant& contestant = contestants_[k];
       const bool is_wanted =
           options_.methods.empty() || std::ranges::find(options_.methods, contestant.name) != options_.methods.end();
-      if (!is_wanted || (contestant.is_for_ellipsoids && trial.setup.body_class != BodyClass::Ellipsoid)) continue;
+      if (!is_wanted) continue;
+      if (contestant.is_for_ellipsoids && trial.setup.body_class != BodyClass::Ellipsoid) {
+        if (!options_.methods.empty())
+          std::fprintf(stderr, "transient: %s has ellipsoids alone: left out\n", contestant.name.c_str());
+        continue;
+      }
       write(body_class, contacts, trial, contestant, "", watch(trial, contestant),
             transient::run(trial, contestant, false, &certified, nullptr));
     }
@@ -136,7 +143,7 @@ class Study {
     const std::size_t between = std::max<std::size_t>(1, own.distances.size() / kMoments);
     for (std::size_t k = between - 1; motion_.is_open() && k < own.distances.size(); k += between) {
       add_key(motion_);
-      motion_ << ',' << static_cast<double>(k + 1) * trial.setup.step << ',' << own.distances[k] << '\n';
+      motion_ << ',' << static_cast<double>(k + 1) * trial.setup.step << ',' << own.distances[k] << ',' << trial.setup.seed << '\n';
     }
     if (!csv_.is_open()) return;
     add_key(csv_);
@@ -144,7 +151,8 @@ class Study {
       csv_ << ',' << o->queries << ',' << o->warm_queries << ',' << o->seconds << ',' << o->evaluations << ',' << o->failed << ','
            << o->judged << ',' << o->wrong << ',' << o->missed << ',' << o->invented << ',' << o->undecided;
     }
-    csv_ << ',' << own.energy_drift << ',' << own.momentum_drift << ',' << own.parted << ',' << trial.duration << std::endl;
+    csv_ << ',' << own.energy_drift << ',' << own.momentum_drift << ',' << own.parted << ',' << trial.duration << ','
+         << trial.setup.seed << std::endl;
   }
 
   const Options& options_;
@@ -175,12 +183,14 @@ int main(int argc, char** argv) {
     }
     app.add_option("--classes", options.classes, "E (ellipsoids), M (exponents 1.3 to 5), B (6 to 20), N (needles)")
         ->check(CLI::IsMember(std::vector<std::string>{"E", "M", "B", "N"}))
-        ->delimiter(',');
-    app.add_option("--bodies", options.bodies, "in a world")->check(CLI::Range(1, 100000))->delimiter(',');
+        ->delimiter(',')
+        ->default_str("E,M,B,N");
+    app.add_option("--bodies", options.bodies, "in a world")->check(CLI::Range(1, 100000))->delimiter(',')->default_str("8,64");
     app.add_option("--contacts", options.contacts, "elastic, friction")
         ->check(CLI::IsMember(std::vector<std::string>{"elastic", "friction"}))
-        ->delimiter(',');
-    app.add_option("--steps", options.steps, "s")->check(CLI::Range(1e-6, 0.1))->delimiter(',');
+        ->delimiter(',')
+        ->default_str("elastic,friction");
+    app.add_option("--steps", options.steps, "s")->check(CLI::Range(1e-6, 0.1))->delimiter(',')->default_str("0.001,0.005");
     app.add_option("--methods", options.methods, "names in the table; all without it")->check(CLI::IsMember(names))->delimiter(';');
     app.add_option("--duration", options.duration, "s")->check(CLI::Range(1e-3, 1000.0))->capture_default_str();
     app.add_option("--judged", options.judged,
