@@ -112,16 +112,6 @@ class RayQuery {
   Vector3 half_extents_;
 };
 
-/// m; the radius of a ball around the origin of the body's frame that contains the body.
-double bounding_ball_radius(const Shape& shape) {
-  Vector3 farthest;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector3 e = Vector3::Unit(axis);
-    farthest[axis] = std::max(std::abs(shape.support(e)), std::abs(shape.support(-e)));
-  }
-  return farthest.norm();
-}
-
 }  // namespace
 
 RayHit find_ray_hit(const Shape& shape, const Pose& pose, const Vector3& origin, const Vector3& direction, double length,
@@ -143,7 +133,7 @@ Proximity find_ray_proximity(const Shape& shape, const Pose& pose, const Vector3
                              const Settings& settings) {
   check(direction, length, settings);
   if (!is_usable(pose) || !all_within(origin, kFarthest) || !all_finite(direction)) return {};
-  const double farthest = (origin - pose.position).norm() + bounding_ball_radius(shape);
+  const double farthest = (origin - pose.position).norm() + shape.bounding_radius();
   if (!std::isfinite(farthest)) return {};
   const Vector3 v = direction.normalized();
   const double half_length = 0.5 * std::min(length, 2 * farthest);

@@ -1,9 +1,6 @@
 // The curvature of the gap function for shapes without a Hessian.
 #pragma once
 
-#include <algorithm>
-#include <limits>
-
 #include "supernormal/proximity/gap_function.hpp"
 
 namespace supernormal {
@@ -21,16 +18,9 @@ class BfgsHessian {
 
   const Matrix3& matrix() const { return H_; }
 
-  /// The angle (about rad) of the last updates in both directions of the tangent plane; the curvature within it may differ.
-  /// Infinite before there were updates in two directions.
-  double reach() const { return std::max(reach_along_, reach_across_); }
-
  private:
   Matrix3 H_ = Matrix3::Identity();
-  double rounding_ = 0;             // m; of a boundary point
-  Vector3 axis_ = Vector3::Zero();  // unit; axis of the last update's rotation
-  double reach_along_ = std::numeric_limits<double>::infinity();
-  double reach_across_ = std::numeric_limits<double>::infinity();
+  double rounding_ = 0;  // m; of a boundary point
 };
 
 }  // namespace supernormal
