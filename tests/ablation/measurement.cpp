@@ -7,12 +7,12 @@
 #include <thread>
 
 #include "examination.hpp"
-#include "proximity/reference_pairs.hpp"
-#include "proximity/superellipsoid_classes.hpp"
 #include "random.hpp"
 #include "reference.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/superellipsoid_classes.hpp"
 
 namespace supernormal::ablation {
 namespace {

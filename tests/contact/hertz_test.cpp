@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -1,7 +1,7 @@
 // Tests that no energy comes out of nothing: bodies tumble, slide, roll and rest for long.
 #include <doctest/doctest.h>
 
-#include "ode/ode_world.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 

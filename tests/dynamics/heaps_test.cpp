@@ -1,7 +1,7 @@
 // Tests with many bodies on one another: a wall and a pile come to rest, and nothing sinks, creeps or gains energy.
 #include <doctest/doctest.h>
 
-#include "ode/ode_world.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 

@@ -1,8 +1,8 @@
 // Impacts without friction: the impulse acts along the exact normal, through the exact contact point.
 #include <doctest/doctest.h>
 
-#include "ode/ode_world.hpp"
-#include "relative.hpp"
+#include "support/ode_world.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

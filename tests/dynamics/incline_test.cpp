@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "ode/ode_world.hpp"
-#include "relative.hpp"
+#include "support/ode_world.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include "ode/ode_world.hpp"
-#include "relative.hpp"
+#include "support/ode_world.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 using single_bodies::Rattleback;

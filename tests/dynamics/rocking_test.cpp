@@ -2,8 +2,8 @@
 // contact point moves under it.
 #include <doctest/doctest.h>
 
-#include "ode/ode_world.hpp"
-#include "relative.hpp"
+#include "support/ode_world.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "ode/ode_world.hpp"
 #include "supernormal/effects.hpp"
+#include "support/ode_world.hpp"
 
 namespace supernormal::test {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "effects/effects_world.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

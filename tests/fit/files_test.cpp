@@ -26,8 +26,8 @@
 #include "output/paste.hpp"
 #include "output/picture.hpp"
 #include "output/report.hpp"
-#include "samples/temporary_folder.hpp"
 #include "study/truth.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace fit;
 

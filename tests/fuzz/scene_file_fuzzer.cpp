@@ -16,7 +16,7 @@
 #include "base/input_error.hpp"
 #include "expect.hpp"
 #include "model/scene.hpp"
-#include "samples/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace supernormal::fuzz {
 namespace {

@@ -1,5 +1,5 @@
 // Every case of the catalogue: the hybrid's answers against the reference, and conditions that hold without one.
-#include "catalogue.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "catalogue.hpp"
 #include "supernormal/proximity/proximity.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 namespace supernormal::samples {
 

@@ -3,10 +3,10 @@
 
 #include <Eigen/Geometry>
 
-#include "cases/builders.hpp"
 #include "invariants.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/hard_cases/builders.hpp"
 
 using namespace supernormal;
 using namespace supernormal::samples;

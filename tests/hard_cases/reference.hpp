@@ -1,7 +1,7 @@
 // The gap of a case from a source other than the solvers.
 #pragma once
 
-#include "catalogue.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 namespace supernormal::samples {
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "catalogue.hpp"
 #include "invariants.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 using namespace supernormal;
 using namespace supernormal::samples;

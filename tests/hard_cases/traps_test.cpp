@@ -1,12 +1,12 @@
 // The catalogue in a program that has trapped floating-point exceptions: one that is raised ends it.
-#include "traps.hpp"
+#include "support/traps.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "catalogue.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 using namespace supernormal;
 using namespace supernormal::samples;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 namespace supernormal::test {
 

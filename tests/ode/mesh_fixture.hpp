@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 namespace supernormal::test {
 

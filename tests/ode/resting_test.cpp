@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ode/mesh_fixture.hpp"
-#include "ode/ode_world.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 

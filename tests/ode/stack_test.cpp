@@ -4,8 +4,8 @@
 #include "ode/collider_fixture.hpp"
 #include "ode/mesh_fixture.hpp"
 #include "ode/terrain.hpp"
-#include "painted_stack.hpp"
-#include "traps.hpp"
+#include "support/painted_stack.hpp"
+#include "support/traps.hpp"
 
 using namespace supernormal::test;
 

@@ -5,11 +5,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "reference_pairs.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "support/reference_pairs.hpp"
 
 namespace supernormal::test {
 namespace {

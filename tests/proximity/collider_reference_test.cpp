@@ -9,13 +9,13 @@
 
 #include "collider_distance.hpp"
 #include "collider_pairs.hpp"
-#include "reference_pairs.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "collider_pairs.hpp"
-#include "reference_pairs.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/reference_pairs.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -8,12 +8,12 @@
 #include "collider_distance.hpp"
 #include "collider_pairs.hpp"
 #include "covers.hpp"
-#include "reference_pairs.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "proximity/contact_point.hpp"
-#include "shapes/without_hessian.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
@@ -25,6 +24,7 @@
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/without_hessian.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

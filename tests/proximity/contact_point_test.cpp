@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proximity/reference_pairs.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

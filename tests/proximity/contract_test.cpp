@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
-#include "random_bodies.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
-#include "traps.hpp"
+#include "support/random_bodies.hpp"
+#include "support/traps.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

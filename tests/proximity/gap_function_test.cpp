@@ -9,12 +9,12 @@
 #include <limits>
 #include <random>
 
-#include "reference_pairs.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "reference_pairs.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/reference_pairs.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

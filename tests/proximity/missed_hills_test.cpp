@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "proximity/covers.hpp"
-#include "shapes/without_hessian.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
@@ -14,6 +13,7 @@
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/without_hessian.hpp"
 
 using namespace supernormal;
 using supernormal::test::check_covers;

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "reference_pairs.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

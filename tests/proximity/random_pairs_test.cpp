@@ -7,11 +7,11 @@
 #include <random>
 
 #include "covers.hpp"
-#include "reference_pairs.hpp"
-#include "shapes/shape_samples.hpp"
-#include "superellipsoid_classes.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
+#include "support/superellipsoid_classes.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

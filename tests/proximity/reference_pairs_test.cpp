@@ -1,5 +1,5 @@
 // The hybrid solver against 1600 pairs with known answers, none excluded: the contract.
-#include "reference_pairs.hpp"
+#include "support/reference_pairs.hpp"
 
 #include <doctest/doctest.h>
 

@@ -9,8 +9,6 @@
 #include <vector>
 
 #include "proximity/covers.hpp"
-#include "relative.hpp"
-#include "shapes/without_hessian.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
@@ -19,7 +17,9 @@
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
-#include "z_axis_to.hpp"
+#include "support/relative.hpp"
+#include "support/without_hessian.hpp"
+#include "support/z_axis_to.hpp"
 
 using namespace supernormal;
 using supernormal::test::gap_at;

@@ -9,10 +9,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "reference_pairs.hpp"
-#include "relative.hpp"
-#include "shapes/shape_samples.hpp"
-#include "shapes/without_hessian.hpp"
 #include "supernormal/contact/contact_manifold.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/plane.hpp"
@@ -20,6 +16,10 @@
 #include "supernormal/raycast/ray.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
+#include "support/without_hessian.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

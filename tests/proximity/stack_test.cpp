@@ -2,12 +2,12 @@
 // their corners.
 #include <doctest/doctest.h>
 
-#include "painted_stack.hpp"
-#include "reference_pairs.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
-#include "traps.hpp"
+#include "support/painted_stack.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/traps.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

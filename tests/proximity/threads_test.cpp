@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "painted_stack.hpp"
-#include "random_bodies.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/painted_stack.hpp"
+#include "support/random_bodies.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

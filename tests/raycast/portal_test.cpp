@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "proximity/reference_pairs.hpp"
-#include "proximity/superellipsoid_classes.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/raycast/ray.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
+#include "support/superellipsoid_classes.hpp"
 
 namespace supernormal::test {
 

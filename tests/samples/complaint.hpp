@@ -9,7 +9,7 @@
 #include "base/input_error.hpp"
 #include "model/scene.hpp"
 #include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 /// The message from loading the scene, without the temporary folder's name; "" when it is accepted.
 inline std::string complaint(const std::string& scene, const std::string& catalogue = kCatalogueText,

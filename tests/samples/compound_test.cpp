@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 namespace {
 

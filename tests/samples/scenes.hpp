@@ -8,7 +8,7 @@
 
 #include "model/scene.hpp"
 #include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace falling_particles {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <memory>
 
-#include "shape_samples.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

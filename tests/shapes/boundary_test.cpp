@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relative.hpp"
-#include "shape_samples.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 
-#include "relative.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

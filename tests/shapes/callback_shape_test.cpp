@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "relative.hpp"
-#include "shape_samples.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shape_samples.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

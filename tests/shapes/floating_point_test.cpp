@@ -4,10 +4,10 @@
 #include <cfenv>
 #include <memory>
 
-#include "shape_samples.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -6,14 +6,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include "relative.hpp"
-#include "shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

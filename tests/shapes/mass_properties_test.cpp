@@ -10,12 +10,12 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "relative.hpp"
-#include "shape_samples.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

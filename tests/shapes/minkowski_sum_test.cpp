@@ -6,8 +6,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "relative.hpp"
-#include "shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
@@ -17,6 +15,8 @@
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

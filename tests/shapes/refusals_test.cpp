@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "refusal.hpp"
-#include "shape_samples.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/refusal.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

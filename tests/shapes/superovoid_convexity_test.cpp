@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "refusal.hpp"
-#include "relative.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/refusal.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -9,11 +9,11 @@
 #include <memory>
 #include <numbers>
 
-#include "relative.hpp"
-#include "shape_samples.hpp"
 #include "shapes/mass_properties.hpp"
 #include "shapes/superovoid_convexity.hpp"
 #include "supernormal/shapes/rounded.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -5,7 +5,6 @@
 #include <array>
 #include <memory>
 
-#include "shape_samples.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/capsule.hpp"
@@ -17,6 +16,7 @@
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superovoid.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include "relative.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::soak;

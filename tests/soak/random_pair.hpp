@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "proximity/superellipsoid_classes.hpp"
 #include "random.hpp"
 #include "sample.hpp"
+#include "support/superellipsoid_classes.hpp"
 
 namespace supernormal::soak {
 

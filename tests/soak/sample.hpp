@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "catalogue.hpp"
-#include "proximity/superellipsoid_classes.hpp"
 #include "random.hpp"
 #include "supernormal/proximity/proximity.hpp"
+#include "support/hard_cases/catalogue.hpp"
+#include "support/superellipsoid_classes.hpp"
 
 namespace supernormal::soak {
 

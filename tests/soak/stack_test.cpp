@@ -1,10 +1,10 @@
 // Tests that the former content of the stack does not decide an answer: every hard case, and samples of the soak program.
 #include <doctest/doctest.h>
 
-#include "painted_stack.hpp"
 #include "sample.hpp"
 #include "supernormal/proximity/solve.hpp"
-#include "traps.hpp"
+#include "support/painted_stack.hpp"
+#include "support/traps.hpp"
 
 using namespace supernormal;
 using namespace supernormal::soak;

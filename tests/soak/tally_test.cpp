@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "samples/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace supernormal::soak;
 

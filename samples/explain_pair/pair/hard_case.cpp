@@ -5,7 +5,7 @@
 
 #include "base/input_error.hpp"
 #include "base/nearest_word.hpp"
-#include "catalogue.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 namespace explain_pair {
 

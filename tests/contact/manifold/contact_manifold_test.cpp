@@ -11,7 +11,6 @@
 #include <random>
 #include <vector>
 
-#include "relative.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/raycast/ray.hpp"
@@ -20,6 +19,7 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/rounded.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/mesh/mesh_samples.hpp"
+#include "support/mesh_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -5,8 +5,8 @@
 
 #include <numbers>
 
-#include "contact/mesh/mesh_samples.hpp"
-#include "relative.hpp"
+#include "support/mesh_samples.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -5,10 +5,10 @@
 
 #include <limits>
 
-#include "contact/mesh/mesh_samples.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "support/mesh_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -6,9 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "contact/mesh/mesh_samples.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
-#include "relative.hpp"
 #include "supernormal/contact/body_box.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/proximity/solve.hpp"
@@ -16,6 +14,8 @@
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/mesh_samples.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

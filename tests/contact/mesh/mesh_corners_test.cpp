@@ -1,10 +1,10 @@
 // A body in the concave parts of a mesh: one contact for each side that holds it.
 #include <doctest/doctest.h>
 
-#include "contact/mesh/mesh_samples.hpp"
-#include "relative.hpp"
 #include "supernormal/proximity/plane.hpp"
-#include "z_axis_to.hpp"
+#include "support/mesh_samples.hpp"
+#include "support/relative.hpp"
+#include "support/z_axis_to.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -5,10 +5,10 @@
 #include <random>
 #include <vector>
 
-#include "relative.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/plane.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/mesh/mesh_samples.hpp"
 #include "proximity/collider_reference.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/mesh_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

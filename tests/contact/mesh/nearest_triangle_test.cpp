@@ -3,10 +3,10 @@
 
 #include <limits>
 
-#include "contact/mesh/mesh_samples.hpp"
 #include "contact/mesh/triangle_proximity.hpp"
-#include "relative.hpp"
 #include "supernormal/contact/mesh_contacts.hpp"
+#include "support/mesh_samples.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

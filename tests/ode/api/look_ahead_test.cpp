@@ -1,7 +1,7 @@
 // Tests of the functions for contacts before overlap: what they refuse, and what they change.
 #include <doctest/doctest.h>
 
-#include "ode/ode_world.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 

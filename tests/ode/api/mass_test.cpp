@@ -1,8 +1,8 @@
 // Mass properties, in ODE's conventions.
 #include <doctest/doctest.h>
 
-#include "ode/ode_fixture.hpp"
-#include "relative.hpp"
+#include "support/ode_fixture.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

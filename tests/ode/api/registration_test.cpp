@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 using namespace supernormal::test;
 

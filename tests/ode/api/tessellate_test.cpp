@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "ode/ode_fixture.hpp"
-#include "relative.hpp"
+#include "support/ode_fixture.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

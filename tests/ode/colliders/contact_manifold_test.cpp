@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 using namespace supernormal::test;
 

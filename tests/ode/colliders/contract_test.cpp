@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ode/collider_fixture.hpp"
-#include "ode/ode_fixture.hpp"
-#include "relative.hpp"
+#include "support/ode_fixture.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

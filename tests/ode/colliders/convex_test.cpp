@@ -7,10 +7,10 @@
 #include <string>
 
 #include "ode/collider_fixture.hpp"
-#include "relative.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "support/relative.hpp"
 
 // dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"

@@ -1,7 +1,7 @@
 // Tests of worlds with contacts before overlap: nothing tunnels, what rests stays up, what passes by is not held back.
 #include <doctest/doctest.h>
 
-#include "ode/ode_world.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 using namespace supernormal::test;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 using namespace supernormal::test;
 

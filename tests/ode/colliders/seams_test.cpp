@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ode/mesh_fixture.hpp"
-#include "ode/ode_world.hpp"
 #include "ode/terrain.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

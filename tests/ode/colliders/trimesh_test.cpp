@@ -6,7 +6,7 @@
 #include <string>
 
 #include "ode/mesh_fixture.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

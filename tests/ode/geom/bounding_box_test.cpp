@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "ode/ode_fixture.hpp"
-#include "relative.hpp"
+#include "support/ode_fixture.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "ode/ode_fixture.hpp"
-#include "relative.hpp"
+#include "support/ode_fixture.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

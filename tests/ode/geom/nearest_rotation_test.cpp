@@ -7,7 +7,7 @@
 #include <random>
 
 #include "ode/geom/convert.hpp"
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 using namespace supernormal;
 using namespace supernormal::ode;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ode/collider_fixture.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 // dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "ode/ode_world.hpp"
-#include "relative.hpp"
+#include "support/ode_world.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal::test;
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 using namespace supernormal::test;
 

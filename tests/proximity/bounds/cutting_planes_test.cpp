@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "proximity/reference_pairs.hpp"
-#include "relative.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/gap_function.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

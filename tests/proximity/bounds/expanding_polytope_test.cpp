@@ -7,15 +7,15 @@
 #include <array>
 #include <cmath>
 
-#include "proximity/reference_pairs.hpp"
-#include "relative.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/sphere.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "proximity/bounds/minimum_norm_point.hpp"
-#include "proximity/random_bodies.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/solve.hpp"
+#include "support/random_bodies.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

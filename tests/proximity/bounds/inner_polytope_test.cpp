@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "proximity/bounds/minimum_norm_point.hpp"
-#include "relative.hpp"
-#include "shapes/shape_samples.hpp"
+#include "support/relative.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -11,8 +11,8 @@
 #include <random>
 #include <vector>
 
-#include "shapes/shape_samples.hpp"
-#include "traps.hpp"
+#include "support/shape_samples.hpp"
+#include "support/traps.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "proximity/reference_pairs.hpp"
-#include "shapes/shape_samples.hpp"
 #include "supernormal/shapes/sphere.hpp"
+#include "support/reference_pairs.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "shapes/shape_samples.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
 #include "supernormal/shapes/cylinder.hpp"
 #include "supernormal/shapes/polytope.hpp"
+#include "support/shape_samples.hpp"
 
 using namespace supernormal;
 using namespace supernormal::test;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "proximity/local/strict_complementarity.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 

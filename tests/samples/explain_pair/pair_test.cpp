@@ -10,7 +10,7 @@
 #include "pair/hard_case.hpp"
 #include "pair/recorded_pair.hpp"
 #include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace explain_pair;
 

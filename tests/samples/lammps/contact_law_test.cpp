@@ -9,8 +9,8 @@
 #include <string>
 
 #include "kernel/damping_ratio.hpp"
-#include "relative.hpp"
 #include "samples/lammps/two_bodies.hpp"
+#include "support/relative.hpp"
 
 using namespace granular;
 using namespace granular::test;

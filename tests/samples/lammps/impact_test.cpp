@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "relative.hpp"
 #include "samples/lammps/two_bodies.hpp"
+#include "support/relative.hpp"
 
 using namespace granular;
 using namespace granular::test;

@@ -12,7 +12,7 @@
 
 #include "base/input_error.hpp"
 #include "base/random.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;

@@ -8,7 +8,7 @@
 
 #include "kernel/free_rotation.hpp"
 #include "kernel/shape_cache.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace granular;
 using supernormal::test::relative;

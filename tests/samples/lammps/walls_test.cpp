@@ -11,8 +11,8 @@
 #include "kernel/walls/mesh_wall.hpp"
 #include "kernel/walls/plane_wall.hpp"
 #include "kernel/walls/wall_contacts.hpp"
-#include "relative.hpp"
 #include "samples/lammps/two_bodies.hpp"
+#include "support/relative.hpp"
 
 using namespace granular;
 using namespace granular::test;

@@ -9,7 +9,7 @@
 
 #include "ode/colliders/heightfield/heightfield_patch.hpp"
 #include "ode/terrain.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace supernormal;
 using namespace supernormal::ode;

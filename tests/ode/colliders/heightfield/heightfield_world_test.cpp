@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "ode/ode_world.hpp"
 #include "ode/terrain.hpp"
+#include "support/ode_world.hpp"
 
 using namespace supernormal::test;
 

@@ -8,7 +8,7 @@
 
 #include "base/input_error.hpp"
 #include "output/result_names.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/toml_input.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 

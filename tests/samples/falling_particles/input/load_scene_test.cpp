@@ -7,9 +7,9 @@
 #include "base/input_error.hpp"
 #include "complaint.hpp"
 #include "input/catalogue.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
+#include "support/relative.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 namespace fx = supernormal::effects;

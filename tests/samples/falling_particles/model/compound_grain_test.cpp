@@ -13,8 +13,8 @@
 #include "observe/pair_contact.hpp"
 #include "output/grain_mesh.hpp"
 #include "output/shown_parts.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 

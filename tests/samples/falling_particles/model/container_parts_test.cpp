@@ -9,8 +9,8 @@
 
 #include "complaint.hpp"
 #include "observe/leaks.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 #include "world/stepper.hpp"
 
 using namespace falling_particles;

@@ -8,8 +8,8 @@
 
 #include "base/random.hpp"
 #include "observe/leaks.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 #include "world/placement.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "measured.hpp"
-#include "relative.hpp"
 #include "samples/complaint.hpp"
+#include "support/relative.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;

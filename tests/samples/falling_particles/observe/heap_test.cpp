@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "complaint.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 

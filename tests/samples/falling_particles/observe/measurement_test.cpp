@@ -8,7 +8,7 @@
 #include "observe/energy.hpp"
 #include "observe/overlap.hpp"
 #include "output/frame.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "measured.hpp"
-#include "relative.hpp"
+#include "support/relative.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;

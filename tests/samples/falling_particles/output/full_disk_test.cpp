@@ -10,7 +10,7 @@
 #include "output/output_files.hpp"
 #include "output/picture.hpp"
 #include "output/result_names.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 namespace fs = std::filesystem;

@@ -17,7 +17,7 @@
 #include "output/picture.hpp"
 #include "output/result_names.hpp"
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 

@@ -13,7 +13,7 @@
 #include "observe/simulation.hpp"
 #include "run/forecast.hpp"
 #include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 

@@ -15,7 +15,7 @@
 #include "output/output_files.hpp"
 #include "output/result_names.hpp"
 #include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 namespace fs = std::filesystem;

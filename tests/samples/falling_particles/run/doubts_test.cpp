@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "complaint.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;

@@ -9,7 +9,7 @@
 #include "base/files.hpp"
 #include "base/input_error.hpp"
 #include "scene_text.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace falling_particles;
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 

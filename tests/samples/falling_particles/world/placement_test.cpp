@@ -9,8 +9,8 @@
 
 #include "base/random.hpp"
 #include "model/lattice.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 
 using namespace falling_particles;
 

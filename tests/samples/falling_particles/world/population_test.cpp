@@ -14,8 +14,8 @@
 #include "model/grain_shape.hpp"
 #include "observe/energy.hpp"
 #include "observe/leaks.hpp"
-#include "relative.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 

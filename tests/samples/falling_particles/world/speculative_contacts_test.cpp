@@ -9,9 +9,9 @@
 #include "complaint.hpp"
 #include "observe/leaks.hpp"
 #include "observe/simulation.hpp"
-#include "relative.hpp"
 #include "run/doubts.hpp"
 #include "scenes.hpp"
+#include "support/relative.hpp"
 
 using namespace falling_particles;
 using supernormal::test::relative;

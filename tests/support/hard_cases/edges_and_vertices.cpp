@@ -1,5 +1,5 @@
 // Edges and vertices: a tiny radius of curvature, so that a cone of normals shares nearly one point.
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "shapes/without_hessian.hpp"
-#include "superellipsoid_classes.hpp"
 #include "supernormal/proximity/pose.hpp"
 #include "supernormal/shapes/box.hpp"
 #include "supernormal/shapes/capsule.hpp"
@@ -18,6 +16,8 @@
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
 #include "supernormal/shapes/superellipsoid.hpp"
+#include "support/superellipsoid_classes.hpp"
+#include "support/without_hessian.hpp"
 
 namespace supernormal::test {
 

@@ -1,9 +1,9 @@
-#include "catalogue.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 #include <iterator>
 #include <utility>
 
-#include "cases/builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 

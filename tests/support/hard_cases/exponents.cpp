@@ -1,7 +1,7 @@
 // Exponents at the ends of their range, and near 2, where the formulas change.
 #include <cmath>
 
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

@@ -1,4 +1,4 @@
-#include "body.hpp"
+#include "support/hard_cases/body.hpp"
 
 #include <array>
 #include <cstdio>

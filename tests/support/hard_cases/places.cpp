@@ -1,5 +1,5 @@
 // Bodies far from the origin; normals and centre lines on and near the coordinate planes; starts that lead nowhere.
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "body.hpp"
 #include "supernormal/proximity/pose.hpp"
+#include "support/hard_cases/body.hpp"
 
 namespace supernormal::samples {
 

@@ -1,5 +1,5 @@
 // Face to face: the boundary point is a steep power of the normal, and the witness points jump by the size of the face.
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

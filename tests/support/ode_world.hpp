@@ -7,7 +7,7 @@
 #include <array>
 #include <numbers>
 
-#include "ode/ode_fixture.hpp"
+#include "support/ode_fixture.hpp"
 
 namespace supernormal::test {
 

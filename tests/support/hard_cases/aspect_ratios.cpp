@@ -1,5 +1,5 @@
 // Needles and coins: radii of curvature from 1e-4 to 1e4 times the size, and tolerances that go by the smallest half-axis.
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

@@ -1,6 +1,6 @@
 // Deep overlap up to total containment: there are several separating translations, and the shortest may be far from the centre
 // line.
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

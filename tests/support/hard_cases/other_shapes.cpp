@@ -1,5 +1,5 @@
 // Superovoids at the limit of convexity, bodies swept by a sphere, bodies known by two functions.
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

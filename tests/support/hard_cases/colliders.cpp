@@ -1,7 +1,7 @@
 // Bodies with faces and edges in the strict sense: all points of a face share one normal, all normals of a corner one point.
 #include <cmath>
 
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

@@ -1,7 +1,7 @@
 // Concentric, identical, aligned bodies: the centre line has no direction, or every direction is as good.
 #include <cmath>
 
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

@@ -1,7 +1,7 @@
 // Gaps of zero, or of one unit in the last place above or below.
 #include <cmath>
 
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

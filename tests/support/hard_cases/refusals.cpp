@@ -1,10 +1,10 @@
 // Input that has to be refused: parameters and poses with which nothing can be computed.
 #include <limits>
 
-#include "builders.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/callback_shape.hpp"
 #include "supernormal/shapes/linear_image.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

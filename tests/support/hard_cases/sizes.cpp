@@ -1,5 +1,5 @@
 // Extreme sizes: a grain of a micrometre against a body of a kilometre, and the ends of the range that shapes accept.
-#include "builders.hpp"
+#include "support/hard_cases/builders.hpp"
 
 namespace supernormal::samples {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "catalogue.hpp"
+#include "support/hard_cases/catalogue.hpp"
 
 namespace supernormal::samples {
 
