@@ -12,7 +12,7 @@
 #include "base/input_error.hpp"
 #include "base/interval.hpp"
 #include "base/nearest_word.hpp"
-#include "body.hpp"
+#include "support/hard_cases/body.hpp"
 
 namespace explain_pair {
 namespace {

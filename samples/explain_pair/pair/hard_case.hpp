@@ -1,4 +1,4 @@
-// The pairs of tests/hard_cases by name.
+// The hard cases of tests/support by name.
 #pragma once
 
 #include <string>
