@@ -13,9 +13,9 @@
 
 #include "base/input_error.hpp"
 #include "base/interrupt.hpp"
-#include "input/list_parts.hpp"
 #include "input/list_population.hpp"
 #include "input/list_sections.hpp"
+#include "input/list_walls.hpp"
 #include "input/load_effects.hpp"
 #include "model/scene.hpp"
 #include "observe/measurement.hpp"
@@ -56,7 +56,7 @@ void list() {
   std::puts("  from, until: s, of the first and the last sample, the whole run without them\n");
   std::fputs(falling_particles::list_measurements().c_str(), stdout);
   std::puts("\nWalls besides those of its container, which stand, move or are driven, are its sections [[part]].\n");
-  std::fputs(falling_particles::list_parts().c_str(), stdout);
+  std::fputs(falling_particles::list_walls().c_str(), stdout);
   std::puts("\nIt writes these tables, besides those of its measurements. --tables SCENE prints the columns of a scene's.\n");
   std::fputs(falling_particles::list_tables().c_str(), stdout);
   std::puts("\nGrains come from its sections [[feeder]], and go into its sections [[sink]].\n");

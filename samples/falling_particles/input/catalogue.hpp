@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/grain.hpp"
+#include "model/grain_kind.hpp"
 
 namespace falling_particles {
 
@@ -13,13 +13,13 @@ namespace falling_particles {
 /// is made.
 struct CatalogueEntry {
   std::string name;
-  std::function<Grain()> make;
+  std::function<GrainKind()> make;
 };
 
 /// Reads a catalogue file, one table a grain, in the order of the file. Throws InputError.
 std::vector<CatalogueEntry> open_catalogue(const std::string& path);
 
 /// Makes all grains of a catalogue file, in its order. Throws InputError.
-std::vector<Grain> load_catalogue(const std::string& path);
+std::vector<GrainKind> load_catalogue(const std::string& path);
 
 }  // namespace falling_particles

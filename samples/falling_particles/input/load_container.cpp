@@ -105,13 +105,13 @@ void check_ceiling(const TomlTable& table, const Scene& scene) {
   Lattice lattice(scene);
   int room = 0;
   try {
-    for (const GrainCount& kind : scene.grains) {
-      const double radius = kind.grain.bounding_radius();
-      for (int i = 0; i < kind.count; ++i, ++room) lattice.next(kind.scale(static_cast<std::size_t>(i)) * radius);
+    for (const GrainCount& entry : scene.kinds) {
+      const double radius = entry.kind.bounding_radius();
+      for (int i = 0; i < entry.count; ++i, ++room) lattice.next(entry.scale(static_cast<std::size_t>(i)) * radius);
     }
   } catch (const NoRoom&) {
-    table.fail("kind", "the scene has " + std::to_string(scene.bodies()) + " grains; allowed: up to " + std::to_string(room) +
-                           ", which find room in the container at the start");
+    table.fail("kind", "the scene has " + std::to_string(scene.grains_at_start()) + " grains; allowed: up to " +
+                           std::to_string(room) + ", which find room in the container at the start");
   }
 }
 

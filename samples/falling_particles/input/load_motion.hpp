@@ -31,6 +31,6 @@ double read_phase(const TomlTable& table);
 std::pair<double, double> read_times(const TomlTable& table);
 
 /// The motions of a part. Throws InputError.
-std::vector<PartMotion> read_motions(const TomlTable& part, const Time& time);
+std::vector<WallMotion> read_motions(const TomlTable& part, const Time& time);
 
 }  // namespace falling_particles

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "model/container_parts.hpp"
-#include "model/periodic_parts.hpp"
+#include "model/container_walls.hpp"
+#include "model/periodic_walls.hpp"
 
 namespace falling_particles {
 namespace {
@@ -77,14 +77,14 @@ void load_periodic(const TomlTable& root, Scene& scene) {
     if (table->has(kAxes[axis])) scene.periodic[axis] = read_period(*table, axis, scene);
   }
   const double reach = 2 * scene.largest_bounding_radius();
-  open_container(scene.periodic, reach, parts_in(scene.container).size(), scene.parts);
+  open_container(scene.periodic, reach, walls_in(scene.container).size(), scene.walls);
   for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
     if (!scene.periodic[axis]) continue;
-    for (const Part& part : scene.parts) {
-      const std::optional<std::string> end = find_end(part, axis, *scene.periodic[axis], reach);
+    for (const Wall& wall : scene.walls) {
+      const std::optional<std::string> end = find_end(wall, axis, *scene.periodic[axis], reach);
       if (!end) continue;
       table->fail(kAxes[axis],
-                  "part \"" + part.name + "\" is not the same all along " + kAxes[axis] + ", on which the scene repeats: " + *end +
+                  "part \"" + wall.name + "\" is not the same all along " + kAxes[axis] + ", on which the scene repeats: " + *end +
                       "; allowed: planes, boxes, cylinders and prisms through the whole cell that move in the same way "
                       "everywhere along it");
     }

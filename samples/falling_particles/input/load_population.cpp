@@ -50,7 +50,7 @@ Quantity read_quantity(const TomlTable& table, const char* grains, const char* k
 
 std::size_t find_kind(const TomlTable& entry, const Scene& scene) {
   std::vector<std::string> names;
-  for (const GrainCount& kind : scene.grains) names.push_back(kind.grain.name);
+  for (const GrainCount& each : scene.kinds) names.push_back(each.kind.name);
   const std::string name = entry.choice("name", names);
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
@@ -59,14 +59,14 @@ std::size_t find_kind(const TomlTable& entry, const Scene& scene) {
 std::vector<FedKind> read_mixture(const TomlTable& table, const Scene& scene) {
   std::vector<FedKind> mixture;
   if (!table.has("grain")) {
-    const int all = scene.bodies();
-    if (all == 0 && scene.grains.size() > 1) {
+    const int all = scene.grains_at_start();
+    if (all == 0 && scene.kinds.size() > 1) {
       table.fail("",
                  "feeder.grain is missing in a scene whose grains all have count = 0; allowed: [[feeder.grain]] with name and "
                  "fraction of each kind");
     }
-    for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) {
-      const int count = scene.grains[kind].count;
+    for (std::size_t kind = 0; kind < scene.kinds.size(); ++kind) {
+      const int count = scene.kinds[kind].count;
       if (count > 0 || all == 0) mixture.push_back({kind, all == 0 ? 1.0 : static_cast<double>(count) / all});
     }
     return mixture;
@@ -106,8 +106,8 @@ void check_total(const TomlTable& table, const Feeder& feeder, const Scene& scen
 void check_inside(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
   double least = INFINITY;  // m, of a centre from the region's sides
   for (const FedKind& fed : feeder.mixture) {
-    const GrainCount& kind = scene.grains[fed.kind];
-    least = std::min(least, kind.smallest_scale() * kind.grain.bounding_radius());
+    const GrainCount& entry = scene.kinds[fed.kind];
+    least = std::min(least, entry.smallest_scale() * entry.kind.bounding_radius());
   }
   for (unsigned corner = 0; corner < 8; ++corner) {
     Point centre = feeder.region.corner;
@@ -124,12 +124,12 @@ void check_inside(const TomlTable& table, const Feeder& feeder, const Scene& sce
 /// A grain is within the region in any attitude.
 void check_size(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
   for (const FedKind& fed : feeder.mixture) {
-    const GrainCount& kind = scene.grains[fed.kind];
-    const double width = 2 * kind.largest_scale() * kind.grain.bounding_radius();
+    const GrainCount& entry = scene.kinds[fed.kind];
+    const double width = 2 * entry.largest_scale() * entry.kind.bounding_radius();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (feeder.region.size[axis] >= width) continue;
       table.fail("size", table.full_name("size") + "[" + std::to_string(axis) + "] is " + shortest(feeder.region.size[axis]) +
-                             "; allowed: at least " + shortest(width) + " m, so that grain \"" + kind.grain.name +
+                             "; allowed: at least " + shortest(width) + " m, so that grain \"" + entry.kind.name +
                              "\" fits in any attitude");
     }
   }
@@ -202,7 +202,7 @@ std::vector<Feeder> load_feeders(const TomlTable& root, const Scene& scene) {
   if (!root.has("feeder")) return feeders;
   refuse_in_packing(root, scene, "feeder");
   std::set<std::string> names;
-  double most = scene.bodies();
+  double most = scene.grains_at_start();
   for (const TomlTable& table :
        root.tables("feeder", {"name", "corner", "size", "grain", "fractions_of", "grains_per_second", "kg_per_second",
                               "total_grains", "total_kg", "from", "until", "velocity", "patience"})) {

@@ -13,14 +13,14 @@
 #include "load_container.hpp"
 #include "load_effects.hpp"
 #include "load_measurements.hpp"
-#include "load_parts.hpp"
 #include "load_periodic.hpp"
 #include "load_population.hpp"
 #include "load_sizes.hpp"
+#include "load_walls.hpp"
 #include "memory.hpp"
-#include "model/part_material.hpp"
 #include "model/picture_names.hpp"
 #include "model/scene.hpp"
+#include "model/wall_material.hpp"
 
 namespace falling_particles {
 namespace {
@@ -98,14 +98,14 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   const std::vector<CatalogueEntry> catalogue = read_catalogue(root, scene_path);
   const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction", "size"});
   const bool by_fraction = entries.front().has("fraction");
-  std::vector<GrainCount> grains;
+  std::vector<GrainCount> kinds;
   std::set<std::string> seen;
   for (const TomlTable& entry : entries) {
     const CatalogueEntry& found = find_grain(catalogue, entry);
     if (!seen.insert(found.name).second) {
       entry.fail("name", "grain \"" + found.name + "\" is listed twice; allowed: once, with the sum");
     }
-    grains.push_back({found.make(), 0});
+    kinds.push_back({found.make(), 0});
     const char* other = by_fraction ? "count" : "fraction";
     if (entry.has(other)) {
       entry.fail(other, entry.full_name(other) + " is mixed with " + (by_fraction ? "fraction" : "count") +
@@ -119,17 +119,19 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   if (sum > kMostBodies)
     root.fail("grain", "the scene has " + std::to_string(sum) + " grains; allowed: up to " + std::to_string(kMostBodies));
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    GrainCount& kind = grains[i];
-    kind.count = counts[i];
-    kind.is_fed = root.has("feeder");
-    kind.size = load_sizes(entries[i], kind.grain.sieve_size());
-    if (kind.size) kind.scales = draw_sizes(*kind.size, kind.count, seed_of_sizes(seed, i));
+    GrainCount& entry = kinds[i];
+    entry.count = counts[i];
+    entry.is_fed = root.has("feeder");
+    entry.size = load_sizes(entries[i], entry.kind.sieve_size());
+    if (entry.size) entry.scales = draw_sizes(*entry.size, entry.count, seed_of_sizes(seed, i));
   }
-  return grains;
+  return kinds;
 }
 
 /// Grains that a scene may have at once. How many its sinks leave cannot be told.
-int most_at_once(const Scene& scene) { return static_cast<int>(scene.bodies() + (scene.sinks.empty() ? most_fed(scene) : 0)); }
+int most_at_once(const Scene& scene) {
+  return static_cast<int>(scene.grains_at_start() + (scene.sinks.empty() ? most_fed(scene) : 0));
+}
 
 void check_memory(const TomlTable& root, int grains) {
   constexpr double kGigabyte = 1e9;
@@ -238,14 +240,14 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
   scene.container = read_container(root, scene.time);
-  scene.parts = load_parts(root, scene, path);
+  scene.walls = load_walls(root, scene, path);
   const TomlTable drop = read_drop(root, scene);
-  scene.grains = read_grains(root, drop, path, scene.seed);
-  if (root.has("feeder") && scene.bodies() > 0) root.table("drop");  // says that it is missing
+  scene.kinds = read_grains(root, drop, path, scene.seed);
+  if (root.has("feeder") && scene.grains_at_start() > 0) root.table("drop");  // says that it is missing
   load_periodic(root, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
-  add_part_effects(scene.parts, scene.effects);
+  add_wall_effects(scene.walls, scene.effects);
   scene.compression = read_compression(root, scene);
   scene.sinks = load_sinks(root, scene);
   scene.feeders = load_feeders(root, scene);

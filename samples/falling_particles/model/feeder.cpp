@@ -15,7 +15,7 @@ double most_grains(const Quantity& quantity, double lightest) {
   return quantity.of == Quantity::Of::Grains ? quantity.number : quantity.number / lightest + 1;
 }
 
-double smallest_mass(const GrainCount& kind) { return std::pow(kind.smallest_scale(), 3) * mass_of(kind.grain); }
+double smallest_mass(const GrainCount& entry) { return std::pow(entry.smallest_scale(), 3) * mass_of(entry.kind); }
 
 }  // namespace
 
@@ -23,7 +23,7 @@ std::string Quantity::in_words() const { return shortest(number) + (of == Of::Ma
 
 double lightest_grain(const Feeder& feeder, const Scene& scene) {
   double lightest = INFINITY;
-  for (const FedKind& fed : feeder.mixture) lightest = std::min(lightest, smallest_mass(scene.grains[fed.kind]));
+  for (const FedKind& fed : feeder.mixture) lightest = std::min(lightest, smallest_mass(scene.kinds[fed.kind]));
   return lightest;
 }
 

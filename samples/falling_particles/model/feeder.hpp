@@ -46,7 +46,7 @@ struct Quantity {
 
 /// A share of a kind in what a feeder feeds.
 struct FedKind {
-  std::size_t kind;  ///< index into Scene::grains
+  std::size_t kind;  ///< index into Scene::kinds
   double fraction;   ///< of Feeder::fraction_of; all sum to 1
 };
 

@@ -5,17 +5,17 @@
 #include <supernormal/proximity/pose.hpp>
 #include <supernormal/shapes/shape.hpp>
 
-#include "grain.hpp"
+#include "grain_kind.hpp"
 
 namespace falling_particles {
 
 /// The body that create_geom() makes.
-std::shared_ptr<const supernormal::Shape> shape_of(const GrainBody& body, double scale = 1);
+std::shared_ptr<const supernormal::Shape> shape_of(const ConvexBody& body, double scale = 1);
 
 /// kg, of a grain of scale 1.
-double mass_of(const Grain& grain);
+double mass_of(const GrainKind& kind);
 
 /// Where a part of a grain is in the grain's frame.
-supernormal::Pose pose_of(const GrainPart& part, double scale = 1);
+supernormal::Pose pose_of(const Component& component, double scale = 1);
 
 }  // namespace falling_particles

@@ -36,7 +36,7 @@ struct ConeMoments {
 };
 
 /// Adds the part from height a to b, over which the radius is linear: Simpson's rule is then exact.
-void add_part(const Hopper& hopper, double a, double b, ConeMoments& moments) {
+void add_moments(const Hopper& hopper, double a, double b, ConeMoments& moments) {
   const double middle = (a + b) / 2;
   for (const auto& [height, weight] : std::array<std::array<double, 2>, 3>{{{a, 1}, {middle, 4}, {b, 1}}}) {
     const double radius = hopper.radius_at(hopper.clearance + height);
@@ -79,8 +79,8 @@ double Hopper::mean_height(double level) const {
   const double height = level - clearance;
   const double in_cone = std::fmin(height, cone_height());
   ConeMoments moments;
-  add_part(*this, 0, in_cone, moments);
-  if (height > in_cone) add_part(*this, in_cone, height, moments);
+  add_moments(*this, 0, in_cone, moments);
+  if (height > in_cone) add_moments(*this, in_cone, height, moments);
   return moments.first / moments.volume;
 }
 

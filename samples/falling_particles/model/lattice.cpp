@@ -68,9 +68,9 @@ Lattice::Cell Lattice::take_largest() {
 
 Lattice filled_lattice(const Scene& scene) {
   Lattice lattice(scene);
-  for (const GrainCount& kind : scene.grains) {
-    const double radius = kind.grain.bounding_radius();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kind.count); ++i) lattice.next(kind.scale(i) * radius);
+  for (const GrainCount& entry : scene.kinds) {
+    const double radius = entry.kind.bounding_radius();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(entry.count); ++i) lattice.next(entry.scale(i) * radius);
   }
   return lattice;
 }

@@ -13,7 +13,7 @@ namespace falling_particles {
 using Vector3 = Eigen::Vector3d;
 
 /// Where a part is: a point x of it is at rotation x + position.
-struct PartPose {
+struct WallPose {
   Vector3 position = Vector3::Zero();  ///< m
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
@@ -26,7 +26,7 @@ struct PartPose {
 };
 
 /// Of the body's position, and of the body.
-struct PartVelocity {
+struct WallVelocity {
   Vector3 linear = Vector3::Zero();   ///< m/s
   Vector3 angular = Vector3::Zero();  ///< rad/s
 
@@ -64,7 +64,7 @@ struct Conveyor {
 };
 
 /// One motion of a part.
-struct PartMotion {
+struct WallMotion {
   std::variant<Translation, Rotation, Vibration, Conveyor> kind;
   double from = 0;                                         ///< s, when it starts
   double until = std::numeric_limits<double>::infinity();  ///< s; then the part stays where it is
@@ -75,14 +75,14 @@ struct PartMotion {
 /// The pose at a time (s) of a part that starts in `start`: an exact function of time, whatever the steps. Displacements add up,
 /// and are along directions of the world. Rotations turn the part about the places where their axes are at the start, the last one
 /// first, and are then displaced: an axis is carried by the displacements and by the rotations listed before.
-PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, double time);
+WallPose pose_at(const WallPose& start, std::span<const WallMotion> motions, double time);
 
 /// The constant velocity that leads from one pose to the other within `duration` (s), by the smaller turn.
-PartVelocity mean_velocity(const PartPose& from, const PartPose& to, double duration);
+WallVelocity mean_velocity(const WallPose& from, const WallPose& to, double duration);
 
 /// The mean velocity that conveyors give the surface of the part from one time to another (s), in the world's frame, at the
 /// position of the part, which is at `now`.
-PartVelocity conveyor_velocity(const PartPose& start, const PartPose& now, std::span<const PartMotion> motions, double from,
+WallVelocity conveyor_velocity(const WallPose& start, const WallPose& now, std::span<const WallMotion> motions, double from,
                                double until);
 
 /// A rigid velocity gives each point of a part that rotates the tangent of its circle at the start of a step, while the point moves
@@ -92,7 +92,7 @@ class ChordExcess {
  public:
   /// Of a surface that moves with the velocity `rigid` at the position of the part and is, relative to that position, turned by
   /// `rotation` and displaced by `shift` (m) in `duration` (s).
-  ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const PartVelocity& rigid, double duration);
+  ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const WallVelocity& rigid, double duration);
 
   /// m/s; what a grain needs besides the rigid velocity. `lever`: m, from the position of the part to the grain's centre;
   /// `velocity`: m/s, of the grain. A grain that rides along gets the chord of the surface's point at its centre: all its contacts
@@ -103,14 +103,14 @@ class ChordExcess {
  private:
   Eigen::Matrix3d turn_;   // of the step
   Eigen::Matrix3d chord_;  // 1/s; gradient of the chords' velocities
-  Vector3 chord_at_part_;  // m/s
-  PartVelocity rigid_;
+  Vector3 chord_at_wall_;  // m/s
+  WallVelocity rigid_;
   double duration_;  // s
 };
 
 /// For the step from `from` to `until` (s), in which the part goes from `now` to `next`, and conveyors move its surface; empty if
 /// neither of them rotates.
-std::optional<ChordExcess> chord_excess(const PartPose& start, const PartPose& now, const PartPose& next,
-                                        std::span<const PartMotion> motions, double from, double until);
+std::optional<ChordExcess> chord_excess(const WallPose& start, const WallPose& now, const WallPose& next,
+                                        std::span<const WallMotion> motions, double from, double until);
 
 }  // namespace falling_particles

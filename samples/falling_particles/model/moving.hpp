@@ -1,4 +1,4 @@
-// Containers that are made of parts which move (model/container_parts.hpp).
+// Containers that are made of parts which move (model/container_walls.hpp).
 #pragma once
 
 #include <algorithm>

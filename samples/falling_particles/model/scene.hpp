@@ -11,16 +11,16 @@
 #include "axis.hpp"
 #include "container.hpp"
 #include "feeder.hpp"
-#include "grain.hpp"
-#include "part.hpp"
+#include "grain_kind.hpp"
 #include "query.hpp"
 #include "request.hpp"
 #include "size_distribution.hpp"
+#include "wall.hpp"
 
 namespace falling_particles {
 
 struct GrainCount {
-  Grain grain;
+  GrainKind kind;
   int count;
   std::optional<SizeDistribution> size = {};  ///< of the factor on the grain's lengths; all are 1 without one
   std::vector<double> scales = {};            ///< factors drawn, one a grain; none without a distribution
@@ -62,7 +62,7 @@ struct Scene {
   std::string name;  ///< name of the file, without folder and extension
   std::uint64_t seed;
   Container container;
-  std::vector<GrainCount> grains;
+  std::vector<GrainCount> kinds;
   Drop drop;
   Time time;
   Solver solver;
@@ -70,7 +70,7 @@ struct Scene {
   std::optional<Compression> compression = {};        ///< for the grains in a periodic container
   std::vector<std::string> pictures = {};             ///< formats that a run leaves besides its tables (picture_names.hpp)
   bool forces = false;                                ///< whether pictures show the forces of the contacts
-  std::vector<Part> parts = {};                       ///< walls besides those of the container, or in its place
+  std::vector<Wall> walls = {};                       ///< walls besides those of the container, or in its place
   std::optional<Query> query = {};                    ///< of two smooth bodies; the library's defaults if empty
   std::optional<Axis> sweep_axis = {};                ///< of the broad phase; chosen by the positions of the grains if empty
   std::vector<MeasurementRequest> measurements = {};  ///< those that the scene names, and no others
@@ -86,8 +86,8 @@ struct Scene {
   /// Whether it names speculative contacts, for which grains look ahead.
   bool looks_ahead() const;
 
-  int bodies() const;                             ///< at the start
-  std::size_t kind_of(const Grain& grain) const;  ///< index into grains, of one of these objects
+  int grains_at_start() const;                       ///< at the start
+  std::size_t kind_of(const GrainKind& kind) const;  ///< index into grains, of one of these objects
   /// Whether grains come or go during the run.
   bool changes_population() const { return !feeders.empty() || !sinks.empty(); }
   bool has_sizes() const;                  ///< whether any kind has a distribution of sizes

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "part.hpp"
+#include "wall.hpp"
 
 namespace falling_particles {
 

@@ -25,7 +25,7 @@ class Columns {
   }
 
   /// The grain that holds the point, or null.
-  const Body* find_grain(const Point& point) const {
+  const Grain* find_grain(const Point& point) const {
     const auto [x, y, z] = point;
     const std::vector<Entry>& column = cells_[index(x, 0) * kPerAxis + index(y, 1)];
     const auto found = std::ranges::find_if(column, [x = x, y = y, z = z](const Entry& entry) {
@@ -36,7 +36,7 @@ class Columns {
       if (std::isnan(depth)) throw std::runtime_error(std::string("snGeomPointDepth: ") + snLastError());
       return depth > 0;
     });
-    return found == column.end() ? nullptr : body_of(found->geom);
+    return found == column.end() ? nullptr : grain_of(found->geom);
   }
 
  private:
@@ -66,9 +66,9 @@ class Columns {
 double mean_z(const World& world) {
   double volume = 0;
   double moment = 0;
-  for (const Body& body : world.present()) {
-    volume += body.volume();
-    moment += body.volume() * dBodyGetPosition(body.body)[2];
+  for (const Grain& grain : world.present()) {
+    volume += grain.volume();
+    moment += grain.volume() * dBodyGetPosition(grain.body)[2];
   }
   return volume > 0 ? moment / volume : 0;  // without grains there is no bed
 }
@@ -106,10 +106,10 @@ Bed measure(const World& world, const Vessel& vessel, Random& random) {
         const Point point{x, y, vessel.lowest() + height * std::lerp(kSlabBottom, kSlabTop, level)};
         if (!vessel.contains(point)) continue;
         ++points;
-        const Body* body = columns.find_grain(point);
-        if (body == nullptr) continue;
+        const Grain* grain = columns.find_grain(point);
+        if (grain == nullptr) continue;
         ++inside;
-        density += body->grain->density;
+        density += grain->kind->density;
       }
     }
   }

@@ -10,7 +10,7 @@
 namespace falling_particles {
 
 /// A piece of a container.
-struct ContainerPart {
+struct WallPicture {
   /// A lid vanishes when the outlet opens; a cell, whose mesh has the side 1, is scaled about the origin by its side; the mesh of
   /// what moves is in its own frame.
   enum class Role { Still, Lid, Cell, Moving };
@@ -23,6 +23,6 @@ struct ContainerPart {
 };
 
 /// The parts of a container. Walls without upper end are shown up to z = top (m); a box has none across periodic axes.
-std::vector<ContainerPart> parts_of(const Container& container, double top, const PeriodicAxes& periodic = {});
+std::vector<WallPicture> pictures_of(const Container& container, double top, const PeriodicAxes& periodic = {});
 
 }  // namespace falling_particles

@@ -25,7 +25,7 @@ class Fabric final : public Measurement {
     std::size_t contacts = 0;
     for (const PairContact& contact : sample.contacts) {
       if (!contact.bears_force() || !bounds.contains(contact.position)) continue;
-      if (contact.body2 == nullptr && !counts_walls_) continue;
+      if (contact.grain2 == nullptr && !counts_walls_) continue;
       F += contact.normal * contact.normal.transpose();
       ++contacts;
     }

@@ -54,22 +54,22 @@ class Grid final : public Measurement {
     // Moments are taken about the means of the cells, so that nothing cancels: two passes.
     for_each(
         bounds, sample.world,
-        [&](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
-          sums.mass += body.mass.mass;
-          sums.volume += body.volume();
-          sums.place += body.mass.mass * place;
-          sums.velocity += body.mass.mass * velocity;
+        [&](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
+          sums.mass += grain.mass.mass;
+          sums.volume += grain.volume();
+          sums.place += grain.mass.mass * place;
+          sums.velocity += grain.mass.mass * velocity;
           ++sums.grains;
         },
         all);
     for_each(
         bounds, sample.world,
-        [](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
+        [](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
           const Vector3 x = place - sums.place / sums.mass;
           const Vector3 v = velocity - sums.velocity / sums.mass;
-          sums.spread += body.mass.mass * x * x.transpose();
-          sums.shear += body.mass.mass * x * v.transpose();
-          sums.energy += body.mass.mass * v.squaredNorm();
+          sums.spread += grain.mass.mass * x * x.transpose();
+          sums.shear += grain.mass.mass * x * v.transpose();
+          sums.energy += grain.mass.mass * v.squaredNorm();
         },
         all);
     const Vector3 size =
@@ -90,10 +90,10 @@ class Grid final : public Measurement {
  private:
   template <typename Visit>
   void for_each(const Bounds& bounds, const World& world, Visit visit, std::vector<CellSums>& all) const {
-    for (const Body& body : world.present()) {
-      const Vector3 place = place_of(body, world);
-      const dReal* v = dBodyGetLinearVel(body.body);
-      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], body, place, Vector3(v[0], v[1], v[2]));
+    for (const Grain& grain : world.present()) {
+      const Vector3 place = place_of(grain, world);
+      const dReal* v = dBodyGetLinearVel(grain.body);
+      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], grain, place, Vector3(v[0], v[1], v[2]));
     }
   }
 

@@ -61,10 +61,10 @@ Line fit(std::span<const double> x, std::span<const double> y) {
 Heap measure_heap(const World& world, const Point& centre, double radius) {
   std::vector<Top> tops;
   std::size_t grains = 0;
-  for (const Body& body : world.present()) {
-    const Point p = body.position();
+  for (const Grain& grain : world.present()) {
+    const Point p = grain.position();
     if (p[2] < centre[2] || std::hypot(p[0] - centre[0], p[1] - centre[1]) > radius) continue;
-    for (const dGeomID geom : body.geoms()) {
+    for (const dGeomID geom : grain.geoms()) {
       Top& top = tops.emplace_back(Top{geom, {}});
       dGeomGetAABB(geom, top.aabb.data());
     }

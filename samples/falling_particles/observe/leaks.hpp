@@ -15,15 +15,15 @@ namespace falling_particles {
 /// not.
 struct Leak {
   double time;                       ///< s, of the first step after which it is outside
-  std::size_t body;                  ///< index in World::bodies()
-  std::string grain;                 ///< kind
+  std::size_t grain;                 ///< index in World::grains()
+  std::string kind;                  ///< kind
   Point position;                    ///< m
   std::array<double, 4> quaternion;  ///< w, x, y, z
   Point velocity;                    ///< m/s
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(time, body, grain, position, quaternion, velocity);
+    archive(time, grain, kind, position, quaternion, velocity);
   }
 };
 

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-Vector3 axis_in_world(const Body& body, std::size_t axis) {
-  const auto [w, x, y, z] = body.quaternion();
+Vector3 axis_in_world(const Grain& grain, std::size_t axis) {
+  const auto [w, x, y, z] = grain.quaternion();
   return Eigen::Quaterniond(w, x, y, z).toRotationMatrix().col(static_cast<Eigen::Index>(axis));
 }
 
@@ -27,9 +27,9 @@ class NematicOrder final : public Measurement {
     const Bounds bounds = region_.bounds(sample.world);
     Matrix3d sum = Matrix3d::Zero();
     std::size_t grains = 0;
-    for (const Body& body : sample.world.present()) {
-      if (body.grain->name != grain_ || !bounds.contains(place_of(body, sample.world))) continue;
-      const Vector3 axis = axis_in_world(body, axis_);
+    for (const Grain& grain : sample.world.present()) {
+      if (grain.kind->name != grain_ || !bounds.contains(place_of(grain, sample.world))) continue;
+      const Vector3 axis = axis_in_world(grain, axis_);
       sum += axis * axis.transpose();
       ++grains;
     }
@@ -53,8 +53,8 @@ class NematicOrder final : public Measurement {
 
 /// The half-axis of the grain that is longer, or shorter, than both others.
 std::size_t find_axis(const TomlTable& table, const Scene& scene, const std::string& name, const std::string& which) {
-  const auto kind = std::ranges::find(scene.grains, name, [](const GrainCount& count) { return count.grain.name; });
-  const std::array<double, 3>& axes = kind->grain.half_axes;
+  const auto kind = std::ranges::find(scene.kinds, name, [](const GrainCount& count) { return count.kind.name; });
+  const std::array<double, 3>& axes = kind->kind.half_axes;
   const auto [least, most] = std::ranges::minmax_element(axes);
   const auto found = which == "longest" ? most : least;
   if (std::ranges::count(axes, *found) > 1) {

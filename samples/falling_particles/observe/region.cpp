@@ -82,8 +82,8 @@ Vector3 periods_of(const World& world) {
   return periods;
 }
 
-Vector3 place_of(const Body& body, const World& world) {
-  const Point place = world.place_of(body);
+Vector3 place_of(const Grain& grain, const World& world) {
+  const Point place = world.place_of(grain);
   return {place[0], place[1], place[2]};
 }
 
@@ -136,8 +136,8 @@ std::optional<std::size_t> cell_of(const Vector3& point, const Bounds& bounds, c
 
 std::vector<std::string> names_of_grains(const Scene& scene) {
   std::vector<std::string> names;
-  names.reserve(scene.grains.size());
-  for (const GrainCount& kind : scene.grains) names.push_back(kind.grain.name);
+  names.reserve(scene.kinds.size());
+  for (const GrainCount& entry : scene.kinds) names.push_back(entry.kind.name);
   return names;
 }
 

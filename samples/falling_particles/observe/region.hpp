@@ -41,7 +41,7 @@ class SamplingRegion {
 Vector3 periods_of(const World& world);
 
 /// m, the centre of a grain; in a periodic world the one within the cell.
-Vector3 place_of(const Body& body, const World& world);
+Vector3 place_of(const Grain& grain, const World& world);
 
 /// The share of the way from a to b that is in the bounds, all images of the way in a periodic world together.
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods);

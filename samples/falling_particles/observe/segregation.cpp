@@ -26,10 +26,10 @@ class Segregation final : public Measurement {
     const Bounds bounds = region_.bounds(sample.world);
     std::vector<CellCount> cells(number_of(cells_));
     CellCount all;
-    for (const Body& body : sample.world.present()) {
-      const bool is_first = body.grain->name == grains_[0];
-      if (!is_first && body.grain->name != grains_[1]) continue;
-      const auto cell = cell_of(place_of(body, sample.world), bounds, cells_);
+    for (const Grain& grain : sample.world.present()) {
+      const bool is_first = grain.kind->name == grains_[0];
+      if (!is_first && grain.kind->name != grains_[1]) continue;
+      const auto cell = cell_of(place_of(grain, sample.world), bounds, cells_);
       if (!cell) continue;
       for (CellCount* count : {&cells[*cell], &all}) {
         count->both += 1;

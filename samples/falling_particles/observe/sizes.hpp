@@ -9,9 +9,9 @@
 
 namespace falling_particles {
 
-/// The sieve sizes (Grain::sieve_size) of the grains of one kind, as they were drawn.
+/// The sieve sizes (GrainKind::sieve_size) of the grains of one kind, as they were drawn.
 struct DrawnSizes {
-  std::string grain;
+  std::string kind;
   std::size_t number = 0;
   double mass = 0;                  ///< kg, of all
   double mean = 0;                  ///< m, by number

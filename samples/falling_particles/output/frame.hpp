@@ -17,7 +17,7 @@ class Stepper;
 class World;
 
 /// A body at one time, in the world's frame.
-struct BodyState {
+struct GrainState {
   Point position;                    ///< m, of the centre
   std::array<double, 4> quaternion;  ///< w, x, y, z; unit: from the body's frame to the world's
   Point velocity;                    ///< m/s
@@ -35,26 +35,26 @@ struct ContactState {
   Point position;  ///< m
   Point normal;    ///< unit, towards body 1, as in dContactGeom
   double depth;    ///< m
-  int body1;       ///< index of the body; kWall for a wall
-  int body2;
+  int grain1;      ///< index of the body; kWall for a wall
+  int grain2;
   std::optional<Point> force = {};  ///< N, on body 1; where the scene asks for forces
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(position, normal, depth, body1, body2, force);
+    archive(position, normal, depth, grain1, grain2, force);
   }
 };
 
 inline constexpr int kWall = -1;
 
 /// Where a part of the container is: its mesh is scaled, turned and moved.
-struct PartPlace {
+struct WallPlace {
   Point position = {};                              ///< m
   std::array<double, 4> quaternion = {1, 0, 0, 0};  ///< w, x, y, z; unit
   double scale = 1;                                 ///< 0: the part is gone
 
   Point operator()(const std::array<float, 3>& vertex) const;
-  bool operator==(const PartPlace&) const = default;
+  bool operator==(const WallPlace&) const = default;
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -66,13 +66,13 @@ struct PartPlace {
 struct Frame {
   double time = 0;  ///< s
   Energy energy{};
-  std::vector<BodyState> bodies;
+  std::vector<GrainState> grains;
   std::vector<ContactState> contacts;  ///< of the step that led to this moment; none at the start. Those of a pair are consecutive
-  std::vector<PartPlace> part_places;  ///< of the container's parts
+  std::vector<WallPlace> wall_places;  ///< of the container's parts
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(time, energy, bodies, contacts, part_places);
+    archive(time, energy, grains, contacts, wall_places);
   }
 };
 
@@ -87,12 +87,12 @@ Extent extent_of(const Frame& frame, double radius);
 /// What a run shows, which does not change from frame to frame but for the grains that come. The scene must outlive it.
 struct Contents {
   const Scene* scene;
-  std::vector<std::size_t> kind_of_body;   ///< index into scene->grains, of all that there have been so far
-  std::vector<ContainerPart> parts = {};   ///< of the container, then those of the scene
-  std::vector<double> scale_of_body = {};  ///< of the grain's lengths; none where all are 1
+  std::vector<std::size_t> kind_of_grain;   ///< index into scene->grains, of all that there have been so far
+  std::vector<WallPicture> walls = {};      ///< of the container, then those of the scene
+  std::vector<double> scale_of_grain = {};  ///< of the grain's lengths; none where all are 1
 
-  const Grain& grain(std::size_t body) const { return scene->grains[kind_of_body[body]].grain; }
-  double scale(std::size_t body) const { return scale_of_body.empty() ? 1 : scale_of_body[body]; }
+  const GrainKind& kind(std::size_t grain) const { return scene->kinds[kind_of_grain[grain]].kind; }
+  double scale(std::size_t grain) const { return scale_of_grain.empty() ? 1 : scale_of_grain[grain]; }
 };
 
 /// m, above all grains of a run that has not started, and above its feeders: up to there walls without end are shown.
@@ -103,7 +103,7 @@ Contents contents_of(const World& world, const Scene& scene, double top);
 Contents contents_of(const World& world, const Scene& scene);
 
 /// Appends the grains that have come since.
-void add_new_bodies(Contents& contents, const World& world);
+void add_new_grains(Contents& contents, const World& world);
 
 /// `stepper`: null at the start, before the first step.
 Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper);

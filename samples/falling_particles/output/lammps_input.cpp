@@ -12,7 +12,7 @@
 #include "base/input_error.hpp"
 #include "base/random.hpp"
 #include "base/write_file.hpp"
-#include "model/container_parts.hpp"
+#include "model/container_walls.hpp"
 #include "world/placement.hpp"
 
 namespace falling_particles {
@@ -82,9 +82,9 @@ struct LawReader {
   void operator()(const fx::Damping& /*effect*/) { refuse(scene, "damping"); }
 };
 
-double volume_of(const Grain& grain) {
-  const supernormal::Vector3 axes(grain.half_axes[0], grain.half_axes[1], grain.half_axes[2]);
-  return supernormal::Superellipsoid(axes, grain.delta, grain.epsilon).mass_properties().volume;
+double volume_of(const GrainKind& kind) {
+  const supernormal::Vector3 axes(kind.half_axes[0], kind.half_axes[1], kind.half_axes[2]);
+  return supernormal::Superellipsoid(axes, kind.delta, kind.epsilon).mass_properties().volume;
 }
 
 /// What springs and steps depend on.
@@ -97,7 +97,7 @@ struct Extremes {
 Extremes find_extremes(const Scene& scene, const std::vector<Placement>& grains) {
   Extremes found;
   for (const Placement& grain : grains) {
-    const Grain& kind = scene.grains[grain.kind].grain;
+    const GrainKind& kind = scene.kinds[grain.kind].kind;
     const double mass = kind.density * volume_of(kind) * std::pow(grain.scale, 3);
     found.lightest = std::min(found.lightest, mass);
     found.heaviest = std::max(found.heaviest, mass);
@@ -144,7 +144,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
   out << scene.name << "\n\n"
       << grains.size() << " atoms\n"
       << grains.size() << " ellipsoids\n"
-      << scene.grains.size() << " atom types\n\n";
+      << scene.kinds.size() << " atom types\n\n";
   std::array<std::array<double, 2>, 3> bounds = walls.bounds;
   for (const Placement& grain : grains) bounds[2][1] = std::max(bounds[2][1], grain.position[2]);
   const double margin = 2 * scene.largest_bounding_radius();
@@ -154,7 +154,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
   }
   out << "\nAtoms # ellipsoid\n\n";
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Grain& kind = scene.grains[grains[i].kind].grain;
+    const GrainKind& kind = scene.kinds[grains[i].kind].kind;
     // LAMMPS multiplies the density by the volume of the ellipsoid.
     const double ellipsoid = 4.0 / 3 * std::numbers::pi * kind.half_axes[0] * kind.half_axes[1] * kind.half_axes[2];
     out << i + 1 << ' ' << grains[i].kind + 1 << " 1 " << kind.density * volume_of(kind) / ellipsoid;
@@ -164,7 +164,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
   out << "\nEllipsoids\n\n";
   for (std::size_t i = 0; i < grains.size(); ++i) {
     out << i + 1;
-    for (const double half_axis : scene.grains[grains[i].kind].grain.half_axes) out << ' ' << 2 * grains[i].scale * half_axis;
+    for (const double half_axis : scene.kinds[grains[i].kind].kind.half_axes) out << ' ' << 2 * grains[i].scale * half_axis;
     for (const double component : grains[i].quaternion) out << ' ' << component;
     out << '\n';
   }
@@ -172,12 +172,12 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
 }
 
 void refuse_what_has_no_counterpart(const Scene& scene) {
-  if (scene.parts.size() > parts_in(scene.container).size()) refuse(scene, "[[part]]");
+  if (scene.walls.size() > walls_in(scene.container).size()) refuse(scene, "[[part]]");
   if (scene.query) refuse(scene, "[query]");
   if (scene.changes_population()) refuse(scene, "a feeder or a sink");
   if (is_any(scene.periodic)) refuse(scene, "periodic");
-  for (const GrainCount& kind : scene.grains) {
-    if (!kind.grain.parts.empty() || kind.grain.is_capsule) refuse(scene, kind.grain.name + ", a compound or capsule,");
+  for (const GrainCount& entry : scene.kinds) {
+    if (!entry.kind.components.empty() || entry.kind.is_capsule) refuse(scene, entry.kind.name + ", a compound or capsule,");
   }
 }
 
@@ -201,9 +201,9 @@ LammpsInput lammps_input(const Scene& scene) {
       << "; it holds at every velocity; flat faces\n# rest on one point; grains are not rounded; nothing sleeps.\n"
       << "units si\natom_style ellipsoid\ncomm_modify vel yes\nboundary f f m\nread_data " << scene.name << ".data\n"
       << "pair_style supernormal\npair_coeff * * " << contacts.words << '\n';
-  for (std::size_t k = 0; k < scene.grains.size(); ++k) {
-    const Grain& grain = scene.grains[k].grain;
-    out << "pair_coeff " << k + 1 << ' ' << k + 1 << " exponents " << grain.delta << ' ' << grain.epsilon << "  # " << grain.name
+  for (std::size_t k = 0; k < scene.kinds.size(); ++k) {
+    const GrainKind& kind = scene.kinds[k].kind;
+    out << "pair_coeff " << k + 1 << ' ' << k + 1 << " exponents " << kind.delta << ' ' << kind.epsilon << "  # " << kind.name
         << '\n';
   }
   out << "neighbor " << 0.5 * extremes.smallest << " bin\nneigh_modify delay 0 every 1 check yes\ntimestep " << contacts.step

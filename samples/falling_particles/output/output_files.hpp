@@ -122,10 +122,10 @@ class SinksFile : public Table {
 
 /// parts.csv, of a scene with parts that move, has a line per frame and such part: where it is, and its mean velocity in the step
 /// before, without that of a conveyor's surface.
-class PartsFile : public Table {
+class WallsFile : public Table {
  public:
-  explicit PartsFile(const std::filesystem::path& path, const FileState& kept = {});
-  void write(double time, const PartBodies& parts);
+  explicit WallsFile(const std::filesystem::path& path, const FileState& kept = {});
+  void write(double time, const WallBodies& walls);
 };
 
 /// grains.csv, of a scene with sizes, has a line per grain: the factor on the lengths of its kind, its sieve size and its mass.

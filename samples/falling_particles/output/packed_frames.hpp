@@ -33,7 +33,7 @@ class Packer {
 /// frame, of the differences to the frame before (to zeros at first), each of all bodies: x, y, z of the centre (m, bits of a
 /// float, 4 bytes); x, y, z, w of the quaternion, times 32767 (2 bytes); velocity (m/s) and angular velocity (rad/s), the upper
 /// halves of a float's bits (2 bytes: 0.4 %).
-class PackedBodies {
+class PackedGrains {
  public:
   void add(const Frame& frame);
   const std::vector<std::string>& texts() const { return texts_; }

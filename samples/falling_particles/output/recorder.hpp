@@ -67,7 +67,7 @@ class Recorder {
   std::optional<DischargeFile> discharge_;
   std::optional<CompressionFile> compression_;
   std::optional<GrainsFile> grains_;  // where sizes differ
-  std::optional<PartsFile> parts_;    // where any part moves
+  std::optional<WallsFile> walls_;    // where any part moves
   std::optional<FeedersFile> feeders_;
   std::optional<SinksFile> sinks_;
   std::vector<std::pair<std::string, Table*>> tables_;  // all of these

@@ -31,13 +31,13 @@ class SceneGlb final : public Picture {
     /// Puts `frames` before the first one, in which the node is not there.
     void precede(std::size_t frames);
   };
-  void add_body(std::size_t body, const BodyState& state);
+  void add_grain(std::size_t grain, const GrainState& state);
 
   std::filesystem::path path_;
   const Contents& contents_;
   std::vector<float> times_;
-  std::vector<Track> bodies_;
-  std::vector<Track> parts_;  // of the container
+  std::vector<Track> grains_;
+  std::vector<Track> walls_;  // of the container
 };
 
 }  // namespace falling_particles

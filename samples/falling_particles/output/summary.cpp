@@ -59,9 +59,9 @@ void add_run(Lines& lines, const Summary& s) {
   if (!s.scene.overrides.empty()) lines.add("set", array_of(s.scene.overrides), "in place of the scene's values");
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
   lines.add("container", toml_string(kind_of(s.scene.container)));
-  lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()), s.population == nullptr ? "" : "at the start");
-  for (const GrainCount& kind : s.scene.grains) {
-    lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));
+  lines.add("bodies", static_cast<unsigned long long>(s.scene.grains_at_start()), s.population == nullptr ? "" : "at the start");
+  for (const GrainCount& entry : s.scene.kinds) {
+    lines.add(("bodies_of." + entry.kind.name).c_str(), static_cast<unsigned long long>(entry.count));
   }
   lines.add("steps", static_cast<unsigned long long>(s.steps));
   lines.add("simulated", s.simulated_seconds, "s");
@@ -73,7 +73,7 @@ void add_sizes(Lines& lines, const std::vector<DrawnSizes>& all) {
   lines.section("sizes");
   for (const DrawnSizes& sizes : all) {
     const auto add = [&](const char* key, auto value, const char* comment = "") {
-      lines.add((sizes.grain + '.' + key).c_str(), value, comment);
+      lines.add((sizes.kind + '.' + key).c_str(), value, comment);
     };
     add("number", static_cast<unsigned long long>(sizes.number));
     add("mass", sizes.mass, "kg, of all");
@@ -192,13 +192,13 @@ void add_population(Lines& lines, const Summary& s) {
   add_amount(lines, "present", population.present(), "at the end: at_start + fed - taken");
   for (const Feeding& feeding : population.feeders()) {
     for (std::size_t i = 0; i < feeding.feeder().mixture.size(); ++i) {
-      add_amount(lines, "fed_by." + feeding.feeder().name + '.' + feeding.grain(i).name, feeding.state().fed[i]);
+      add_amount(lines, "fed_by." + feeding.feeder().name + '.' + feeding.kind(i).name, feeding.state().fed[i]);
     }
   }
   for (std::size_t sink = 0; sink < s.scene.sinks.size(); ++sink) {
-    for (std::size_t kind = 0; kind < s.scene.grains.size(); ++kind) {
+    for (std::size_t kind = 0; kind < s.scene.kinds.size(); ++kind) {
       const Amount& taken = population.taken(sink)[kind];
-      add_amount(lines, "taken_by." + s.scene.sinks[sink].name + '.' + s.scene.grains[kind].grain.name, taken);
+      add_amount(lines, "taken_by." + s.scene.sinks[sink].name + '.' + s.scene.kinds[kind].kind.name, taken);
     }
   }
 }

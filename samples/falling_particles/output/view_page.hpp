@@ -22,10 +22,10 @@ class ViewPage final : public Picture {
   std::filesystem::path path_;
   const Contents& contents_;
   std::vector<double> times_, kinetic_, potential_;
-  std::vector<std::vector<double>> part_scales_;  // of each frame
-  std::vector<std::vector<double>> part_poses_;   // of each frame: x, y, z of the position, x, y, z, w of each part that moves
-  PackedBodies bodies_;
-  std::vector<std::size_t> body_counts_;  // of each frame
+  std::vector<std::vector<double>> wall_scales_;  // of each frame
+  std::vector<std::vector<double>> wall_poses_;   // of each frame: x, y, z of the position, x, y, z, w of each part that moves
+  PackedGrains grains_;
+  std::vector<std::size_t> grain_counts_;  // of each frame
   PackedContacts contacts_;
 };
 

@@ -37,7 +37,7 @@ class VtkSeries final : public Picture {
   const Contents& contents_;
   std::string grains_, contacts_, containers_;  // entries of the lists
   std::string container_;                       // file of the container as it is
-  std::vector<PartPlace> part_places_;          // of its parts as it was written
+  std::vector<WallPlace> wall_places_;          // of its parts as it was written
   int frames_ = 0;
 };
 

@@ -25,7 +25,7 @@ std::optional<double> step_for_look_ahead(const Scene& scene);
 
 /// m, the farthest way in a step that a motion of the part takes a place of its surface along the surface's normal. Motions count
 /// together, as if their largest velocities came at once.
-double normal_way_of(const Part& part, const Scene& scene);
+double normal_way_of(const Wall& wall, const Scene& scene);
 
 /// A sentence for each doubt about a scene that can be run, with what would settle it.
 std::vector<std::string> doubts_about(const Scene& scene);

@@ -57,7 +57,7 @@ double time_start(Simulation& simulation) {
 
 Forecast forecast(const Scene& scene) {
   Forecast result;
-  const double most = scene.bodies() + most_fed(scene);
+  const double most = scene.grains_at_start() + most_fed(scene);
   result.most_grains = static_cast<int>(most);
   result.steps = scene.time.steps();
   result.frames = 1 + (result.steps + scene.time.steps_per_frame() - 1) / scene.time.steps_per_frame();

@@ -36,8 +36,8 @@ double time_of(const Work& work) {
 /// The kinds of the scene in the ratio of their numbers, or of what its feeders bring.
 std::vector<double> shares_of_kinds(const Scene& scene) {
   std::vector<double> shares;
-  for (const GrainCount& kind : scene.grains) shares.push_back(kind.count);
-  if (scene.bodies() > 0) return shares;
+  for (const GrainCount& entry : scene.kinds) shares.push_back(entry.count);
+  if (scene.grains_at_start() > 0) return shares;
   for (const Feeder& feeder : scene.feeders) {
     for (const FedKind& fed : feeder.mixture) shares[fed.kind] += fed.fraction;
   }
@@ -60,7 +60,7 @@ std::vector<Placement> row_of(const Scene& scene, int grains) {
     }
     ++given[next];
     const double distance = 2.1 * scene.largest_bounding_radius();
-    row.push_back({next, {i * distance, 0, 0}, random.rotation(), scene.grains[next].scale(0)});
+    row.push_back({next, {i * distance, 0, 0}, random.rotation(), scene.kinds[next].scale(0)});
   }
   return row;
 }
@@ -68,7 +68,7 @@ std::vector<Placement> row_of(const Scene& scene, int grains) {
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 /// A point of contact halfway between two grains.
-dContactGeom contact_of(const Body& one, const Body& other) {
+dContactGeom contact_of(const Grain& one, const Grain& other) {
   dContactGeom contact{};
   const Point a = one.position();
   const Point b = other.position();
@@ -84,13 +84,13 @@ dContactGeom contact_of(const Body& one, const Body& other) {
 }
 
 double time_solver(World& world, double step) {
-  const std::vector<Body>& bodies = world.bodies();
+  const std::vector<Grain>& grains = world.grains();
   ContactJoints joints(world);
   return time_of([&] {
     std::vector<dContactGeom> contacts;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t k = 1; k <= static_cast<std::size_t>(kContactsPerGrain) && i + k < bodies.size(); ++k) {
-        contacts.push_back(contact_of(bodies[i], bodies[i + k]));
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      for (std::size_t k = 1; k <= static_cast<std::size_t>(kContactsPerGrain) && i + k < grains.size(); ++k) {
+        contacts.push_back(contact_of(grains[i], grains[i + k]));
       }
     }
     joints.replace(contacts);
@@ -100,7 +100,7 @@ double time_solver(World& world, double step) {
 }
 
 /// m, between the closest geoms of two grains.
-double gap_of(const Body& one, const Body& other) {
+double gap_of(const Grain& one, const Grain& other) {
   double gap = INFINITY;
   for (dGeomID a : one.geoms()) {
     for (dGeomID b : other.geoms()) {
@@ -113,7 +113,7 @@ double gap_of(const Body& one, const Body& other) {
 }
 
 /// Moves the grain along x until it touches the other.
-void bring_together(const Body& one, const Body& other) {
+void bring_together(const Grain& one, const Grain& other) {
   for (int i = 0; i < 5; ++i) {
     const Point p = other.position();
     dBodySetPosition(other.body, p[0] - gap_of(one, other), p[1], p[2]);
@@ -121,13 +121,13 @@ void bring_together(const Body& one, const Body& other) {
 }
 
 double time_pair(const World& world) {
-  const std::vector<Body>& bodies = world.bodies();
-  const std::size_t pairs = std::min<std::size_t>(bodies.size() / 2, 100);
-  for (std::size_t i = 0; i < pairs; ++i) bring_together(bodies[2 * i], bodies[2 * i + 1]);
+  const std::vector<Grain>& grains = world.grains();
+  const std::size_t pairs = std::min<std::size_t>(grains.size() / 2, 100);
+  for (std::size_t i = 0; i < pairs; ++i) bring_together(grains[2 * i], grains[2 * i + 1]);
   const double seconds = time_of([&] {
     for (std::size_t i = 0; i < pairs; ++i) {
-      for (dGeomID a : bodies[2 * i].geoms()) {
-        for (dGeomID b : bodies[2 * i + 1].geoms()) {
+      for (dGeomID a : grains[2 * i].geoms()) {
+        for (dGeomID b : grains[2 * i + 1].geoms()) {
           std::array<dContactGeom, kContactsPerPair> found;
           dCollide(a, b, kContactsPerPair, found.data(), sizeof(dContactGeom));
         }
@@ -142,7 +142,7 @@ double time_pair(const World& world) {
 BedTimes time_bed(const Scene& scene, int grains) {
   Scene still = scene;  // nothing but its grains and effects
   still.container = Box{{1, 1}};
-  still.parts.clear();
+  still.walls.clear();
   still.feeders.clear();
   still.periodic = {};
   std::erase_if(still.effects,  // awake

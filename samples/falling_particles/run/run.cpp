@@ -197,7 +197,7 @@ RunEnd Run::finish() {
   if (summary.interrupted) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", step_, steps);
   const LeakWatch& leaks = simulation_->watches.leaks;
   if (leaks.first()) {
-    std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", leaks.count(), simulation_->world.bodies().size(),
+    std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", leaks.count(), simulation_->world.grains().size(),
                  describe(*leaks.first()).c_str());
   }
   if (!options_.quiet) std::fprintf(stderr, "Results: %s\n", folder_.path().c_str());

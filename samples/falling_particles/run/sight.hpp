@@ -18,7 +18,7 @@ class Sight {
  public:
   struct Seen {
     double distance = 0;              ///< m
-    std::optional<std::size_t> part;  ///< its index; none for a wall or a sink
+    std::optional<std::size_t> wall;  ///< its index; none for a wall or a sink
     bool is_back = false;             ///< whether it is a triangle that grains meet from its other side alone
   };
 
@@ -32,7 +32,7 @@ class Sight {
   using Geom = std::unique_ptr<dxGeom, decltype(&dGeomDestroy)>;
 
   std::optional<dContactGeom> hit_of(dGeomID solid) const;
-  bool is_back_of(const Part& part, int triangle, const Vector3& direction) const;
+  bool is_back_of(const Wall& wall, int triangle, const Vector3& direction) const;
 
   const World& world_;
   std::vector<Geom> sinks_;

@@ -15,18 +15,18 @@ namespace falling_particles {
 class Candidate {
  public:
   /// `scale`: of the grain's lengths. The grain must outlive this object. Throws std::runtime_error when the library refuses it.
-  Candidate(const Grain& grain, double scale);
+  Candidate(const GrainKind& kind, double scale);
   ~Candidate();
   Candidate(const Candidate&) = delete;
   Candidate& operator=(const Candidate&) = delete;
 
-  const Body& body() const { return body_; }
+  const Grain& grain() const { return grain_; }
   const std::vector<dGeomID>& geoms() const { return geoms_; }
-  void put(const Placement& place) const { falling_particles::put(body_.body, place); }
+  void put(const Placement& place) const { falling_particles::put(grain_.body, place); }
 
  private:
   dWorldID world_;
-  Body body_;
+  Grain grain_;
   std::vector<dGeomID> geoms_;
 };
 

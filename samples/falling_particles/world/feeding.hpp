@@ -49,7 +49,7 @@ class Feeding {
   std::span<const std::size_t> feed(double now);
 
   const Feeder& feeder() const { return feeder_; }
-  const Grain& grain(std::size_t i) const;  ///< of Feeder::mixture
+  const GrainKind& kind(std::size_t i) const;  ///< of Feeder::mixture
   const FeederState& state() const { return state_; }
   Amount fed() const;  ///< of all kinds
 

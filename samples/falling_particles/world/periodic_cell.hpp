@@ -13,7 +13,7 @@
 namespace falling_particles {
 
 class World;
-struct Body;
+struct Grain;
 
 /// Periodic boundaries for ODE, which has none. A grain that sticks out of the cell gets an image, a body and a geom of its own, at
 /// every place where it comes in again, up to seven of them. Grain and images share mass and inertia evenly and are tied to one
@@ -71,11 +71,11 @@ class PeriodicCell {
     unsigned size = 1;                                // number of the grain and its images that are in use
   };
 
-  Image make_image(const Body& body) const;
-  void show(const Body& body, Family& family, unsigned mask);
+  Image make_image(const Grain& grain) const;
+  void show(const Grain& grain, Family& family, unsigned mask);
   static void hide(const Image& image);
   static void destroy(Family& family);
-  static void share_mass(const Body& body, Family& family, unsigned size);
+  static void share_mass(const Grain& grain, Family& family, unsigned size);
 
   const World& world_;
   PeriodicAxes axes_;

@@ -11,7 +11,7 @@
 namespace falling_particles {
 
 struct Placement {
-  std::size_t kind;                  ///< index into Scene::grains
+  std::size_t kind;                  ///< index into Scene::kinds
   Point position;                    ///< m
   std::array<double, 4> quaternion;  ///< w, x, y, z
   double scale = 1;                  ///< of the grain's lengths

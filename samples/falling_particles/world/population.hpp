@@ -21,7 +21,7 @@ class Population {
   double before_step(double end);
 
   const std::deque<Feeding>& feeders() const { return feeders_; }
-  /// What a sink has taken so far, by Scene::grains.
+  /// What a sink has taken so far, by Scene::kinds.
   const std::vector<Amount>& taken(std::size_t sink) const { return taken_[sink]; }
   const Amount& at_start() const { return at_start_; }
   Amount fed() const;

@@ -32,7 +32,7 @@ class SweepSpace {
 
   /// Calls visit(geom) for all geoms but the marks.
   template <typename Visit>
-  void for_each_body(const Visit& visit) const {
+  void for_each_geom(const Visit& visit) const {
     const int count = dSpaceGetNumGeoms(space_);
     for (int i = 0; i < count; ++i) {
       const dGeomID geom = dSpaceGetGeom(space_, i);

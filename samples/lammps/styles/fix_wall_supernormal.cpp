@@ -52,14 +52,14 @@ void FixWallSupernormal::setup(int vflag) {
 
 Body FixWallSupernormal::wall_body(double step) const {
   using namespace falling_particles;
-  const PartPose start{command_.anchor, Eigen::Quaterniond::Identity()};
+  const WallPose start{command_.anchor, Eigen::Quaterniond::Identity()};
   const double time = clock_.now(), before = time - step, after = time + step;
-  const PartPose now = pose_at(start, command_.motions, time);
+  const WallPose now = pose_at(start, command_.motions, time);
   // Springs grow by the velocity of this moment, which is the particles' too. The mean of the steps before and after it adds up to
   // the wall's displacement and, unlike that of one of them, has no component away from the axis of a rotation.
-  const PartVelocity moved =
+  const WallVelocity moved =
       mean_velocity(pose_at(start, command_.motions, before), pose_at(start, command_.motions, after), after - before);
-  const PartVelocity belt = conveyor_velocity(start, now, command_.motions, before, after);
+  const WallVelocity belt = conveyor_velocity(start, now, command_.motions, before, after);
   Body body;
   body.pose = {now.position, now.rotation.toRotationMatrix()};
   body.velocity = moved.linear + belt.linear;

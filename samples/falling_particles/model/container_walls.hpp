@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "container.hpp"
-#include "part.hpp"
+#include "wall.hpp"
 
 namespace falling_particles {
 
 /// The parts of which the container is made; none for one with walls of its own.
-std::vector<Part> parts_in(const Container& container);
+std::vector<Wall> walls_in(const Container& container);
 
 }  // namespace falling_particles

@@ -10,22 +10,22 @@
 #include <unordered_map>
 #include <vector>
 
-#include "model/part.hpp"
 #include "model/two_sided_mesh.hpp"
+#include "model/wall.hpp"
 
 namespace falling_particles {
 
 /// Where a part is and how it moves.
-struct PartState {
-  PartPose pose;
-  PartVelocity velocity;  ///< mean of the last step, without that of a conveyor's surface
+struct WallState {
+  WallPose pose;
+  WallVelocity velocity;  ///< mean of the last step, without that of a conveyor's surface
 };
 
 /// What time alone does not tell of the parts between two steps.
-struct PartsState {
-  struct OfPart {
-    PartPose pose;               ///< of the carrier
-    PartVelocity velocity = {};  ///< of the carrier, in the last step
+struct WallsState {
+  struct OfWall {
+    WallPose pose;               ///< of the carrier
+    WallVelocity velocity = {};  ///< of the carrier, in the last step
     double position = 0;         ///< m, of a driven part along its axis
     double speed = 0;            ///< m/s
 
@@ -35,25 +35,25 @@ struct PartsState {
     }
   };
   long steps = 0;
-  std::vector<OfPart> parts;
+  std::vector<OfWall> walls;
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(steps, parts);
+    archive(steps, walls);
   }
 };
 
 /// The geoms of the parts, and bodies that give contacts their velocities. The geoms have no bodies, since ODE's planes can have
 /// none: a part that moves has a kinematic body beside its geom, with the mean velocity of the step, and is set to its exact pose
 /// after it. A driven part has a body with mass on a slider joint to its kinematic one.
-class PartBodies {
+class WallBodies {
  public:
   /// The parts must outlive this object, and the world too. The geoms collide with those that have a bit of `collide_bits`, and
   /// have `category_bits`. `step`: s. Throws std::runtime_error when the library refuses a shape.
-  PartBodies(dWorldID world, const std::vector<Part>& parts, double step, unsigned long category_bits, unsigned long collide_bits);
-  ~PartBodies();
-  PartBodies(const PartBodies&) = delete;
-  PartBodies& operator=(const PartBodies&) = delete;
+  WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits, unsigned long collide_bits);
+  ~WallBodies();
+  WallBodies(const WallBodies&) = delete;
+  WallBodies& operator=(const WallBodies&) = delete;
 
   const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< in the order of the parts
 
@@ -71,23 +71,23 @@ class PartBodies {
   /// velocity of the part's body (ChordExcess); zero for a geom that is no part.
   Vector3 chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const;
 
-  const Part& part(std::size_t index) const { return *entries_[index].part; }
+  const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
   std::size_t count() const { return entries_.size(); }
-  PartState state(std::size_t index) const;
+  WallState state(std::size_t index) const;
 
-  PartsState save() const;
+  WallsState save() const;
   /// Goes on from a state of the same parts, in a world that has made no step.
-  void restore(const PartsState& state);
+  void restore(const WallsState& state);
 
  private:
   struct Entry {
-    PartPose pose;                           // of the carrier
-    PartPose next;                           // of the carrier, after the step
-    PartVelocity velocity = {};              // of the carrier, in this step
+    WallPose pose;                           // of the carrier
+    WallPose next;                           // of the carrier, after the step
+    WallVelocity velocity = {};              // of the carrier, in this step
     std::optional<ChordExcess> excess = {};  // in this step
     double position = 0;                     // m, of the driven body along its axis
     double speed = 0;                        // m/s
-    const Part* part = nullptr;
+    const Wall* wall = nullptr;
     dGeomID geom = nullptr;
     dBodyID carrier = nullptr;  // kinematic; null for a part that stands
     dBodyID driven = nullptr;   // with mass; null for a part that is not driven
@@ -96,11 +96,11 @@ class PartBodies {
     bool is_moving = false;
     bool is_held = true;
 
-    PartPose part_pose() const;          // with the way that the driven body has slid
-    PartVelocity part_velocity() const;  // with its speed; mean of the last step
+    WallPose wall_pose() const;          // with the way that the driven body has slid
+    WallVelocity wall_velocity() const;  // with its speed; mean of the last step
     Vector3 axis() const;                // of the drive, in the world's frame
   };
-  dGeomID create_geom(const PartShape& shape);
+  dGeomID create_geom(const WallShape& shape);
   dGeomID create_geom(const MeshShape& mesh);
   void add_drive(Entry& entry, const Drive& drive);
   void push(Entry& entry, double now);

@@ -40,7 +40,7 @@ struct MeshShape : Mesh {
   bool two_sided = false;  ///< whether grains meet it from the side on which their centres are, or from the front alone
 };
 
-using PartShape = std::variant<PlaneShape, BoxShape, CylinderShape, SmoothShape, MeshShape>;
+using WallShape = std::variant<PlaneShape, BoxShape, CylinderShape, SmoothShape, MeshShape>;
 
 /// Drives a part along an axis by a force: a piston, which can neither leave its axis nor tilt. It has inertia and weight.
 struct Drive {
@@ -54,11 +54,11 @@ struct Drive {
 };
 
 /// A wall of a scene.
-struct Part {
+struct Wall {
   std::string name;
-  PartShape shape;
-  PartPose start = {};
-  std::vector<PartMotion> motions = {};
+  WallShape shape;
+  WallPose start = {};
+  std::vector<WallMotion> motions = {};
   std::optional<Drive> drive = {};
   std::optional<double> friction = {};     ///< coefficient of grains on it; as for other walls if empty
   std::optional<double> restitution = {};  ///< of grains on it; as for other walls if empty
@@ -67,6 +67,6 @@ struct Part {
 };
 
 /// m, of a sphere around the part's position that holds the part; infinite for a plane.
-double bounding_radius(const PartShape& shape);
+double bounding_radius(const WallShape& shape);
 
 }  // namespace falling_particles

@@ -11,7 +11,7 @@
 namespace falling_particles {
 
 /// A convex body of the given outer size, its edges rounded by a sphere that rolls inside.
-struct GrainBody {
+struct ConvexBody {
   enum class Shape { Superellipsoid, Superovoid, Capsule };
 
   std::array<double, 3> half_axes;  ///< m, along the body's x, y, z; rounding included; of a capsule the axis is z
@@ -29,8 +29,8 @@ struct GrainBody {
 };
 
 /// A body of a compound, in its place.
-struct GrainPart {
-  GrainBody body;
+struct Component {
+  ConvexBody body;
   double density;                                   ///< kg/m^3
   Point position = {};                              ///< m, of the body's origin, in the grain's frame
   std::array<double, 4> quaternion = {1, 0, 0, 0};  ///< w, x, y, z; unit: from the body's frame to the grain's
@@ -43,7 +43,7 @@ struct CompoundMass {
 };
 
 /// A kind of grain: one convex body, or several in fixed places. The origin of its frame is its centre of mass.
-struct Grain {
+struct GrainKind {
   std::string name;
   std::array<double, 3> half_axes;  ///< m, along the grain's x, y, z; rounding included; of a compound, of the box around it
   double delta;                     ///< exponent of the xy-section
@@ -52,11 +52,11 @@ struct Grain {
   double density;                   ///< kg/m^3; of a compound the mean
   std::string source;               ///< where the dimensions come from; "typical" when there is no published source
   bool is_capsule = false;
-  std::vector<GrainPart> parts = {};               ///< of a compound; none for one convex body
+  std::vector<Component> components = {};          ///< of a compound; none for one convex body
   std::optional<CompoundMass> compound_mass = {};  ///< of a compound
 
   /// The parts of a compound, or the one body.
-  std::vector<GrainPart> all_parts() const;
+  std::vector<Component> all_components() const;
 
   double smallest_half_axis() const;  ///< m; of a compound, of its parts
   /// m; the radius of a sphere about the centre that holds the grain: of the smallest one unless it is a compound.

@@ -1,4 +1,4 @@
-#include "part_mesh.hpp"
+#include "wall_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,17 +99,15 @@ std::vector<std::array<unsigned int, 2>> sharp_edges(const Mesh& mesh) {
 
 }  // namespace
 
-ContainerPart picture_of(const Part& part, double extent) {
-  ContainerPart picture{part.name,
-                        part.moves() ? ContainerPart::Role::Moving : ContainerPart::Role::Still,
-                        std::visit(Mesher{extent}, part.shape),
-                        {}};
+WallPicture picture_of(const Wall& wall, double extent) {
+  WallPicture picture{
+      wall.name, wall.moves() ? WallPicture::Role::Moving : WallPicture::Role::Still, std::visit(Mesher{extent}, wall.shape), {}};
   // Smooth bodies have no edges, however sharply their triangles bend.
-  if (!std::holds_alternative<SmoothShape>(part.shape)) picture.edges = sharp_edges(picture.mesh);
-  const auto* const mesh = std::get_if<MeshShape>(&part.shape);
+  if (!std::holds_alternative<SmoothShape>(wall.shape)) picture.edges = sharp_edges(picture.mesh);
+  const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
   picture.two_sided = mesh != nullptr && mesh->two_sided;
-  if (part.moves()) return picture;
-  for (auto& corner : picture.mesh.vertices) corner = vertex(part.start(Vector3(corner[0], corner[1], corner[2])));
+  if (wall.moves()) return picture;
+  for (auto& corner : picture.mesh.vertices) corner = vertex(wall.start(Vector3(corner[0], corner[1], corner[2])));
   return picture;
 }
 

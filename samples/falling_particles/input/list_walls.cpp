@@ -1,8 +1,8 @@
-#include "list_parts.hpp"
+#include "list_walls.hpp"
 
 namespace falling_particles {
 
-std::string list_parts() {
+std::string list_walls() {
   return R"([[part]]
   parameters  name: letters, digits, _ - and .
               position: m, each in [-1000, 1000]; the origin without it

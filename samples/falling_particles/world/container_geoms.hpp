@@ -11,15 +11,15 @@
 namespace falling_particles {
 
 /// The geoms of a container.
-class Walls {
+class ContainerGeoms {
  public:
   /// The geoms collide with those that have a bit of `collide_bits`, and have `category_bits`. The space must outlive this
   /// object. A box has no walls across axes that are periodic.
-  Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
-        const PeriodicAxes& periodic = {});
-  ~Walls();
-  Walls(const Walls&) = delete;
-  Walls& operator=(const Walls&) = delete;
+  ContainerGeoms(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
+                 const PeriodicAxes& periodic = {});
+  ~ContainerGeoms();
+  ContainerGeoms(const ContainerGeoms&) = delete;
+  ContainerGeoms& operator=(const ContainerGeoms&) = delete;
 
   const std::vector<dGeomID>& geoms() const { return geoms_; }
 
@@ -36,8 +36,8 @@ class Walls {
   void add(const Hopper& hopper);
   void add(const Terrain& terrain);
   static void add(const Periodic&) {}  // it has no walls
-  template <typename MadeOfParts>
-  static void add(const MadeOfParts&) {}
+  template <typename MadeOfWalls>
+  static void add(const MadeOfWalls&) {}
 
   dSpaceID space_;
   PeriodicAxes periodic_;

@@ -1,4 +1,4 @@
-#include "part_material.hpp"
+#include "wall_material.hpp"
 
 #include <optional>
 
@@ -9,7 +9,7 @@ namespace {
 
 namespace fx = supernormal::effects;
 
-bool has_own_material(const Part& part) { return part.friction.has_value() || part.restitution.has_value(); }
+bool has_own_material(const Wall& wall) { return wall.friction.has_value() || wall.restitution.has_value(); }
 
 /// The effect that the scene lists for grains on walls.
 template <typename E>
@@ -31,25 +31,25 @@ double threshold_of(const std::vector<fx::Effect>& effects) {
 
 }  // namespace
 
-fx::Material material_of_part(const std::vector<Part>& parts, std::size_t index) {
-  if (!has_own_material(parts[index])) return kWallMaterial;
+fx::Material material_of_wall(const std::vector<Wall>& walls, std::size_t index) {
+  if (!has_own_material(walls[index])) return kWallMaterial;
   fx::Material material = kWallMaterial;
-  for (std::size_t i = 0; i <= index; ++i) material += has_own_material(parts[i]) ? 1 : 0;
+  for (std::size_t i = 0; i <= index; ++i) material += has_own_material(walls[i]) ? 1 : 0;
   return material;
 }
 
-void add_part_effects(const std::vector<Part>& parts, std::vector<fx::Effect>& effects) {
+void add_wall_effects(const std::vector<Wall>& walls, std::vector<fx::Effect>& effects) {
   const std::optional<fx::Friction> friction = of_walls<fx::Friction>(effects);
   const std::optional<fx::Restitution> restitution = of_walls<fx::Restitution>(effects);
   const double threshold = threshold_of(effects);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!has_own_material(parts[i])) continue;
-    const auto on = fx::MaterialSelector::between(kGrainMaterial, material_of_part(parts, i));
-    if (parts[i].friction || friction)
-      effects.emplace_back(fx::Friction{parts[i].friction.value_or(friction ? friction->coefficient : 0), on});
-    if (parts[i].restitution || restitution) {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (!has_own_material(walls[i])) continue;
+    const auto on = fx::MaterialSelector::between(kGrainMaterial, material_of_wall(walls, i));
+    if (walls[i].friction || friction)
+      effects.emplace_back(fx::Friction{walls[i].friction.value_or(friction ? friction->coefficient : 0), on});
+    if (walls[i].restitution || restitution) {
       effects.emplace_back(
-          fx::Restitution{parts[i].restitution.value_or(restitution ? restitution->coefficient : 0), threshold, on});
+          fx::Restitution{walls[i].restitution.value_or(restitution ? restitution->coefficient : 0), threshold, on});
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "grain.hpp"
+#include "grain_kind.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,49 +15,49 @@ double farthest(double a, double b, double exponent) {
   return larger * std::pow(1 + std::pow(std::min(a, b) / larger, dual), 1 / dual);
 }
 
-GrainBody body_of(const Grain& grain) {
-  const auto shape = grain.is_capsule ? GrainBody::Shape::Capsule : GrainBody::Shape::Superellipsoid;
-  return {grain.half_axes, grain.delta, grain.epsilon, grain.rounding, shape};
+ConvexBody body_of(const GrainKind& kind) {
+  const auto shape = kind.is_capsule ? ConvexBody::Shape::Capsule : ConvexBody::Shape::Superellipsoid;
+  return {kind.half_axes, kind.delta, kind.epsilon, kind.rounding, shape};
 }
 
 }  // namespace
 
-double GrainBody::smallest_half_axis() const { return *std::ranges::min_element(half_axes); }
+double ConvexBody::smallest_half_axis() const { return *std::ranges::min_element(half_axes); }
 
-std::array<double, 3> GrainBody::core_half_axes() const {
+std::array<double, 3> ConvexBody::core_half_axes() const {
   const auto [a, b, c] = half_axes;
   return {a - rounding, b - rounding, c - rounding};
 }
 
-double GrainBody::bounding_radius() const {
+double ConvexBody::bounding_radius() const {
   if (shape == Shape::Capsule) return half_axes[2];
   const auto [a, b, c] = core_half_axes();
   // A superovoid is nowhere wider than a superellipsoid of its widest section.
   return farthest(farthest((1 + std::abs(taper[0])) * a, (1 + std::abs(taper[1])) * b, delta), c, epsilon) + rounding;
 }
 
-std::vector<GrainPart> Grain::all_parts() const {
-  if (!parts.empty()) return parts;
+std::vector<Component> GrainKind::all_components() const {
+  if (!components.empty()) return components;
   return {{body_of(*this), density}};
 }
 
-double Grain::smallest_half_axis() const {
-  if (parts.empty()) return *std::ranges::min_element(half_axes);
-  const auto smallest = [](const GrainPart& part) { return part.body.smallest_half_axis(); };
-  return smallest(*std::ranges::min_element(parts, {}, smallest));
+double GrainKind::smallest_half_axis() const {
+  if (components.empty()) return *std::ranges::min_element(half_axes);
+  const auto smallest = [](const Component& component) { return component.body.smallest_half_axis(); };
+  return smallest(*std::ranges::min_element(components, {}, smallest));
 }
 
-double Grain::bounding_radius() const {
-  if (parts.empty()) return body_of(*this).bounding_radius();
+double GrainKind::bounding_radius() const {
+  if (components.empty()) return body_of(*this).bounding_radius();
   double radius = 0;
-  for (const GrainPart& part : parts) {
-    const auto [x, y, z] = part.position;
-    radius = std::max(radius, std::hypot(x, y, z) + part.body.bounding_radius());
+  for (const Component& component : components) {
+    const auto [x, y, z] = component.position;
+    radius = std::max(radius, std::hypot(x, y, z) + component.body.bounding_radius());
   }
   return radius;
 }
 
-double Grain::sieve_size() const {
+double GrainKind::sieve_size() const {
   const auto [a, b, c] = half_axes;
   return 2 * std::max(std::min(a, b), std::min(std::max(a, b), c));
 }

@@ -4,18 +4,18 @@
 #include <supernormal/effects.hpp>
 #include <vector>
 
-#include "part.hpp"
+#include "wall.hpp"
 
 namespace falling_particles {
 
 /// The largest number of parts with coefficients of their own.
-inline constexpr int kMostPartMaterials = 60;
+inline constexpr int kMostWallMaterials = 60;
 
 /// The wall material, or that of the part alone where it has coefficients of its own.
-supernormal::effects::Material material_of_part(const std::vector<Part>& parts, std::size_t index);
+supernormal::effects::Material material_of_wall(const std::vector<Wall>& walls, std::size_t index);
 
 /// Adds the effects of parts with coefficients of their own. What a scene says of walls, and such a part does not, holds for it
 /// too.
-void add_part_effects(const std::vector<Part>& parts, std::vector<supernormal::effects::Effect>& effects);
+void add_wall_effects(const std::vector<Wall>& walls, std::vector<supernormal::effects::Effect>& effects);
 
 }  // namespace falling_particles

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "base/toml_input.hpp"
-#include "model/part.hpp"
 #include "model/scene.hpp"
+#include "model/wall.hpp"
 
 namespace falling_particles {
 
 /// The parts of the container, then those of the [[part]] sections; mesh files are relative to the scene's folder. Throws
 /// InputError.
-std::vector<Part> load_parts(const TomlTable& root, const Scene& scene, const std::string& scene_path);
+std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const std::string& scene_path);
 
 }  // namespace falling_particles

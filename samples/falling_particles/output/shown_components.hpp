@@ -8,10 +8,10 @@
 namespace falling_particles {
 
 /// A body of a grain at one time, in the world's frame, at its true size.
-struct ShownPart {
+struct ShownComponent {
   std::size_t index;                 ///< its own for the whole run: of all parts, also of grains that are gone
   std::size_t grain;                 ///< index of the grain in the frame
-  GrainBody body;                    ///< scaled
+  ConvexBody body;                   ///< scaled
   Point position;                    ///< m, of the body's origin
   std::array<double, 4> quaternion;  ///< w, x, y, z; unit
   Point velocity;                    ///< m/s, of the body's origin
@@ -19,6 +19,6 @@ struct ShownPart {
 };
 
 /// In the order of the grains that are there: one of each, but all of a compound.
-std::vector<ShownPart> shown_parts(const Frame& frame, const Contents& contents);
+std::vector<ShownComponent> shown_components(const Frame& frame, const Contents& contents);
 
 }  // namespace falling_particles

@@ -7,9 +7,9 @@
 namespace falling_particles {
 
 /// J, of translation and rotation.
-double kinetic_energy(const Body& body);
+double kinetic_energy(const Grain& grain);
 
 /// J, kinetic and potential, 0 at rest at the origin.
-double energy_of(const Body& body, const Scene& scene);
+double energy_of(const Grain& grain, const Scene& scene);
 
 }  // namespace falling_particles
