@@ -96,7 +96,7 @@ void check_width(const TomlTable& table, const Scene& scene) {
   if (std::holds_alternative<Open>(scene.container)) key = "start";
   if (std::holds_alternative<Drum>(scene.container)) key = plan.width[0] < plan.width[1] ? "diameter" : "length";
   table.fail(key, "container." + std::string(key) + " is " + shortest(narrowest) + " at its narrowest; allowed: at least " +
-                      shortest(cell) + " m, so that the largest grain fits in any attitude");
+                      shortest(cell) + " m, so that the largest grain fits in any orientation");
 }
 
 /// Where grains start below a ceiling, there may be too many.

@@ -74,7 +74,7 @@ ConveyorBelt read_conveyor_belt(const TomlTable& table, const Time& time) {
   belt.wall_height = read_length(table, "wall_height");
   belt.drop_length = table.number("drop_length", {belt.thickness / 2, kLargestLength, false, true, "m (beyond the last roller)"});
   const double most = kLargestTurn * std::numbers::pi * belt.thickness / time.step;
-  belt.speed = table.number("speed", Interval::positive(most, "m/s (a roller turns by a tenth in time.step)"));
+  belt.speed = table.number("speed", Interval::positive(most, "m/s (a roller rotates by a tenth of a revolution in time.step)"));
   belt.starts_at = read_start(table, "starts_at", time);
   return belt;
 }

@@ -130,7 +130,7 @@ void check_size(const TomlTable& table, const Feeder& feeder, const Scene& scene
       if (feeder.region.size[axis] >= width) continue;
       table.fail("size", table.full_name("size") + "[" + std::to_string(axis) + "] is " + shortest(feeder.region.size[axis]) +
                              "; allowed: at least " + shortest(width) + " m, so that grain \"" + entry.kind.name +
-                             "\" fits in any attitude");
+                             "\" fits in any orientation");
     }
   }
 }

@@ -165,7 +165,7 @@ TEST_CASE("a mistake in a container that moves is told with its name, its value 
       {kDrum, {"segments = 48", "segments = 3", {"container.segments is 3", "from 8"}}},
       {kDrum, {"segments = 48", "segments = 48\nturns_at = 1", {"container.turns_at is 1", "before time.duration"}}},
       {kDrum, {"diameter = 0.1", "diameter = 0.03", {"the scene has 7 grains", "up to 0"}}},
-      {kDrum, {"length = 0.05", "length = 0.01", {"container.length is 0.01", "fits in any attitude"}}},
+      {kDrum, {"length = 0.05", "length = 0.01", {"container.length is 0.01", "fits in any orientation"}}},
       {kTray, {"frequency = 30", "frequency = 300", {"container.frequency is 300", "ten time.step"}}},
       {kTray, {"amplitude = 0.001", "amplitude = -1", {"container.amplitude is -1", "(0, 1000] m"}}},
       {kTray, {"direction = [0, 0, 1]", "direction = [0, 0, 0]", {"container.direction", "a direction, not 0"}}},
