@@ -23,7 +23,7 @@ using supernormal::Matrix3;
 using supernormal::Pose;
 using supernormal::Vector3;
 
-/// Integrals over a body of any density.
+/// Integrals over a body.
 struct Moments {
   double volume = 0;                 // m^3
   double mass = 0;                   // kg
@@ -31,7 +31,7 @@ struct Moments {
   Matrix3 second = Matrix3::Zero();  // kg m^2, of x x^T
 };
 
-/// A stretch of a vertical; empty where its end is not above its start.
+/// An interval of a vertical line; empty unless its end is above its start.
 struct Stretch {
   double start = 0, end = 0;
   double length() const { return std::max(0.0, end - start); }
@@ -52,15 +52,15 @@ struct PlacedComponent {
     return {own.volume, density * own.volume, density * (first + own.volume * p), density * second};
   }
 
-  /// m, how far the part reaches along an axis of the grain, on both sides.
+  /// m, lower and upper end of the component along an axis of the grain.
   std::pair<double, double> range(int axis) const { return ranges[static_cast<std::size_t>(axis)]; }
   bool is_in_range(int axis, double x) const { return x >= range(axis).first && x <= range(axis).second; }
 
-  /// Where the vertical through x and y is within the part.
+  /// The interval of the vertical line through x and y that lies within the component.
   Stretch chord(double x, double y) const;
 
   std::array<std::pair<double, double>, 3> ranges = find_ranges();
-  std::optional<Matrix3> to_ball = find_to_ball();  // of an ellipsoid: to a frame in which it is the unit ball
+  std::optional<Matrix3> to_ball = find_to_ball();  // of an ellipsoid: into a frame in which it is the unit ball
 
  private:
   std::optional<Matrix3> find_to_ball() const {
@@ -78,7 +78,7 @@ struct PlacedComponent {
   }
 };
 
-/// The chord of the unit ball, whose half is the root of a quadratic equation.
+/// The chord of the unit ball; its half length is the root of a quadratic equation.
 Stretch chord_of_ball(const Vector3& from_centre, const Vector3& up) {
   const double closest = -from_centre.dot(up) / up.squaredNorm();
   const double squared = 1 - (from_centre + closest * up).squaredNorm();
@@ -88,7 +88,7 @@ Stretch chord_of_ball(const Vector3& from_centre, const Vector3& up) {
 }
 
 Stretch PlacedComponent::chord(double x, double y) const {
-  if (!is_in_range(0, x) || !is_in_range(1, y)) return {};  // a ray would cost a hundred times as much
+  if (!is_in_range(0, x) || !is_in_range(1, y)) return {};  // a ray costs a hundred times as much
   if (to_ball) return chord_of_ball(*to_ball * (Vector3(x, y, 0) - pose.position), to_ball->col(2));
   const auto [bottom, top] = range(2);
   const double margin = top - bottom;
@@ -101,7 +101,7 @@ Stretch PlacedComponent::chord(double x, double y) const {
   return {below.z() + up.distance, above.z() - down.distance};
 }
 
-/// The parts of a stretch that the others cover, together, without an overlap.
+/// The disjoint pieces of an interval that the other intervals cover.
 std::vector<Stretch> covered(const Stretch& whole, std::vector<Stretch> others) {
   std::ranges::sort(others, {}, &Stretch::start);
   std::vector<Stretch> result;
@@ -116,16 +116,16 @@ std::vector<Stretch> covered(const Stretch& whole, std::vector<Stretch> others) 
 }
 
 bool overlaps(const PlacedComponent& one, const PlacedComponent& other) {
-  constexpr double kTouching = 1e-6;  // of the smaller body: parts that are placed to touch, with six digits
+  constexpr double kTouching = 1e-6;  // of the smaller body: tolerance for components that touch, given to six digits
   const double size = std::min(one.shape->half_extents().minCoeff(), other.shape->half_extents().minCoeff());
   return find_proximity(*one.shape, one.pose, *other.shape, other.pose).gap < -kTouching * size;
 }
 
-/// Takes away from `sum` what a part shares with earlier ones.
+/// Subtracts from `sum` the volume that a component shares with earlier ones.
 void subtract_shared(const PlacedComponent& component, const std::vector<PlacedComponent>& earlier, Moments& sum) {
   constexpr int kLines = 160;  // along each axis
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<Stretch, 2> box{{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}}};  // that holds all that is shared, from above
+  std::array<Stretch, 2> box{{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}}};  // around all shared volume, seen from above
   for (const PlacedComponent& other : earlier) {
     for (const int axis : {0, 1}) {
       const auto [low1, high1] = component.range(axis);
@@ -162,10 +162,10 @@ void subtract_shared(const PlacedComponent& component, const std::vector<PlacedC
   }
 }
 
-/// Tells on stderr, once, when what parts of a compound share takes long.
-class Patience {
+/// Prints one line to stderr if integrating the shared volume of a compound takes long.
+class ProgressNote {
  public:
-  explicit Patience(std::string name) : name_(std::move(name)) {}
+  explicit ProgressNote(std::string name) : name_(std::move(name)) {}
   void after(std::size_t done, std::size_t all) {
     constexpr std::chrono::milliseconds kLong(500);
     if (has_told_ || done == all || std::chrono::steady_clock::now() - start_ < kLong) return;
@@ -181,7 +181,7 @@ class Patience {
 
 Moments moments_of(const std::string& name, const std::vector<PlacedComponent>& components) {
   Moments sum;
-  Patience patience(name);
+  ProgressNote note(name);
   std::vector<PlacedComponent> before;
   before.reserve(components.size());
   for (const PlacedComponent& component : components) {
@@ -195,7 +195,7 @@ Moments moments_of(const std::string& name, const std::vector<PlacedComponent>& 
                          [&component](const PlacedComponent& other) { return overlaps(other, component); });
     if (!earlier.empty()) subtract_shared(component, earlier, sum);
     before.push_back(component);
-    patience.after(before.size(), components.size());
+    note.after(before.size(), components.size());
   }
   return sum;
 }

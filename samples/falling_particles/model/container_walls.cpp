@@ -8,12 +8,12 @@
 namespace falling_particles {
 namespace {
 
-/// A box from one corner to the other.
+/// A box between two opposite corners.
 Wall box(std::string name, const Vector3& lower, const Vector3& upper, std::vector<WallMotion> motions = {}) {
   return {std::move(name), BoxShape{upper - lower}, {(lower + upper) / 2, Eigen::Quaterniond::Identity()}, std::move(motions)};
 }
 
-/// Walls outside a rectangle that begins at the origin, from one height to another.
+/// Four walls around a rectangle with its corner at the origin, from z = `bottom` to z = `top`.
 void add_walls(const std::string& prefix, const std::array<double, 2>& width, double thickness, double bottom, double top,
                const std::vector<WallMotion>& motions, std::vector<Wall>& walls) {
   const auto [x, y] = width;
@@ -24,7 +24,7 @@ void add_walls(const std::string& prefix, const std::array<double, 2>& width, do
   walls.push_back(box(prefix + "_back", {-t, y, bottom}, {x + t, y + t, top}, motions));
 }
 
-/// The inner side of the shell around the y-axis, which reaches beyond the ends.
+/// The inner side of the drum's shell around the y-axis. It extends beyond both ends.
 MeshShape shell_of(const Drum& drum) {
   MeshShape mesh;
   const double beyond = 0.1 * drum.radius();

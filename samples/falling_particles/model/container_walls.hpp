@@ -1,4 +1,4 @@
-// Containers that are made of parts.
+// Containers that are made of walls of a scene (wall.hpp).
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace falling_particles {
 
-/// The parts of which the container is made; none for one with walls of its own.
+/// The walls of which the container is made; none for a container with geoms of its own (world/container_geoms.hpp).
 std::vector<Wall> walls_in(const Container& container);
 
 }  // namespace falling_particles

@@ -6,8 +6,9 @@
 namespace falling_particles {
 namespace {
 
-/// The distance of the farthest point of |x/a|^n + |y/b|^n = 1 from the centre: it is on an axis for n <= 2; by Hoelder's
-/// inequality it is the norm of (a, b) with exponent 2 n / (n - 2) beyond. Nesting it gives the superellipsoid's.
+/// The distance of the farthest point of |x/a|^n + |y/b|^n = 1 from the centre. For n <= 2 this point is on an axis. For larger n
+/// the distance is the norm of (a, b) with exponent 2 n / (n - 2), by Hoelder's inequality. Nesting this function gives the
+/// distance for a superellipsoid.
 double farthest(double a, double b, double exponent) {
   if (exponent <= 2) return std::max(a, b);
   const double dual = 2 * exponent / (exponent - 2);
@@ -32,7 +33,7 @@ std::array<double, 3> ConvexBody::core_half_axes() const {
 double ConvexBody::bounding_radius() const {
   if (shape == Shape::Capsule) return half_axes[2];
   const auto [a, b, c] = core_half_axes();
-  // A superovoid is nowhere wider than a superellipsoid of its widest section.
+  // No section of a superovoid is wider than a superellipsoid of its widest section.
   return farthest(farthest((1 + std::abs(taper[0])) * a, (1 + std::abs(taper[1])) * b, delta), c, epsilon) + rounding;
 }
 

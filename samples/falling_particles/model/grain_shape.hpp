@@ -1,4 +1,4 @@
-// The bodies of a grain as shapes of the library's core.
+// The bodies of a kind of grain as shapes of the library's core.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,13 @@
 
 namespace falling_particles {
 
-/// The body that create_geom() makes.
+/// The shape of the geom that create_geom() makes.
 std::shared_ptr<const supernormal::Shape> shape_of(const ConvexBody& body, double scale = 1);
 
 /// kg, of a grain of scale 1.
 double mass_of(const GrainKind& kind);
 
-/// Where a part of a grain is in the grain's frame.
+/// The pose of a component in the grain's frame.
 supernormal::Pose pose_of(const Component& component, double scale = 1);
 
 }  // namespace falling_particles

@@ -10,7 +10,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kSecondsPerMinute = 60;
 
-/// Whole turns are left out before they cost digits.
+/// Drops whole revolutions first, because they would cost digits.
 Eigen::Quaterniond turned(const Rotation& rotation, double seconds) {
   const double turns = rotation.rpm * seconds / kSecondsPerMinute;
   return Eigen::Quaterniond(Eigen::AngleAxisd(kTurn * (turns - std::floor(turns)), rotation.axis));
@@ -22,13 +22,14 @@ Eigen::Matrix3d cross_matrix(const Vector3& v) {
   return matrix;
 }
 
-/// The matrix of the rotation less the identity, with the digits of small angles.
+/// The rotation matrix minus the identity, accurate for small angles.
 Eigen::Matrix3d less_identity(const Eigen::Quaterniond& rotation) {
   const Eigen::Matrix3d cross = cross_matrix(rotation.vec());
   return 2 * rotation.w() * cross + 2 * cross * cross;
 }
 
-/// Where a step takes the surface of a part relative to the part: a lever from the part's position becomes rotation lever + shift.
+/// The motion of the wall's surface relative to the wall in a step: a lever from the wall's position becomes rotation lever +
+/// shift.
 struct SurfaceStep {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Vector3 shift = Vector3::Zero();  // m
@@ -86,7 +87,7 @@ WallPose pose_at(const WallPose& start, std::span<const WallMotion> motions, dou
 
 WallVelocity mean_velocity(const WallPose& from, const WallPose& to, double duration) {
   const Eigen::Quaterniond turn = to.rotation * from.rotation.conjugate();
-  // Twice the arctangent keeps the digits of small turns, which the arccosine of w would lose.
+  // Twice the arctangent keeps the digits of small angles, which the arccosine of w would lose.
   const double sine = turn.vec().norm();
   const double angle = 2 * std::atan2(sine, std::abs(turn.w()));
   const double sign = turn.w() < 0 ? -1 : 1;
@@ -122,7 +123,7 @@ ChordExcess::ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shif
 Vector3 ChordExcess::at(const Vector3& lever, const Vector3& velocity) const {
   const Vector3 chord = chord_at_wall_ + chord_ * lever;
   const Vector3 excess = (chord_at_wall_ - rigid_.linear) + (chord_ * lever - rigid_.angular.cross(lever));
-  // What rides along has, at the end of the step, its velocity turned with the surface: that of the chord.
+  // A grain that rides along has, at the end of the step, its velocity rotated with the surface: the velocity of the chord.
   return excess + duration_ / 2 * rigid_.angular.cross(turn_ * velocity - chord);
 }
 

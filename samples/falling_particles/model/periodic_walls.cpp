@@ -10,7 +10,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kAlong = 1e-9;     // of a unit vector: what is along an axis, or across it
+constexpr double kAlong = 1e-9;     // of a unit vector: tolerance for being along an axis, or across it
 constexpr double kRounding = 1e-9;  // m
 
 bool is_along(const Vector3& direction, std::size_t axis) {
@@ -18,7 +18,7 @@ bool is_along(const Vector3& direction, std::size_t axis) {
 }
 bool is_across(const Vector3& direction, std::size_t axis) { return std::abs(direction[static_cast<Eigen::Index>(axis)]) < kAlong; }
 
-/// The ends of a part along an axis at the start, m; a plane has none unless it is across the axis.
+/// The ends (m) of a wall along an axis at the start. A plane has none unless it is across the axis.
 struct Ends {
   double lower, upper;
 };
@@ -50,7 +50,7 @@ Ends ends_of(const Wall& wall, std::size_t axis) {
   return around(centre, bounding_radius(wall.shape));
 }
 
-/// The part's own axis that lies along an axis of the world, if there is one.
+/// The axis of the wall's frame that lies along an axis of the world; empty if there is none.
 std::optional<Eigen::Index> own_axis(const Wall& wall, std::size_t axis) {
   const Eigen::Matrix3d turn = wall.start.rotation.toRotationMatrix();
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -59,7 +59,7 @@ std::optional<Eigen::Index> own_axis(const Wall& wall, std::size_t axis) {
   return std::nullopt;
 }
 
-/// Moves the ends of a part outwards.
+/// Moves the ends of a wall outwards.
 void lengthen(Wall& wall, std::size_t axis, const Ends& to) {
   const auto i = static_cast<Eigen::Index>(axis);
   if (auto* mesh = std::get_if<MeshShape>(&wall.shape)) {
@@ -82,10 +82,10 @@ void lengthen(Wall& wall, std::size_t axis, const Ends& to) {
   wall.start.position[i] = (to.lower + to.upper) / 2;
 }
 
-/// Whether a mesh is a prism along the axis: its vertices are at its two ends, the same across the axis at each.
+/// Whether a mesh is a prism along the axis. All its vertices are at its two ends, and both ends have the same section.
 bool is_prism(const Wall& wall, const MeshShape& mesh, std::size_t axis) {
   const Ends ends = ends_of(wall, axis);
-  const double tolerance = 1e-5 * (ends.upper - ends.lower);  // vertices are floats
+  const double tolerance = 1e-5 * (ends.upper - ends.lower);  // vertices are in single precision
   const auto i = static_cast<Eigen::Index>(axis);
   std::array<std::vector<Vector3>, 2> sections;
   for (const auto& [x, y, z] : mesh.vertices) {
@@ -120,7 +120,7 @@ std::optional<std::string> find_end_of_shape(const Wall& wall, std::size_t axis)
   return "a smooth body ends";
 }
 
-/// The way (m) that a vibration takes along the axis is added to `way`.
+/// Adds the displacement (m) of a vibration along the axis to `way`.
 std::optional<std::string> find_end_of_motion(const Wall& wall, const WallMotion& motion, std::size_t axis, double& way) {
   const bool is_plane = std::holds_alternative<PlaneShape>(wall.shape);
   const auto turns_across = [axis](const Rotation& turn) { return turn.rpm != 0 && !is_along(turn.axis, axis); };

@@ -66,7 +66,7 @@ double Scene::largest_bounding_radius() const {
 double Scene::smallest_cell() const { return 2 * largest_bounding_radius() * (1 + drop.gap); }
 
 bool is_inside(const Scene& scene, const Point& point) {
-  // Along an axis on which the scene repeats everything is inside, but for a NaN.
+  // Along a periodic axis every coordinate but a NaN is inside.
   Point within = point;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (scene.periodic[axis] && std::isfinite(point[axis])) within[axis] = scene.periodic[axis]->middle();

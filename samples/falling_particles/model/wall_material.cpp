@@ -11,7 +11,7 @@ namespace fx = supernormal::effects;
 
 bool has_own_material(const Wall& wall) { return wall.friction.has_value() || wall.restitution.has_value(); }
 
-/// The effect that the scene lists for grains on walls.
+/// The effect that the scene names for grains on walls.
 template <typename E>
 std::optional<E> of_walls(const std::vector<fx::Effect>& effects) {
   for (const fx::Effect& effect : effects) {
@@ -21,7 +21,7 @@ std::optional<E> of_walls(const std::vector<fx::Effect>& effects) {
   return std::nullopt;
 }
 
-/// The threshold of the restitution that the scene lists, which all contacts share.
+/// The threshold of the restitution that the scene names; all contacts share it.
 double threshold_of(const std::vector<fx::Effect>& effects) {
   for (const fx::Effect& effect : effects) {
     if (const auto* found = std::get_if<fx::Restitution>(&effect)) return found->threshold;

@@ -1,4 +1,4 @@
-// Materials of parts: a part with coefficients of its own is a material of its own.
+// Materials of walls: a wall with coefficients of its own has a material of its own.
 #pragma once
 
 #include <supernormal/effects.hpp>
@@ -8,14 +8,13 @@
 
 namespace falling_particles {
 
-/// The largest number of parts with coefficients of their own.
+/// The largest number of walls with coefficients of their own.
 inline constexpr int kMostWallMaterials = 60;
 
-/// The wall material, or that of the part alone where it has coefficients of its own.
+/// The common material of walls, or a material of its own for a wall with coefficients of its own.
 supernormal::effects::Material material_of_wall(const std::vector<Wall>& walls, std::size_t index);
 
-/// Adds the effects of parts with coefficients of their own. What a scene says of walls, and such a part does not, holds for it
-/// too.
+/// Adds the effects of walls with coefficients of their own. A coefficient that such a wall does not have is the one of all walls.
 void add_wall_effects(const std::vector<Wall>& walls, std::vector<supernormal::effects::Effect>& effects);
 
 }  // namespace falling_particles
