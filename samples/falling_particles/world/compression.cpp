@@ -9,23 +9,23 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kRate = 0.2;        // largest strain of a step, relative to the target overlap
-constexpr double kRestFrom = 0.8;    // share of the duration after which the target stays, and nothing has inertia
+constexpr double kRate = 0.2;        // largest strain in a step, relative to the target overlap
+constexpr double kRestFrom = 0.8;    // fraction of the duration after which the target is constant and all velocities are removed
 constexpr double kSamePlace = 1e-3;  // of the grain's radius; another meeting of the same grains is a cell away
 
 using Grains = std::pair<const Grain*, const Grain*>;
 
-/// A place in the cell where two grains meet, with one contact point or several: of a face, of parts of compounds, on both sides of
-/// the boundary of the cell.
+/// A place in the cell where two grains meet, with one contact point or several: of a face, of components of compounds, or on both
+/// sides of the boundary of the cell.
 struct Meeting {
-  std::array<double, 3> between;  ///< m, from the centre of the second grain to that of the first
-  double overlap;                 ///< relative, the largest of its points
+  std::array<double, 3> between;  ///< m, from the centre of the second grain to the centre of the first
+  double overlap;                 ///< relative, largest over its points
 };
 
-/// Adds a contact point to the meeting that it belongs to, among those of its two grains.
+/// Adds a contact point to the meeting of the same place, or to a new one. All meetings are of the same two grains.
 void add(const dContactGeom& contact, std::vector<Meeting>& meetings) {
   const double sign = grain_of(contact.g1) < grain_of(contact.g2) ? 1 : -1;
-  const dReal* p1 = dBodyGetPosition(dGeomGetBody(contact.g1));  // of a compound, not of the part
+  const dReal* p1 = dBodyGetPosition(dGeomGetBody(contact.g1));  // the centre of a compound, not of its component
   const dReal* p2 = dBodyGetPosition(dGeomGetBody(contact.g2));
   std::array<double, 3> between{};
   double along = 0;  // distance of the centres along the normal, which points into g1
@@ -33,7 +33,7 @@ void add(const dContactGeom& contact, std::vector<Meeting>& meetings) {
     between.at(i) = sign * (p1[i] - p2[i]);
     along += (p1[i] - p2[i]) * contact.normal[i];
   }
-  // Where compounds are hooked into one another the normal may point the other way, and shrinking would not part them.
+  // If compounds interlock, the normal may point the other way. Then shrinking would not separate them.
   if (!(along > 0)) along = dCalcPointsDistance3(p1, p2);
   const double overlap = contact.depth / (along + contact.depth);
   const double near = kSamePlace * grain_of(contact.g1)->bounding_radius();
@@ -93,8 +93,7 @@ void Compressor::after_step(double time, std::span<const dContactGeom> contacts)
     dBodySetLinearVel(grain.body, kept * v[0], kept * v[1], kept * v[2]);
     dBodySetAngularVel(grain.body, kept * w[0], kept * w[1], kept * w[2]);
   }
-  // A few grains that overlap among many that do not are no pressure: the mean is taken as if there were a contact for each grain
-  // at least.
+  // A few overlapping grains among many are no pressure. So the mean is taken over at least one contact per grain.
   const double share = std::min(1.0, static_cast<double>(overlap.contacts) / grains);
   const double strain = kRate * target * std::clamp(1 - overlap.relative * share / target, -1.0, 1.0);
   cell_.scale(1 - strain);

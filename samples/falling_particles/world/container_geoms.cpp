@@ -11,8 +11,8 @@ namespace {
 
 static_assert(sizeof(unsigned int) == sizeof(dTriIndex));
 
-/// Reorders the samples for ODE, which lays them out along its x and z, y up: turned by 90 degrees about x, y is up in the world
-/// too, but z runs against the world's y.
+/// Reorders the samples for ODE, whose heightfields extend along x and z with y upwards. Rotated by 90 degrees about x, y points
+/// upwards in the world too, but z points along the world's -y.
 std::vector<double> rows_along_z(const Terrain& terrain) {
   const std::size_t n = terrain.samples_per_side();
   std::vector<double> heights;
@@ -48,7 +48,7 @@ void ContainerGeoms::open_outlet() {
 }
 
 void ContainerGeoms::add_sides(const Rectangle& plan, const PeriodicAxes& periodic) {
-  // A plane's solid side is the one opposite to its normal: a x + b y + c z < d.
+  // A plane is solid on the side opposite to its normal: a x + b y + c z < d.
   if (!periodic[0]) {
     add_plane(1, 0, 0, plan.corner[0]);
     add_plane(-1, 0, 0, -(plan.corner[0] + plan.width[0]));

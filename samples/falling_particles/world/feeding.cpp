@@ -12,8 +12,8 @@
 namespace falling_particles {
 namespace {
 
-constexpr int kTries = 64;          // places for a grain in a step: a region of which a tenth is free is found full in one of 800
-constexpr double kRounding = 1e-9;  // of the amount that is due: times are multiples of a step, rounded
+constexpr int kTries = 64;  // places to try for a grain in a step: in a region that is free to a tenth, all fail once in 800 cases
+constexpr double kRounding = 1e-9;  // of the due amount: times are rounded multiples of a step
 
 std::string in_brackets(const Point& p) { return "[" + shortest(p[0]) + ", " + shortest(p[1]) + ", " + shortest(p[2]) + "] m"; }
 
@@ -34,7 +34,7 @@ Amount Feeding::fed() const {
   return sum;
 }
 
-/// The kind that is most behind its fraction once a grain more has been fed.
+/// The kind that would be most below its fraction if one more grain were fed.
 std::size_t Feeding::next_kind() const {
   const Amount all = fed();
   const double whole = feeder_.fraction_of == Quantity::Of::Mass ? all.mass : static_cast<double>(all.grains) + 1;
@@ -78,7 +78,7 @@ std::span<const std::size_t> Feeding::feed(double now) {
   while (is_due(now)) {
     const std::optional<Placement> place = find_place(neighbourhood);
     if (!place) {
-      check_patience(now);
+      check_timeout(now);
       return last_;
     }
     last_.push_back(world_.insert(*place, feeder_.velocity));
@@ -104,7 +104,7 @@ std::optional<Placement> Feeding::find_place(const Neighbourhood& neighbourhood)
   return std::nullopt;
 }
 
-void Feeding::check_patience(double now) {
+void Feeding::check_timeout(double now) {
   if (!state_.behind_since) {
     state_.behind_since = now;
     state_.when_behind = fed();

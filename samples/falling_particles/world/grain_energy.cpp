@@ -5,7 +5,7 @@ namespace falling_particles {
 double kinetic_energy(const Grain& grain) {
   const dReal* v = dBodyGetLinearVel(grain.body);
   const dReal* w = dBodyGetAngularVel(grain.body);
-  dVector3 spin;  // in the body's frame, where the inertia is constant
+  dVector3 spin;  // in the grain's frame, where the inertia is constant
   dBodyVectorFromWorld(grain.body, w[0], w[1], w[2], spin);
   double twice_rotation = 0;
   for (int i = 0; i < 3; ++i) {

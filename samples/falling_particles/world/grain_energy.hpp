@@ -1,4 +1,4 @@
-// The energy of a grain.
+// Energies of a grain.
 #pragma once
 
 #include "model/scene.hpp"
@@ -9,7 +9,7 @@ namespace falling_particles {
 /// J, of translation and rotation.
 double kinetic_energy(const Grain& grain);
 
-/// J, kinetic and potential, 0 at rest at the origin.
+/// J, kinetic and potential energy; 0 at rest at the origin.
 double energy_of(const Grain& grain, const Scene& scene);
 
 }  // namespace falling_particles

@@ -14,8 +14,8 @@ namespace {
 
 bool is_part_of(unsigned mask, unsigned whole) { return (mask & ~whole) == 0; }
 
-/// Makes the velocities of the centres equal, in three rows: a ball joint whose anchors are the two centres, wherever these are.
-/// With ERP 0 it does not pull them together. (ODE's linear motor would give the bodies lever arms to the middle between them.)
+/// Makes the velocities of the centres equal by three rows: a ball joint whose anchors are the two centres, wherever they are. With
+/// ERP 0 it does not pull them together. (ODE's linear motor would give the bodies lever arms to their midpoint.)
 dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
   dJointID ball = dJointCreateBall(world, nullptr);
   dJointAttach(ball, body, image);
@@ -27,7 +27,7 @@ dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
   return ball;
 }
 
-/// Makes the angular velocities equal, in three rows.
+/// Makes the angular velocities equal by three rows.
 dJointID tie_spins(dWorldID world, dBodyID body, dBodyID image) {
   constexpr int kGlobal = 0;
   dJointID motor = dJointCreateAMotor(world, nullptr);
@@ -196,7 +196,7 @@ void PeriodicCell::gather() {
     std::array<double, 3> position{};
     std::array<double, 3> velocity{};
     std::array<double, 3> spin{};
-    dQuaternion attitude{};
+    dQuaternion orientation{};
     for (unsigned mask = 0; mask < kMasks; ++mask) {
       if (!is_part_of(mask, family.shown)) continue;
       dBodyID body = mask == 0 ? grain : family.images[mask]->body;
@@ -205,12 +205,12 @@ void PeriodicCell::gather() {
         velocity[axis] += dBodyGetLinearVel(body)[axis] / family.size;
         spin[axis] += dBodyGetAngularVel(body)[axis] / family.size;
       }
-      for (unsigned k = 0; k < 4; ++k) attitude[k] += dBodyGetQuaternion(body)[k];
+      for (unsigned k = 0; k < 4; ++k) orientation[k] += dBodyGetQuaternion(body)[k];
     }
     dBodySetPosition(grain, position[0], position[1], position[2]);
     dBodySetLinearVel(grain, velocity[0], velocity[1], velocity[2]);
     dBodySetAngularVel(grain, spin[0], spin[1], spin[2]);
-    dBodySetQuaternion(grain, attitude);  // ODE normalizes it
+    dBodySetQuaternion(grain, orientation);  // ODE normalizes the quaternion
   }
 }
 

@@ -8,7 +8,7 @@
 namespace falling_particles {
 namespace {
 
-/// The grains in random order, without their places.
+/// The grains in random order, not yet placed.
 std::vector<Placement> shuffled_grains(const Scene& scene, Random& random) {
   std::vector<Placement> grains;
   for (std::size_t kind = 0; kind < scene.kinds.size(); ++kind) {
@@ -19,7 +19,7 @@ std::vector<Placement> shuffled_grains(const Scene& scene, Random& random) {
   return grains;
 }
 
-/// Scatters grains like the points of an ideal gas: they overlap, and are pushed apart in the first steps.
+/// Scatters grains like the points of an ideal gas. They overlap; the first steps push them apart.
 std::vector<Placement> scatter(const Scene& scene, double side, Random& random) {
   std::vector<Placement> placements = shuffled_grains(scene, random);
   for (Placement& placement : placements) {
@@ -38,7 +38,7 @@ std::vector<Placement> place(const Scene& scene, Random& random) {
   for (const GrainCount& entry : scene.kinds) radii.push_back(entry.kind.bounding_radius());
   std::vector<Placement> placements = shuffled_grains(scene, random);
   for (Placement& placement : placements) {
-    // A grain may stand anywhere in its cell as long as its own bounding sphere is inside.
+    // A grain may be anywhere in its cell where its own bounding sphere is inside.
     const double own_radius = placement.scale * radii[placement.kind];
     const Lattice::Cell cell = lattice.next(own_radius);
     placement.position = lattice.corner();

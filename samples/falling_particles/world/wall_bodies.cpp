@@ -23,7 +23,7 @@ void set_pose(dBodyID body, const WallPose& pose) {
   dBodySetQuaternion(body, q);
 }
 
-/// A body that neither sleeps by itself nor is braked.
+/// A body without automatic sleep and without damping.
 dBodyID create_body(dWorldID world) {
   const dBodyID body = dBodyCreate(world);
   dBodySetAutoDisableFlag(body, 0);
@@ -112,8 +112,8 @@ dGeomID WallBodies::create_geom(const MeshShape& mesh) {
 
 void WallBodies::add_drive(Entry& entry, const Drive& drive) {
   entry.driven = create_body(world_);
-  // The joint takes every turn; a body that hardly turns by itself leaves the solver less to do: in shear_cell.toml grains overlap
-  // by 5.7 % of the smallest half-axis in the end, and by 7.0 % with an inertia of m r^2.
+  // The joint prevents all rotation. A body with a large inertia hardly rotates by itself, and leaves less work to the solver: in
+  // shear_cell.toml the final overlap of grains is 5.7 % of the smallest half-axis, and 7.0 % with an inertia of m r^2.
   constexpr double kHeavy = 1e3;
   const double radius = bounding_radius(entry.wall->shape);
   const double inertia = kHeavy * drive.mass * (std::isfinite(radius) ? radius * radius : 1);
@@ -147,7 +147,7 @@ void WallBodies::before_step() {
   }
 }
 
-// Damping is implicit in the velocity, and exact at rest: it never turns a velocity around, whatever the step.
+// Damping is implicit in the velocity, so that it never reverses a velocity, whatever the step.
 void WallBodies::push(Entry& entry, double now) {
   const Drive& drive = *entry.wall->drive;
   const double slack = 1e-6 * step_;  // times of steps are rounded
@@ -180,7 +180,7 @@ void WallBodies::put(const Entry& entry) {
   place(entry);
 }
 
-// What the solver has left of a step across the axis is dropped: the part is on its axis, and has not tilted.
+// The solver's residual motion across the axis is discarded: the wall stays on its axis and does not tilt.
 void WallBodies::slide(Entry& entry) {
   if (entry.is_held) return;
   const Vector3 axis = entry.axis();

@@ -1,4 +1,4 @@
-// The parts of a scene in a world of ODE.
+// The walls of a scene in an ODE world.
 #pragma once
 
 #include <ode/ode.h>
@@ -15,18 +15,18 @@
 
 namespace falling_particles {
 
-/// Where a part is and how it moves.
+/// The pose and velocity of a wall.
 struct WallState {
   WallPose pose;
-  WallVelocity velocity;  ///< mean of the last step, without that of a conveyor's surface
+  WallVelocity velocity;  ///< mean of the last step, without the motion of a conveyor's surface
 };
 
-/// What time alone does not tell of the parts between two steps.
+/// The state of the walls between two steps, as far as it is no function of time.
 struct WallsState {
   struct OfWall {
     WallPose pose;               ///< of the carrier
-    WallVelocity velocity = {};  ///< of the carrier, in the last step
-    double position = 0;         ///< m, of a driven part along its axis
+    WallVelocity velocity = {};  ///< of the carrier in the last step
+    double position = 0;         ///< m, of a driven wall along its axis
     double speed = 0;            ///< m/s
 
     template <typename Archive>
@@ -43,32 +43,33 @@ struct WallsState {
   }
 };
 
-/// The geoms of the parts, and bodies that give contacts their velocities. The geoms have no bodies, since ODE's planes can have
-/// none: a part that moves has a kinematic body beside its geom, with the mean velocity of the step, and is set to its exact pose
-/// after it. A driven part has a body with mass on a slider joint to its kinematic one.
+/// The geoms of the walls, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's planes can
+/// have none. A moving wall has a kinematic body beside its geom, with the mean velocity of the step. After the step the geom and
+/// this body are set to the exact pose. A driven wall has a second body with mass, on a slider joint to the kinematic body.
 class WallBodies {
  public:
-  /// The parts must outlive this object, and the world too. The geoms collide with those that have a bit of `collide_bits`, and
-  /// have `category_bits`. `step`: s. Throws std::runtime_error when the library refuses a shape.
+  /// The walls and the world must outlive this object. The geoms have `category_bits` and collide with geoms that have a bit of
+  /// `collide_bits`. `step`: s. Throws std::runtime_error when the library refuses a shape.
   WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits, unsigned long collide_bits);
   ~WallBodies();
   WallBodies(const WallBodies&) = delete;
   WallBodies& operator=(const WallBodies&) = delete;
 
-  const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< in the order of the parts
+  const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< in the order of the walls
 
-  /// Gives the bodies their velocities; call it before the contacts of a step are looked for.
+  /// Sets the velocities of the bodies. Call it before the collision of a step.
   void before_step();
-  /// Puts the parts where they belong after the step.
+  /// Moves the walls to their poses at the end of the step. Call it after the step.
   void after_step();
 
-  /// Whether the geom is that of a part which moves, or whose surface moves, in this step.
+  /// Whether the geom belongs to a wall that moves, or whose surface moves, in this step.
   bool is_moving(dGeomID geom) const;
-  /// The body of the part, 0 while it does not move, and its material; of any other geom its own body.
+  /// The body and material of the geom's wall; the body is null while the wall does not move. For other geoms: the geom's own body
+  /// and `otherwise`.
   supernormal::effects::Side side_of(dGeomID geom, supernormal::effects::Material otherwise) const;
 
-  /// m/s; what a grain at `centre` (m) with this velocity (m/s) needs at its contacts with the part in this step besides the
-  /// velocity of the part's body (ChordExcess); zero for a geom that is no part.
+  /// m/s; the velocity that a grain at `centre` (m) with `velocity` (m/s) needs at its contacts with the wall in this step, in
+  /// addition to the velocity of the wall's body (ChordExcess). Zero if the geom belongs to no wall.
   Vector3 chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const;
 
   const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
@@ -76,28 +77,28 @@ class WallBodies {
   WallState state(std::size_t index) const;
 
   WallsState save() const;
-  /// Goes on from a state of the same parts, in a world that has made no step.
+  /// Restores a state of the same walls in a world that has made no step.
   void restore(const WallsState& state);
 
  private:
   struct Entry {
     WallPose pose;                           // of the carrier
-    WallPose next;                           // of the carrier, after the step
-    WallVelocity velocity = {};              // of the carrier, in this step
+    WallPose next;                           // of the carrier at the end of the step
+    WallVelocity velocity = {};              // of the carrier in this step
     std::optional<ChordExcess> excess = {};  // in this step
     double position = 0;                     // m, of the driven body along its axis
     double speed = 0;                        // m/s
     const Wall* wall = nullptr;
     dGeomID geom = nullptr;
-    dBodyID carrier = nullptr;  // kinematic; null for a part that stands
-    dBodyID driven = nullptr;   // with mass; null for a part that is not driven
+    dBodyID carrier = nullptr;  // kinematic; null for a wall that stands
+    dBodyID driven = nullptr;   // with mass; null for a wall that is not driven
     dJointID slider = nullptr;
     supernormal::effects::Material material = 0;
     bool is_moving = false;
     bool is_held = true;
 
-    WallPose wall_pose() const;          // with the way that the driven body has slid
-    WallVelocity wall_velocity() const;  // with its speed; mean of the last step
+    WallPose wall_pose() const;          // with the displacement of the driven body
+    WallVelocity wall_velocity() const;  // with the speed of the driven body; mean of the last step
     Vector3 axis() const;                // of the drive, in the world's frame
   };
   dGeomID create_geom(const WallShape& shape);

@@ -22,7 +22,7 @@ struct PairCallback {
 
 Point to_point(const dReal* v) { return {v[0], v[1], v[2]}; }
 
-/// Bodies stay where they are in memory, so the list has room for all from the start.
+/// The capacity for all grains of a run: grains must not move in memory.
 std::size_t capacity(const Scene& scene, std::size_t at_start) {
   return static_cast<std::size_t>(static_cast<double>(at_start) + most_fed(scene));
 }
@@ -37,7 +37,7 @@ void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
 std::vector<dGeomID> Grain::geoms() const {
   std::vector<dGeomID> all;
   all.reserve(kind->components.size() + 1);
-  // ODE keeps the last one first.
+  // ODE lists the last geom first.
   for (dGeomID each = dBodyGetFirstGeom(body); each != nullptr; each = dBodyGetNextGeom(each)) all.push_back(each);
   std::ranges::reverse(all);
   return all;
@@ -93,7 +93,7 @@ dGeomID attach_geoms(dSpaceID space, const GrainKind& kind, double scale, dBodyI
   for (const Component& component : kind.all_components()) {
     dGeomID geom = create(component.body);
     if (first == nullptr) first = geom;
-    if (kind.components.empty()) break;  // without an offset, which would cost time in every step
+    if (kind.components.empty()) break;  // without an offset, which costs time in every step
     const auto [x, y, z] = component.position;
     const auto [qw, qx, qy, qz] = component.quaternion;
     const dQuaternion q = {qw, qx, qy, qz};
@@ -130,11 +130,11 @@ World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();
   sweep_ = std::make_unique<SweepSpace>(scene.sweep_axis);
-  // Quickstep shuffles its constraints with ODE's global generator.
+  // Quickstep shuffles its constraints with ODE's global random generator.
   dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
   set_parameters(scene);
-  // The walls are in no space: ODE pairs geoms without an upper end with all others, whatever their bounding boxes. Each wall is
-  // compared with the grains instead, at the cost of the comparison of their boxes.
+  // The walls are in no space. ODE pairs geoms of infinite height with all others, whatever their bounding boxes. Instead each wall
+  // is tested against the grains, at the cost of comparing bounding boxes.
   container_geoms_.emplace(nullptr, scene.container, kWallBit, kGrainBit, scene.periodic);
   if (!scene.walls.empty()) walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit);
 }
@@ -190,7 +190,7 @@ void World::set_parameters(const Scene& scene) {
   dWorldSetQuickStepNumIterations(world_, scene.solver.iterations);
   dWorldSetERP(world_, scene.solver.erp);
   dWorldSetCFM(world_, scene.solver.cfm);
-  // The effects come before the bodies, which take some settings from the world.
+  // The effects must precede the bodies, which inherit some settings from the world.
   effects_ = std::make_unique<supernormal::effects::Effects>(scene.effects, scene.time.step);
   effects_->set_up(world_);
 }
@@ -217,7 +217,7 @@ void World::remove(std::size_t index) {
 void World::add_grain(const Placement& placement) {
   const GrainKind& kind = scene_.kinds[placement.kind].kind;
   present_.push_back(grains_.size());
-  // grains_ is reserved: entries stay where they are, and geoms point to them.
+  // The capacity is reserved: grains do not move, and geoms point to them.
   Grain& entry = grains_.emplace_back(Grain{dBodyCreate(world_), nullptr, &kind, {}, placement.scale});
   entry.geom = attach_geoms(sweep_->id(), kind, entry.scale, entry.body, &entry);
   entry.mass = mass_of(entry);

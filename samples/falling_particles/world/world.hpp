@@ -22,17 +22,17 @@
 
 namespace falling_particles {
 
-/// A grain of a world. Its index in the world's list is its own for good: that of a grain that is gone is not used again.
+/// A grain of a world. Its index in the world's list is never reused, also after its removal.
 struct Grain {
-  dBodyID body;  ///< null for a grain that is gone, of which kind, scale and mass.mass are left
-  dGeomID geom;  ///< of a compound the first one; geoms() gives all
+  dBodyID body;  ///< null for a removed grain, which keeps only kind, scale and mass.mass
+  dGeomID geom;  ///< of a compound the first one; geoms() returns all
   const GrainKind* kind;
   dMass mass;
-  double scale = 1;  ///< of the grain's lengths
+  double scale = 1;  ///< factor on the lengths of the kind
 
   bool is_present() const { return body != nullptr; }
   std::vector<dGeomID> geoms() const;
-  /// m; around all geoms: least and most x, y, z in turn.
+  /// m; of all geoms together: least x, most x, least y, most y, least z, most z.
   std::array<dReal, 6> aabb() const;
   double smallest_half_axis() const { return scale * kind->smallest_half_axis(); }  ///< m
   double bounding_radius() const { return scale * kind->bounding_radius(); }        ///< m
@@ -47,7 +47,7 @@ struct Grain {
   }
 };
 
-/// Those of a list of bodies that are there, in its order. A grain that is gone costs nothing.
+/// The present grains of a list, in its order. Removed grains cost no time.
 class PresentGrains {
  public:
   class Iterator {
@@ -75,7 +75,7 @@ class PresentGrains {
   std::span<const std::size_t> indices_;
 };
 
-/// The body of a geom in a World; null for a wall, of which a mesh may have data of its own.
+/// The grain of a geom in a World. Null for a wall, whose mesh may have data of its own.
 inline const Grain* grain_of(dGeomID geom) {
   return dGeomGetClass(geom) == dTriMeshClass ? nullptr : static_cast<const Grain*>(dGeomGetData(geom));
 }
@@ -84,41 +84,43 @@ inline supernormal::effects::Material material_of(dGeomID geom) {
   return grain_of(geom) != nullptr ? kGrainMaterial : kWallMaterial;
 }
 
-/// A body of a grain as a geom of ours, its lengths times `scale`. Throws std::runtime_error when the library refuses it.
+/// Creates a geom of the library for a convex body with its lengths times `scale`. Throws std::runtime_error when the library
+/// refuses it.
 dGeomID create_geom(dSpaceID space, const ConvexBody& body, double scale = 1);
 
-/// Gives `body` the geoms of a grain whose lengths are times `scale`, each in its place, with `data`; returns the first one. Throws
-/// std::runtime_error when the library refuses one.
+/// Attaches the geoms of a kind of grain to `body`, each in its place, with lengths times `scale` and with `data`. Returns the
+/// first one. Throws std::runtime_error when the library refuses one.
 dGeomID attach_geoms(dSpaceID space, const GrainKind& kind, double scale, dBodyID body, void* data);
 
-/// Moves and turns a body to where a grain is to be.
+/// Sets the position and orientation of a body.
 void put(dBodyID body, const Placement& place);
 
-/// The mass of a grain that has its geoms, about its centre. Throws std::runtime_error when the library refuses it.
+/// The mass and inertia of a grain about its centre. The grain must have its geoms. Throws std::runtime_error when the library
+/// refuses them.
 dMass mass_of(const Grain& grain);
 
 /// The ODE world of a scene, which must outlive it.
 class World {
  public:
-  /// Throws std::runtime_error when the library refuses a body.
+  /// A world with a grain at each placement. Throws std::runtime_error when the library refuses a body.
   World(const Scene& scene, const std::vector<Placement>& placements);
-  /// Goes on from a state of the same scene.
+  /// Resumes from a state of the same scene.
   struct GoOn {};
   World(const Scene& scene, GoOn how, const WorldState& state);
-  World(const Scene&& scene, const std::vector<Placement>& placements) = delete;  // the scene would be gone at once
+  World(const Scene&& scene, const std::vector<Placement>& placements) = delete;  // the scene would not outlive the world
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   dWorldID id() const { return world_; }
   const Scene& scene() const { return scene_; }
-  /// The space of the grains and of their images; the walls are not in it.
+  /// The space of the grains and their images; walls are not in it.
   SweepSpace& sweep() const { return *sweep_; }
-  /// All that there have been so far, those that are gone included.
+  /// All grains so far, removed ones included.
   const std::vector<Grain>& grains() const { return grains_; }
-  /// Those of grains() that are there.
+  /// The present ones of grains().
   PresentGrains present() const { return {grains_.data(), present_}; }
-  /// Calls visit(geom) for the geoms of all grains that are there, and of their images in a periodic world.
+  /// Calls visit(geom) for the geoms of all present grains, and of their images in a periodic world.
   template <typename Visit>
   void for_each_grain_geom(const Visit& visit) const {
     if (cell_ == nullptr) {
@@ -131,7 +133,7 @@ class World {
       });
     }
   }
-  /// m, the centre of a grain; in a periodic world the one within the cell.
+  /// m, the centre of a grain; in a periodic world, its image within the cell.
   Point place_of(const Grain& grain) const { return cell_ == nullptr ? grain.position() : cell_->wrapped(grain.position()); }
   std::size_t index_of(const Grain& grain) const { return static_cast<std::size_t>(&grain - grains_.data()); }
   /// The effects that the scene names, compiled.
@@ -141,19 +143,19 @@ class World {
   void name_wall_pairs(void* data, dNearCallback* callback) const;
   /// Calls back for every pair of grains, or of a grain and a wall, whose bounding boxes meet.
   void name_pairs(void* data, dNearCallback* callback) const;
-  PeriodicCell* cell() const { return cell_.get(); }  ///< for a scene that repeats along any axis, otherwise null
-  WallBodies* walls() const { return walls_.get(); }  ///< null for a scene without parts
+  PeriodicCell* cell() const { return cell_.get(); }  ///< null for a scene without periodic axes
+  WallBodies* walls() const { return walls_.get(); }  ///< null if Scene::walls is empty
 
-  /// Puts a grain of a feeder's kind into the world and returns its index, that after the last one. Not during a step.
+  /// Inserts a grain and returns its index, the next one. Not during a step.
   std::size_t insert(const Placement& placement, const Point& velocity);
-  /// Takes a grain out of the world. Not during a step, of whose contacts those of the grain are no longer valid.
+  /// Removes a grain. Not during a step. It invalidates the grain's contacts of the last step.
   void remove(std::size_t index);
 
-  /// What the next step follows from. Not all: the order in which ODE holds bodies, geoms and joints, what it knows of the speeds
-  /// of bodies that may fall asleep, and remembered normals are those of a new world in one that goes on from it.
+  /// The state to resume from. Reset on resume: ODE's internal order of bodies, geoms and joints, its auto-disable history, and
+  /// warm-start normals.
   WorldState save() const;
 
-  /// Takes the lid off a hopper's outlet; call it once.
+  /// Removes the lid of a hopper's outlet. Call it once.
   void open_outlet() { container_geoms_->open_outlet(); }
 
  private:
@@ -164,12 +166,12 @@ class World {
   void restore(const SavedGrain& saved);
 
   const Scene& scene_;
-  QueryDefaults query_defaults_;  // before any geom
+  QueryDefaults query_defaults_;  // set before any geom exists
   dWorldID world_;
   std::unique_ptr<SweepSpace> sweep_;
   std::unique_ptr<supernormal::effects::Effects> effects_;
   std::vector<Grain> grains_;
-  std::vector<std::size_t> present_;  // indices of the bodies that are there, in order
+  std::vector<std::size_t> present_;  // indices of the present grains, in order
   std::optional<ContainerGeoms> container_geoms_;
   std::unique_ptr<PeriodicCell> cell_;
   std::unique_ptr<WallBodies> walls_;

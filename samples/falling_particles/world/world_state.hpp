@@ -1,4 +1,4 @@
-// What a world is between two steps.
+// The state of a world between two steps.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace falling_particles {
 
-/// A grain, or what is left of one that is gone.
+/// A present grain, or the data of a removed one.
 struct SavedGrain {
   std::uint64_t kind = 0;  ///< index into Scene::kinds
   double scale = 1;        ///< of the grain's lengths
@@ -30,9 +30,9 @@ struct SavedGrain {
 
 struct WorldState {
   std::uint64_t seed = 0;          ///< of ODE's random numbers
-  std::vector<SavedGrain> grains;  ///< all that there have been so far
-  bool has_lid = false;            ///< on a hopper's outlet
-  Point periods = {};              ///< m, of the cell along x, y and z; 0 where there is none
+  std::vector<SavedGrain> grains;  ///< all grains so far
+  bool has_lid = false;            ///< whether a hopper's outlet has its lid
+  Point periods = {};              ///< m, of the cell along x, y and z; 0 along axes that are not periodic
   WallsState walls;
 
   template <typename Archive>
