@@ -17,14 +17,14 @@ constexpr std::size_t kPointsPerAxis = 48;  // 110 592 points in a box: standard
 
 using Aabb = std::array<dReal, 6>;  // x, x, y, y, z, z
 
-/// Finds the grains that may hold a point, by columns of the container: a bed is much wider than a grain, and not high.
+/// Finds the grains that may contain a point by vertical columns of the container: a bed is much wider than a grain, and not high.
 class Columns {
  public:
   Columns(const World& world, const Rectangle& plan) : plan_(plan), cells_(kPerAxis * kPerAxis) {
     world.for_each_grain_geom([this](dGeomID geom) { add(Entry{geom, {}}); });
   }
 
-  /// The grain that holds the point, or null.
+  /// The grain that contains the point, or null.
   const Grain* find_grain(const Point& point) const {
     const auto [x, y, z] = point;
     const std::vector<Entry>& column = cells_[index(x, 0) * kPerAxis + index(y, 1)];
@@ -77,7 +77,8 @@ double bed_height(const World& world, const Box&) { return 2 * mean_z(world); }
 
 double bed_height(const World& world, const Hopper& hopper) {
   const double mean = mean_z(world) - hopper.clearance;
-  // The height lies between that of a cone on its tip, 4/3 of the mean height, and that of a cylinder.
+  // The height of a cone on its tip is 4/3 of the mean height, the height of a cylinder twice the mean height. The bed's height
+  // lies between these.
   double low = 4.0 / 3 * mean;
   double high = 2 * mean;
   constexpr int kHalvings = 60;

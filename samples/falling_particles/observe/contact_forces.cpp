@@ -1,4 +1,4 @@
-// A line a contact.
+// The measurement contact_forces: a line for each contact.
 
 #include "kinds.hpp"
 #include "region.hpp"

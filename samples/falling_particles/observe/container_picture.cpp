@@ -13,7 +13,7 @@ std::array<float, 3> vertex(double x, double y, double z) {
   return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-/// The corners of the plan at two heights, anticlockwise from the lowest x and y, the lower ones first.
+/// The corners of the plan at two heights, the lower ones first, anticlockwise from the lowest x and y.
 std::vector<std::array<float, 3>> corners_of(const Rectangle& plan, double bottom, double top) {
   const auto [x, y] = plan.corner;
   const auto [dx, dy] = plan.width;
@@ -34,7 +34,7 @@ WallPicture walls_around(const Rectangle& plan, double bottom, double top, const
   WallPicture wall{"walls", Role::Still, {corners_of(plan, bottom, top), {}}, {}};
   for (unsigned int side = 0; side < 4; ++side) {
     const unsigned int next = (side + 1) % 4;
-    if (periodic[(side + 1) % 2]) continue;                     // the first side is across y
+    if (periodic[(side + 1) % 2]) continue;                     // side 0 is across y
     wall.mesh.triangles.push_back({side, side + 4, next + 4});  // seen from inside
     wall.mesh.triangles.push_back({side, next + 4, next});
     wall.edges.push_back({side, side + 4});
@@ -49,7 +49,7 @@ std::vector<WallPicture> pictures_of(const Box& box, double top, const PeriodicA
   return walls;
 }
 
-/// The edges of the rings that make_mesh() stacks, the first `rings` of them.
+/// The edges of the first `rings` rings that make_mesh() stacks.
 std::vector<std::array<unsigned int, 2>> ring_edges(int segments, unsigned int rings) {
   const auto sides = static_cast<unsigned int>(segments);
   std::vector<std::array<unsigned int, 2>> edges;
@@ -59,7 +59,7 @@ std::vector<std::array<unsigned int, 2>> ring_edges(int segments, unsigned int r
   return edges;
 }
 
-/// The plane that closes the outlet, as far as it closes it: the polygon of the hopper's lowest ring.
+/// The part of the lid's plane that closes the outlet: the polygon of the hopper's lowest ring.
 WallPicture lid_of(const Hopper& hopper) {
   WallPicture wall{"lid", Role::Lid, make_mesh(hopper), ring_edges(hopper.segments, 1)};
   wall.mesh.vertices.resize(static_cast<std::size_t>(hopper.segments));
@@ -80,7 +80,7 @@ std::vector<WallPicture> pictures_of(const Hopper& hopper, double /*top*/) {
   return walls;
 }
 
-/// The ground between the walls, whose outermost samples but one lie on them.
+/// The ground between the walls: all samples but the outermost, which lie beyond the walls.
 WallPicture ground_of(const Terrain& terrain) {
   WallPicture wall{"ground", Role::Still, {}, {}};
   const auto side = static_cast<unsigned int>(terrain.samples_per_side() - 2);
@@ -114,7 +114,7 @@ std::vector<WallPicture> pictures_of(const Periodic&, double /*top*/) {
   return {std::move(cell)};
 }
 
-/// Of a container whose walls are parts of the scene.
+/// For containers whose walls are in Scene::walls.
 template <typename MadeOfWalls>
 std::vector<WallPicture> pictures_of(const MadeOfWalls&, double /*top*/) {
   return {};

@@ -1,4 +1,4 @@
-// Contacts per grain.
+// The measurement coordination: contacts per grain.
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 namespace falling_particles {
 namespace {
 
-constexpr std::size_t kMostCounted = 16;  // grains with as many contacts or more share a column
+constexpr std::size_t kMostCounted = 16;  // grains with this many contacts or more are counted in one column
 
-/// The grains that touch each grain, by force-bearing contacts; its own index stands for a wall.
+/// For each grain, the grains that touch it by force-bearing contacts. Its own index stands for a wall.
 using Neighbours = std::vector<std::vector<std::size_t>>;
 
 Neighbours neighbours_of(const Sample& sample, bool counts_walls) {
@@ -32,8 +32,8 @@ Neighbours neighbours_of(const Sample& sample, bool counts_walls) {
   return neighbours;
 }
 
-/// Takes grains with fewer contacts away until all that are left have as many, without those that are gone. Returns who is gone;
-/// `contacts` becomes the number that is left to each grain.
+/// Removes grains with fewer contacts than `least`, together with their contacts, until none is left. Returns whether each grain
+/// was removed. `contacts` becomes the number of remaining contacts of each grain.
 std::vector<bool> find_rattlers(const Neighbours& neighbours, std::size_t least, std::vector<std::size_t>& contacts) {
   std::vector<bool> is_rattler(neighbours.size(), false);
   std::vector<std::size_t> waiting;
@@ -113,7 +113,7 @@ class Coordination final : public Measurement {
 
 MeasurementKind coordination_kind() {
   constexpr std::int64_t kMostNeeded = 20;
-  constexpr std::size_t kIsostaticSpheres = 4;  // frictionless, in three dimensions
+  constexpr std::size_t kIsostaticSpheres = 4;  // frictionless spheres, in three dimensions
   return {"coordination",
           "the number of force-bearing contacts of a grain, and rattlers",
           {{"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"},

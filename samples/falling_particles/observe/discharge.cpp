@@ -20,7 +20,7 @@ void Discharge::after_step(double time) {
   for (const Grain& grain : world_.present()) {
     const std::size_t i = world_.index_of(grain);
     const Point p = grain.position();
-    // A grain that comes down beside the outlet has not come through it: that is a leak (leaks.hpp).
+    // A grain that comes down beside the outlet has not passed it: this is a leak (leaks.hpp).
     if (has_passed_[i] || !(p[2] < hopper_.clearance) || !hopper_.is_within(p[0], p[1], hopper_.outlet / 2)) continue;
     has_passed_[i] = true;
     passages_.push_back({time, mass() + grain.mass.mass});
@@ -50,7 +50,7 @@ std::optional<double> Discharge::mass_flow() const {
   if (!charge_) return std::nullopt;
   const Passage* from = find_passage(kSteadyFrom);
   const Passage* to = find_passage(kSteadyTo);
-  // All grains have passed in one step (there are a handful), so there is no flow.
+  // All grains of the section have passed in one step, since there are only a few. So there is no flow.
   if (to == nullptr || !(to->time > from->time)) return std::nullopt;
   return (to->total_mass - from->total_mass) / (to->time - from->time);
 }

@@ -21,7 +21,7 @@ struct Top {
   std::array<dReal, 6> aabb;
 };
 
-/// m, the highest point of a grain on the vertical through x and y; `base` when there is none above it.
+/// m, the highest point of the grains on the vertical line through x and y; `base` if there is none above it.
 double surface_height(std::span<const Top> grains, dGeomID ray, double x, double y, double base) {
   double height = base;
   for (const Top& grain : grains) {

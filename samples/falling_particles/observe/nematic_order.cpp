@@ -1,4 +1,4 @@
-// How far the axes of a kind of grains are aligned.
+// The measurement nematic_order: the alignment of an axis of one kind of grains.
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -41,7 +41,7 @@ class NematicOrder final : public Measurement {
     }
     const Matrix3d Q = 1.5 * sum / static_cast<double>(grains) - 0.5 * Matrix3d::Identity();
     const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(Q);
-    const Vector3& values = solver.eigenvalues();  // rising
+    const Vector3& values = solver.eigenvalues();  // in increasing order
     table.add(values[2]).add(Vector3(solver.eigenvectors().col(2))).add(values[1] - values[0]).end_line();
   }
 
@@ -51,7 +51,7 @@ class NematicOrder final : public Measurement {
   std::size_t axis_;
 };
 
-/// The half-axis of the grain that is longer, or shorter, than both others.
+/// The index of the half-axis that is longer, or shorter, than both others.
 std::size_t find_axis(const TomlTable& table, const Scene& scene, const std::string& name, const std::string& which) {
   const auto kind = std::ranges::find(scene.kinds, name, [](const GrainCount& count) { return count.kind.name; });
   const std::array<double, 3>& axes = kind->kind.half_axes;

@@ -39,7 +39,7 @@ Overlap measure_overlap(const World& world) {
     snProximity proximity;
     if (snGeomProximity(g1, g2, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     if (!(proximity.gap < 0)) continue;
-    if (cell != nullptr && !cell->contains(middle_of(proximity).data())) continue;  // another of its images is in the cell
+    if (cell != nullptr && !cell->contains(middle_of(proximity).data())) continue;  // another image of this overlap is in the cell
     const double depth = -proximity.gap;
     ++overlap.pairs;
     overlap.depth = std::max(overlap.depth, depth);

@@ -10,9 +10,9 @@
 namespace falling_particles {
 namespace {
 
-/// A point of contact, with body 1 as PairContact has it.
+/// A contact point, with the same grain 1 as its PairContact.
 struct ContactPoint {
-  std::pair<std::size_t, std::size_t> order;  // of the pair
+  std::pair<std::size_t, std::size_t> order;  // sort key of the pair
   const Grain* grain1;
   const Grain* grain2;
   dGeomID geom2;
@@ -20,7 +20,7 @@ struct ContactPoint {
   double overlap;
 };
 
-/// Numbers walls as they are met, which is the order in which the step went through them.
+/// Numbers walls in the order in which the step processed them.
 class WallNumbers {
  public:
   std::size_t number_of(dGeomID wall) {
@@ -34,7 +34,7 @@ class WallNumbers {
   std::vector<dGeomID> walls_;
 };
 
-/// ODE moves a body by step times its new velocity: the centre before the step is behind it.
+/// The centre before the step: ODE moves a body by step times its new velocity.
 Vector3 centre_before(dGeomID geom, double step) {
   dBodyID body = dGeomGetBody(geom);
   return to_vector(dBodyGetPosition(body)) - step * to_vector(dBodyGetLinearVel(body));
@@ -64,11 +64,11 @@ ContactPoint point_of(const MeasuredContact& contact, const World& world, WallNu
           contact.geom.depth};
 }
 
-/// Whether the same parts of the two bodies meet, in one place of the cell or in several.
+/// Whether two points belong to one contact: the same two images meet, or periodic copies of them.
 bool is_same_contact(const ContactPoint& a, const ContactPoint& b) {
   if (a.order != b.order) return false;
   if (a.grain2 == nullptr) return true;
-  constexpr double kShare = 1e-3;  // of the grain's radius; images of another meeting are a cell away
+  constexpr double kShare = 1e-3;  // of the grain's radius; another meeting of the same grains is a cell away
   const double tolerance = kShare * a.grain1->bounding_radius();
   return ((a.centre1 - a.centre2) - (b.centre1 - b.centre2)).norm() < tolerance;
 }
@@ -94,7 +94,7 @@ PairContact merge(const std::vector<ContactPoint>& points, std::size_t first, st
   if (pair.normal.norm() > 0) {
     pair.normal.normalize();
   } else {
-    pair.normal = lead.normal;  // two walls of one mesh that face each other
+    pair.normal = lead.normal;  // opposite normals, of two walls of one mesh that face each other
   }
   if (pair.grain2 == nullptr) pair.centre2 = pair.position;
   return pair;
@@ -107,7 +107,7 @@ std::vector<PairContact> gather_contacts(const std::deque<MeasuredContact>& meas
   points.reserve(measured.size());
   WallNumbers walls;
   for (const MeasuredContact& contact : measured) points.push_back(point_of(contact, world, walls, step));
-  // Walls come last, each with its grains in their order. A stable sort keeps the points of a pair in the step's order.
+  // Walls come last, each with its grains in order. A stable sort keeps the points of a pair in the step's order.
   const std::size_t grains = world.grains().size();
   const auto key = [grains](const ContactPoint& point) {
     const auto& [one, two] = point.order;
@@ -116,7 +116,7 @@ std::vector<PairContact> gather_contacts(const std::deque<MeasuredContact>& meas
   std::ranges::stable_sort(points, [&key](const ContactPoint& a, const ContactPoint& b) { return key(a) < key(b); });
   std::vector<PairContact> pairs;
   for (std::size_t first = 0; first < points.size();) {
-    // Two bodies that meet in several places of a periodic cell (never more than a few) have their points apart.
+    // If two grains meet in several places of a periodic cell, each place is a contact. There are never more than a few.
     std::size_t end = first + 1;
     while (end < points.size() && points[end].order == points[first].order) ++end;
     while (first < end) {

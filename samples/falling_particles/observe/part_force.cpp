@@ -1,4 +1,4 @@
-// Force and torque on walls and parts.
+// The measurement part_force: force and torque on walls.
 
 #include <Eigen/Geometry>
 #include <algorithm>

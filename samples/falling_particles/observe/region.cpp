@@ -63,7 +63,7 @@ Bounds SamplingRegion::bounds(const World& world) const {
   if (is_cell_) return {Vector3::Zero(), periods_of(world)};
   Bounds everywhere{Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)};
   if (world.cell() == nullptr) return everywhere;
-  for (int axis = 0; axis < 3; ++axis) {  // everything is once in a cell
+  for (int axis = 0; axis < 3; ++axis) {  // each grain has one image in the cell
     const std::optional<Period>& period = world.cell()->axes()[static_cast<std::size_t>(axis)];
     if (!period) continue;
     everywhere.lower[axis] = period->lower;

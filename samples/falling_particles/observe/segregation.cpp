@@ -1,4 +1,4 @@
-// How far two kinds of grains are mixed.
+// The measurement segregation: the mixing of two kinds of grains.
 
 #include <vector>
 
@@ -52,7 +52,7 @@ class Segregation final : public Measurement {
     }
     const double segregated = fraction * (1 - fraction);
     table.add(time).add(static_cast<std::size_t>(all.both)).add(static_cast<std::size_t>(occupied));
-    if (segregated == 0 || occupied >= all.both) {  // of one kind, or as many cells as grains, which are never mixed
+    if (segregated == 0 || occupied >= all.both) {  // only one kind, or as many cells as grains, for which the index is undefined
       constexpr int kOtherColumns = 5;
       table.blank(kOtherColumns).end_line();
       return;

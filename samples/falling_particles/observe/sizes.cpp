@@ -11,7 +11,7 @@ struct SizeAndMass {
   double size, mass;
 };
 
-/// m, the size of the grain, in rising order, with which the mass passes a share of all.
+/// m, the size of the grain, in increasing order, at which the mass passes a fraction of the whole.
 double size_below(const std::vector<SizeAndMass>& grains, double share, double mass) {
   double passed = 0;
   for (const SizeAndMass& grain : grains) {

@@ -1,4 +1,4 @@
-// Stress of a box or of slices.
+// The measurement stress: the stress of a box or of slices.
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// What is in a slice.
+/// Sums over a slice.
 struct SliceSums {
   Matrix3d contacts = Matrix3d::Zero();  // N m
   Matrix3d momentum = Matrix3d::Zero();  // kg m^2/s^2, sum of m v v^T
@@ -31,7 +31,8 @@ Bounds slice_of(const Bounds& all, std::size_t axis, std::size_t index, std::siz
   return slice;
 }
 
-/// The force of a contact goes through grain 1 from its centre to the contact, and through grain 2 on to its centre.
+/// Adds a contact's force to a slice. It acts along the branch: through grain 1 from its centre to the contact, and through grain 2
+/// to its centre.
 void add_contact(SliceSums& sums, const Bounds& slice, const PairContact& contact, const Vector3& periods) {
   const Vector3 way1 = contact.centre1 - contact.position;
   const Vector3 way2 = contact.position - contact.centre2;

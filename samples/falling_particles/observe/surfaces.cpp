@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kLid = "lid";
 
-/// Names surfaces in the order in which ContainerGeoms makes their geoms.
+/// Names the surfaces in the order in which ContainerGeoms creates their geoms.
 struct Names {
   std::vector<std::string> operator()(const Box&) const { return {"floor", "x_low", "x_high", "y_low", "y_high"}; }
   std::vector<std::string> operator()(const Hopper& hopper) const {
@@ -28,7 +28,7 @@ struct Names {
 
 std::vector<std::string> surface_names(const Scene& scene) {
   std::vector<std::string> names = std::visit(Names{}, scene.container);
-  for (std::size_t axis : {0U, 1U}) {  // across which a box has no walls
+  for (std::size_t axis : {0U, 1U}) {  // a box has no walls across periodic axes
     if (!scene.periodic[axis]) continue;
     std::erase_if(names, [axis](const std::string& name) { return name.starts_with(axis == 0 ? "x_" : "y_"); });
   }
