@@ -11,9 +11,9 @@
 namespace falling_particles {
 namespace {
 
-// Larger lengths are millimetres typed in as metres, the usual slip: nothing that one pours is larger than this.
+// No grain is larger than this. The usual mistake is millimetres typed as metres.
 constexpr double kLargestHalfAxis = 1;  // m
-// Osmium is the densest solid there is: 22 590 kg/m^3.
+// Osmium is the densest solid: 22 590 kg/m^3.
 constexpr double kLargestDensity = 23000;  // kg/m^3
 
 using Shape = ConvexBody::Shape;
@@ -37,7 +37,7 @@ ConvexBody read_capsule(const TomlTable& table) {
   return {{radius, radius, radius + length / 2}, 2, 2, 0, Shape::Capsule};
 }
 
-/// The range of a taper depends on the exponents: the core knows it.
+/// The library's core checks the taper, whose range depends on the exponents.
 void read_taper(const TomlTable& table, ConvexBody& body) {
   const std::vector<double> taper = table.numbers("taper", 2, Interval::closed(-1, 1, "(so small that the body is convex)"));
   body.taper = {taper[0], taper[1]};
@@ -49,11 +49,11 @@ void read_taper(const TomlTable& table, ConvexBody& body) {
   }
 }
 
-/// Without the exponents, which are 2 and 2 where a part of a compound leaves them out.
+/// Reads a convex body. If `needs_exponents` is false, as for a component of a compound, missing exponents are 2 and 2.
 ConvexBody read_body(const TomlTable& table, bool needs_exponents) {
   const Shape shape = shape_in(table);
   if (shape == Shape::Capsule) return read_capsule(table);
-  // The range is that of snCreateSuperellipsoid.
+  // The range of snCreateSuperellipsoid.
   const Interval exponents = Interval::closed(1.01, 1000, "");
   ConvexBody body{{}, 2, 2, 0, shape};
   const std::vector<double> axes = table.numbers("half_axes", 3, Interval::positive(kLargestHalfAxis, "m"));
@@ -70,8 +70,8 @@ ConvexBody read_body(const TomlTable& table, bool needs_exponents) {
 
 double read_density(const TomlTable& table) { return table.number("density", Interval::positive(kLargestDensity, "kg/m^3")); }
 
-/// A turn by `angle` (degrees) about `axis`.
-std::array<double, 4> read_attitude(const TomlTable& table) {
+/// The quaternion (w, x, y, z) of a rotation by `angle` (degrees) about `axis`; the identity without them.
+std::array<double, 4> read_orientation(const TomlTable& table) {
   if (!table.has("axis") && !table.has("angle")) return {1, 0, 0, 0};
   const std::vector<double> axis = table.numbers("axis", 3, Interval::closed(-1e6, 1e6, "(of any length but 0)"));
   const double length = std::hypot(axis[0], axis[1], axis[2]);
@@ -106,7 +106,7 @@ CatalogueEntry read_compound(const TomlTable& table, const std::string& name) {
           component.numbers("position", 3, Interval::closed(-kLargestHalfAxis, kLargestHalfAxis, "m"));
       read.position = {position[0], position[1], position[2]};
     }
-    read.quaternion = read_attitude(component);
+    read.quaternion = read_orientation(component);
   }
   return compound_entry(name, components, table.text("source"));
 }
@@ -120,7 +120,7 @@ CatalogueEntry read_grain(const TomlTable& table, const std::string& name) {
   const ConvexBody body = read_body(table, true);
   const double density = read_density(table);
   const std::string source = table.text("source");
-  // The centre of mass of a superovoid is not the origin of its frame.
+  // A superovoid becomes a compound, because its centre of mass is not the origin of its frame.
   if (shape == Shape::Superovoid) return compound_entry(name, {{body, density}}, source);
   const GrainKind kind{name, body.half_axes, body.delta, body.epsilon, body.rounding, density, source, shape == Shape::Capsule};
   return {name, [kind] { return kind; }};

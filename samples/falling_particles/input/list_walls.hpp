@@ -1,4 +1,4 @@
-// The parts that a scene may name, as text.
+// The list of the keys of [[part]].
 #pragma once
 
 #include <string>

@@ -86,7 +86,7 @@ Open read_open(const TomlTable& root, const TomlTable& table) {
   return open;
 }
 
-/// The lattice needs room for at least one cell, whatever the attitude of the largest grain.
+/// The lattice needs space for at least one cell, which holds the largest grain in any orientation.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   const double narrowest = std::min(plan.width[0], plan.width[1]);
@@ -99,7 +99,7 @@ void check_width(const TomlTable& table, const Scene& scene) {
                       shortest(cell) + " m, so that the largest grain fits in any orientation");
 }
 
-/// Where grains start below a ceiling, there may be too many.
+/// Below a ceiling there may be no space for all grains of the start.
 void check_ceiling(const TomlTable& table, const Scene& scene) {
   if (std::isinf(ceiling_of(scene.container))) return;
   Lattice lattice(scene);
@@ -122,7 +122,7 @@ void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& 
                          " m, so that no grain meets itself");
 }
 
-/// A lattice of three by three cells has one that lies within the circle around them, one of two by two has none.
+/// Among three by three cells, one lies within the circle around them; among two by two cells, none does.
 void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopper) {
   const double narrowest = 3 * scene.smallest_cell();
   if (hopper.diameter < narrowest) {

@@ -10,7 +10,7 @@ namespace {
 
 double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargestLength, "m")); }
 
-/// When a motion starts: 0 if the scene does not say.
+/// Reads the start (s) of a motion; 0 if it is not given.
 double read_start(const TomlTable& table, const char* key, const Time& time) {
   return table.has(key) ? table.number(key, {0, time.duration, true, false, "s (before time.duration)"}) : 0;
 }

@@ -16,13 +16,13 @@ constexpr std::array kAxes = {"x", "y"};
 
 std::string in_brackets(const Period& period) { return "[" + shortest(period.lower) + ", " + shortest(period.upper()) + "]"; }
 
-/// The axes along which a container can be opened.
+/// The axes along which containers can be periodic.
 constexpr const char* kAllowed =
     "allowed: periodic.x and periodic.y in a box, a tray or a container of kind \"none\"; periodic.y in a drum, a shear_cell or a "
     "conveyor";
 
-/// What a container has between its walls along an axis; nothing where it cannot be without them. Any period will do for one that
-/// has no walls.
+/// The interval between the container's walls along an axis. Empty if the container cannot be periodic along it. A container
+/// without walls may have any period.
 std::optional<Period> between_walls(const Container& container, std::size_t axis) {
   const Rectangle plan = plan_of(container);
   const bool is_open_everywhere = std::holds_alternative<Box>(container) || std::holds_alternative<Tray>(container);

@@ -28,7 +28,7 @@ namespace {
 constexpr std::int64_t kMostBodies = 1'000'000;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
 
-/// Reads the catalogue that the scene names, relative to the scene's folder.
+/// Reads the catalogue that the scene names by a path relative to its folder.
 std::vector<CatalogueEntry> read_catalogue(const TomlTable& root, const std::string& scene_path) {
   const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
   const std::string allowed = "; allowed: a grain catalogue, its path relative to the scene file";
@@ -51,7 +51,7 @@ const CatalogueEntry& find_grain(const std::vector<CatalogueEntry>& catalogue, c
   entry.fail("name", "unknown grain \"" + name + "\"" + did_you_mean(name, names) + "; allowed (the catalogue's): " + join(names));
 }
 
-/// Whole numbers in the ratio of `fractions` that sum to `total`: all are rounded down, then the largest remainders up.
+/// Whole numbers in the ratio of `fractions` that sum to `total`: all are rounded down, then those with the largest remainders up.
 std::vector<int> apportion(const std::vector<double>& fractions, int total) {
   std::vector<int> counts;
   std::vector<std::pair<double, std::size_t>> remainders;
@@ -76,7 +76,7 @@ std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const Tom
     fractions.push_back(entry.number("fraction", Interval::positive(1, "")));
     sum += fractions.back();
   }
-  // Fractions may be rounded as people type them: 0.333 three times is one.
+  // Typed fractions may be rounded: three times 0.333 counts as 1.
   if (std::abs(sum - 1) > 0.005) {
     entries.front().fail("fraction", "the fractions of the grains sum to " + shortest(sum) + "; allowed: a sum of 1");
   }
@@ -84,7 +84,7 @@ std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const Tom
   return apportion(fractions, total);
 }
 
-/// `least`: 0 where feeders bring grains.
+/// `least`: the least allowed count; 0 if there are feeders.
 std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTable& drop, int least) {
   if (drop.has("total")) drop.fail("total", "drop.total is given besides counts; allowed: with fractions only");
   std::vector<int> counts;
@@ -128,7 +128,8 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   return kinds;
 }
 
-/// Grains that a scene may have at once. How many its sinks leave cannot be told.
+/// The most grains that a scene may have at once. With sinks only the grains of the start count, because the effect of sinks is not
+/// known in advance.
 int most_at_once(const Scene& scene) {
   return static_cast<int>(scene.grains_at_start() + (scene.sinks.empty() ? most_fed(scene) : 0));
 }
@@ -160,7 +161,8 @@ Solver read_solver(const TomlTable& table) {
           table.number("cfm", Interval::closed(0, 1, "s/kg"))};
 }
 
-/// Grains in a periodic container do not drop: they start anywhere. Where feeders bring all grains, none drops.
+/// Reads [drop] into the scene and returns the table that may have `total`. Grains in a periodic container do not drop. A scene
+/// with feeders may lack the section.
 TomlTable read_drop(const TomlTable& root, Scene& scene) {
   if (root.has("feeder") && !root.has("drop")) return root;
   if (std::holds_alternative<Periodic>(scene.container)) {
@@ -211,7 +213,7 @@ void read_output(const TomlTable& root, Scene& scene) {
   scene.pictures = table->choices("pictures", names);
 }
 
-/// The scene file and those that it names, relative to its folder; all have been read.
+/// The scene file and the files that it names relative to its folder. All have been read before.
 std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files = {path, path.parent_path() / root.text("catalogue")};
   if (!root.has("part")) return files;
@@ -221,7 +223,7 @@ std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::fi
   return files;
 }
 
-/// The names of the sections at the top of the file.
+/// The names of the sections at the top level of the file.
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
                                     "solver", "compression", "broad_phase", "output", "part",  "measurement",
@@ -243,7 +245,7 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   scene.walls = load_walls(root, scene, path);
   const TomlTable drop = read_drop(root, scene);
   scene.kinds = read_grains(root, drop, path, scene.seed);
-  if (root.has("feeder") && scene.grains_at_start() > 0) root.table("drop");  // says that it is missing
+  if (root.has("feeder") && scene.grains_at_start() > 0) root.table("drop");  // reports that it is missing
   load_periodic(root, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);

@@ -21,7 +21,7 @@ namespace {
 
 const std::vector<std::string> kShapes = {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"};
 
-/// The keys that describe a shape.
+/// The keys of a shape.
 std::vector<std::string> keys_of_shape(const std::string& shape) {
   if (shape == "box") return {"size"};
   if (shape == "cylinder") return {"radius", "length"};
@@ -69,8 +69,8 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   return body;
 }
 
-/// Triangles that are there with their corners in both orders. As they are, each pushes what is behind it out in front: grains sink
-/// in from both sides until they are halfway through.
+/// The number of triangles that occur in both windings. In a single-sided mesh each of them pushes grains behind it to its front,
+/// so that grains sink in from both sides up to the middle.
 std::size_t count_two_sided(const Mesh& mesh) {
   const auto from_lowest = [](std::array<unsigned int, 3> corners) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -138,7 +138,7 @@ WallPose read_pose(const TomlTable& table) {
   return pose;
 }
 
-/// A name stands in a line of parts.csv.
+/// Reads a name, which must fit into a field of parts.csv.
 std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
   const std::string name = table.text("name");
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
@@ -151,7 +151,7 @@ std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
   return name;
 }
 
-/// m^2, the area that a part shows along the axis of its drive, which turns with the part; 0 where it must be said.
+/// m^2, the projected area of a wall along the axis of its drive, in the wall's frame; 0 if the scene must give the area.
 double plan_area(const WallShape& shape, const Vector3& axis) {
   if (const auto* box = std::get_if<BoxShape>(&shape)) {
     const Vector3& s = box->size;
@@ -193,7 +193,7 @@ std::optional<Drive> read_drive(const TomlTable& part_table, const Wall& wall) {
   Drive drive{};
   drive.axis = read_direction(*table, "axis");
   read_pressure(*table, wall, drive);
-  // ODE squares moments of inertia, a thousand times mass times radius squared: far below, they are no numbers.
+  // ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
   drive.mass = table->number("mass", Interval::closed(1e-12, 1e6, "kg"));
   if (table->has("damping")) drive.damping = table->number("damping", Interval::closed(0, 1e9, "N s/m"));
   const auto [from, until] = read_times(*table);

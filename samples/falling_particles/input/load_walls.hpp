@@ -10,7 +10,7 @@
 
 namespace falling_particles {
 
-/// The parts of the container, then those of the [[part]] sections; mesh files are relative to the scene's folder. Throws
+/// The walls of the container, then the walls of the [[part]] sections. Mesh files are relative to the scene's folder. Throws
 /// InputError.
 std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const std::string& scene_path);
 
