@@ -17,7 +17,7 @@ int index_of(dGeomID geom, const World& world) {
   return grain == nullptr ? kWall : static_cast<int>(grain - world.grains().data());
 }
 
-/// The factor by which a part of the container is scaled.
+/// The factor by which the mesh of a wall is scaled.
 double scale_of(const WallPicture& wall, const World& world) {
   switch (wall.role) {
     case WallPicture::Role::Lid:
@@ -36,7 +36,7 @@ WallPlace place_of(const WallPose& pose) {
   return {{p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}, 1};
 }
 
-/// m, wide enough for the grains of the scene to stay above a plane of that width.
+/// m, a width of planes such that the grains of the scene stay above them.
 double width_of_planes(const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   return 2 * std::max(plan.width[0], plan.width[1]);
@@ -47,7 +47,7 @@ ContactState state_of(const dContactGeom& contact, const World& world) {
           index_of(contact.g1, world), index_of(contact.g2, world), {}};
 }
 
-/// Where forces are measured, the contacts are those that effects have left to the joints.
+/// Adds the contacts of the last step. If forces are measured, these are the contacts that the effects have kept.
 void add_contacts(Frame& frame, const World& world, const Stepper& stepper) {
   for (const MeasuredContact& contact : stepper.measured_contacts()) {
     frame.contacts.push_back(state_of(contact.geom, world));

@@ -10,7 +10,7 @@
 namespace falling_particles {
 namespace {
 
-/// The sides of the box that a dump needs.
+/// The bounds of the box that a dump needs.
 std::string bounds_of(const Extent& extent) {
   std::string lines;
   for (std::size_t axis = 0; axis < 3; ++axis) lines += shortest(extent.least[axis]) + ' ' + shortest(extent.most[axis]) + '\n';

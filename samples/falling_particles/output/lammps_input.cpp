@@ -23,22 +23,21 @@ namespace fx = supernormal::effects;
 constexpr double kOverlap = 0.01;  // of the smallest half-axis, in the fastest impact
 constexpr double kStepsPerImpact = 50;
 constexpr double kRigidRestitution = 0.1;   // of contacts that do not bounce
-constexpr double kLeastRestitution = 0.05;  // that pair_style supernormal takes
-constexpr double kHertzImpact =
-    2.9432675;  // duration of an impact of two balls, in largest depths over speeds (Johnson 1985, 11.24)
+constexpr double kLeastRestitution = 0.05;  // the least that pair_style supernormal accepts
+constexpr double kHertzImpact = 2.9432675;  // duration of an impact of two balls, in largest depth / speed (Johnson 1985, 11.24)
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what) {
   throw InputError(scene.name + ": " + what + " has no counterpart in LAMMPS' input: leave it out");
 }
 
-/// The contact of all surfaces, collected from the effects.
+/// The contact law of all surfaces, collected from the effects.
 struct Law {
   double friction = 0, rolling = 0, restitution = kRigidRestitution;
   const fx::Hertz* hertz = nullptr;
   const fx::Compliance* compliance = nullptr;
 };
 
-/// Reads one effect after the other. Those that only serve ODE's solver are left out.
+/// Reads the effects one after the other. Effects that only serve ODE's solver are left out.
 struct LawReader {
   const Scene& scene;
   Law law = {};
@@ -87,7 +86,7 @@ double volume_of(const GrainKind& kind) {
   return supernormal::Superellipsoid(axes, kind.delta, kind.epsilon).mass_properties().volume;
 }
 
-/// What springs and steps depend on.
+/// The quantities on which springs and steps depend.
 struct Extremes {
   double lightest = INFINITY, heaviest = 0;  // kg
   double smallest = INFINITY;                // m; half-axis
@@ -107,7 +106,7 @@ Extremes find_extremes(const Scene& scene, const std::vector<Placement>& grains)
   return found;
 }
 
-/// The words of a contact, and the step that it takes.
+/// The words of a contact law, and the step that it needs.
 struct Contacts {
   std::string words;
   double step;  // s

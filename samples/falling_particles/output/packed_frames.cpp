@@ -15,7 +15,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kWhole = 32767;  // what 1 is in two bytes
+constexpr double kWhole = 32767;  // the two-byte integer for 1
 
 std::uint32_t bits_of(double number) { return std::bit_cast<std::uint32_t>(static_cast<float>(number)); }
 
@@ -56,14 +56,14 @@ std::vector<std::uint32_t> list_of(const Items& items, const Number& number) {
   return numbers;
 }
 
-/// The point of contact from the centre of its body, m.
+/// m, the contact point relative to the centre of its first grain.
 Point from_grain(const Frame& frame, const ContactState& contact) {
   const int grain = contact.grain1 == kWall ? contact.grain2 : contact.grain1;
   const Point& centre = frame.grains[static_cast<std::size_t>(grain)].position;
   return {contact.position[0] - centre[0], contact.position[1] - centre[1], contact.position[2] - centre[2]};
 }
 
-/// Of all points of contact; 1 when there are none or all are at the centres.
+/// The largest coordinate (m) of all contact points; 1 if there are none or all are at the centres.
 double largest_coordinate(const Frame& frame) {
   double largest = 0;
   for (const ContactState& contact : frame.contacts) {
@@ -97,14 +97,14 @@ std::string Packer::text() const { return to_base64(deflated(bytes_)); }
 
 void PackedGrains::add(const Frame& frame) {
   for (std::vector<std::uint32_t>& numbers : before_) numbers.resize(frame.grains.size());
-  attitudes_.resize(4 * frame.grains.size());
-  // Of the two quaternions of an attitude, the one on the side of the last: players interpolate between them.
+  orientations_.resize(4 * frame.grains.size());
+  // Of the two quaternions of an orientation, takes the one nearer to the last: players interpolate between them.
   for (std::size_t k = 0; k < frame.grains.size(); ++k) {
     const auto& [w, x, y, z] = frame.grains[k].quaternion;
     const std::array now = {x, y, z, w};
     double along = 0;
-    for (std::size_t i = 0; i < 4; ++i) along += now[i] * attitudes_[4 * k + i];
-    for (std::size_t i = 0; i < 4; ++i) attitudes_[4 * k + i] = static_cast<float>(along < 0 ? -now[i] : now[i]);
+    for (std::size_t i = 0; i < 4; ++i) along += now[i] * orientations_[4 * k + i];
+    for (std::size_t i = 0; i < 4; ++i) orientations_[4 * k + i] = static_cast<float>(along < 0 ? -now[i] : now[i]);
   }
   Packer packer;
   std::size_t number = 0;
@@ -116,7 +116,7 @@ void PackedGrains::add(const Frame& frame) {
   }
   for (std::size_t i = 0; i < 4; ++i) {
     add(2, [&](const GrainState& grain) {
-      return fraction(attitudes_[4 * static_cast<std::size_t>(&grain - frame.grains.data()) + i]);
+      return fraction(orientations_[4 * static_cast<std::size_t>(&grain - frame.grains.data()) + i]);
     });
   }
   for (std::size_t i = 0; i < 3; ++i) add(2, [i](const GrainState& grain) { return upper_half(grain.velocity[i]); });

@@ -18,11 +18,11 @@ namespace {
 
 using supernormal::Vector3;
 
-// Of the smallest half-axis: finer than a pixel of a picture of a bed.
+// Relative to the smallest half-axis: finer than a pixel of a picture of a bed.
 constexpr double kStillChordError = 0.005;
 
-// The smallest half-axis in POV-Ray's units. A shadow that is cast from nearer than 0.001 of them is left out: in metres, grains of
-// millimetres would have bright spots beside what they touch.
+// The smallest half-axis in POV-Ray's units. POV-Ray leaves out shadows that are cast from nearer than 0.001 units. In metres,
+// grains of millimetres would have bright spots beside their contacts.
 constexpr double kUnits = 10;
 
 template <typename Numbers>
@@ -39,7 +39,7 @@ std::string superellipsoid(const ConvexBody& body) {
   return "superellipsoid { " + vector(std::array{2 / body.delta, 2 / body.epsilon}) + " scale " + vector(body.half_axes) + " }";
 }
 
-/// A capsule along z, exact.
+/// An exact capsule along z.
 std::string capsule(const ConvexBody& body) {
   const double radius = body.half_axes[0];
   const std::string top = vector(std::array{0.0, 0.0, body.half_axes[2] - radius});
@@ -73,7 +73,7 @@ std::string shape(const GrainKind& kind) {
 
 Vector3 vector_of(const Point& point) { return {point[0], point[1], point[2]}; }
 
-/// Where the vertices of a part are. Walls without upper end are shown up to `top` (m).
+/// The positions of the vertices of a wall. Walls of infinite height are shown up to `top` (m).
 std::vector<Vector3> vertices_of(const WallPicture& wall, const WallPlace& place, double top) {
   std::vector<Vector3> vertices;
   vertices.reserve(wall.mesh.vertices.size());
@@ -86,13 +86,12 @@ std::vector<Vector3> vertices_of(const WallPicture& wall, const WallPlace& place
 
 struct Camera {
   Vector3 eye;
-  double line;       // m, half of the width of a line, which is some two pixels wide
-  std::string text;  // with the lights
+  double line;       // m, half the width of a line, which is about two pixels wide
+  std::string text;  // camera and lights
 };
 
-/// A part of the container: what carries grains is solid, and one sees through what surrounds them, of which a still of the last
-/// frame shows edges. Of a wall between the eye and the grains there are the edges alone: grains that lie on it stick through it by
-/// their overlap, and would show as spots.
+/// A wall. The floor, the dish and walls without drawn edges are solid; other walls are transparent and have edges. Walls between
+/// the eye and the grains have edges only: grains on them protrude by their overlap, and would show as spots.
 std::string container(const WallPicture& wall, const std::vector<Vector3>& vertices, const Camera& camera) {
   const bool is_solid = wall.edges.empty() || wall.name == "floor" || wall.name == "dish";
   const auto is_shown = [&](const std::array<unsigned int, 3>& corners) {
@@ -120,7 +119,7 @@ std::string container(const WallPicture& wall, const std::vector<Vector3>& verti
   return text;
 }
 
-/// A camera to the side and above, from which all grains and the points of `held` just fit into the picture, however wide it is.
+/// A camera to the side and above. All grains and the points of `held` just fit into the picture, whatever its aspect ratio.
 Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& held) {
   const Extent extent = extent_of(frame, radius);
   const Vector3 least = vector_of(extent.least), most = vector_of(extent.most), centre = 0.5 * (least + most);
@@ -128,7 +127,7 @@ Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& 
   const Vector3 back = Vector3(0.45, -0.75, 0.48).normalized();
   const Vector3 right = Vector3::UnitZ().cross(back).normalized(), up = back.cross(right);
   const Vector3 eye = centre + 2 * size * back;
-  // Half of the width and the height of the picture at a distance of 1.
+  // Half the width and the height of the picture at a distance of 1.
   double width = 0, height = 0;
   const auto hold = [&](const Vector3& point, double around) {
     const Vector3 from_eye = point - eye;
@@ -160,7 +159,7 @@ PovrayScene::PovrayScene(const std::filesystem::path& path, const Contents& cont
 void PovrayScene::finish(const std::string& /*summary*/) {
   const double radius = contents_.scene->largest_bounding_radius();
   const double top = extent_of(last_, radius).most[2];
-  std::vector<std::vector<Vector3>> vertices;  // of the parts
+  std::vector<std::vector<Vector3>> vertices;  // of each wall
   std::vector<Vector3> held;
   for (std::size_t i = 0; i < contents_.walls.size(); ++i) {
     const WallPicture& wall = contents_.walls[i];
@@ -169,11 +168,11 @@ void PovrayScene::finish(const std::string& /*summary*/) {
     if (is_box || wall.role == WallPicture::Role::Cell) held.insert(held.end(), last.begin(), last.end());
   }
   const Camera camera = camera_on(last_, radius, held);
-  // A ray goes through more walls than the five that POV-Ray follows by itself: behind them all is black.
+  // A ray passes more walls than POV-Ray's default of five; beyond them the picture would be black.
   std::string text = "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 50 }\n#declare Unit = " +
                      shortest(kUnits / contents_.scene->smallest_half_axis()) + "; // of POV-Ray, in a metre\n" + camera.text;
   for (std::size_t i = 0; i < contents_.walls.size(); ++i) {
-    if (last_.wall_places[i].scale == 0) continue;  // it is gone
+    if (last_.wall_places[i].scale == 0) continue;  // the wall was removed
     text += container(contents_.walls[i], vertices[i], camera);
   }
   for (std::size_t index = 0; index < contents_.scene->kinds.size(); ++index) {
@@ -188,7 +187,7 @@ void PovrayScene::finish(const std::string& /*summary*/) {
     if (!grain.is_present) continue;
     const auto& [w, x, y, z] = grain.quaternion;
     const supernormal::Matrix3 R = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
-    std::vector<double> rows;  // of POV-Ray's matrix: where the axes go, then the origin
+    std::vector<double> rows;  // of POV-Ray's matrix: the images of the axes, then of the origin
     for (const int axis : {0, 1, 2}) {
       const Vector3 column = contents_.scale(k) * R.col(axis);
       rows.insert(rows.end(), column.begin(), column.end());
@@ -201,7 +200,7 @@ void PovrayScene::finish(const std::string& /*summary*/) {
 
 std::vector<Rendering> PovrayScene::renderings() const {
   const std::string scene = path_.filename().string();
-  // One thread: with more of them the pixels depend on which thread came first.
+  // One thread: with several threads the pixels depend on their order.
   return {{"still.png", {"povray", "+I" + scene, "+O-", "+FN", "+W900", "+H560", "+A0.2", "-D", "+WT1"}, "", "povray"}};
 }
 

@@ -17,10 +17,10 @@
 namespace falling_particles {
 namespace {
 
-// Of the smallest half-axis of a grain: a few hundred triangles for most, and no corners to be seen.
+// Relative to the smallest half-axis of a grain: most grains have a few hundred triangles and no visible edges.
 constexpr double kAnimationChordError = 0.02;
 
-/// The buffer of a file and what is in it.
+/// Builds the glTF model.
 class Builder {
  public:
   explicit Builder(const Contents& contents) {
@@ -40,13 +40,13 @@ class Builder {
     model_.accessors[static_cast<std::size_t>(input_)].maxValues = {times.back()};
   }
 
-  /// The tracks of a node, whose numbers are those of all times; what does not move has none.
+  /// Adds the tracks of a node with the numbers of all times. Constant tracks are left out.
   void move(std::size_t node, const std::vector<float>& translations, const std::vector<float>& rotations) {
     animate(node, "translation", add_moving(translations, 3), "LINEAR");
     animate(node, "rotation", add_moving(rotations, 4), "LINEAR");
   }
 
-  /// A body or a lid is there or not, a cell shrinks from frame to frame.
+  /// Animates the scale. A grain or a lid appears or vanishes at once; a cell shrinks continuously.
   void resize(std::size_t node, const std::vector<float>& scales) {
     const bool vanishes = std::ranges::find(scales, 0) != scales.end();
     animate(node, "scale", add_moving(scales, 3), vanishes ? "STEP" : "LINEAR");
@@ -70,7 +70,7 @@ class Builder {
   }
 
  private:
-  /// A part of the buffer, which its accessors fill one after the other.
+  /// A section of the buffer, which its accessors fill one after the other.
   std::size_t add_view(int target) {
     tinygltf::BufferView view;
     view.buffer = 0;
@@ -97,7 +97,7 @@ class Builder {
     return static_cast<int>(model_.accessors.size() - 1);
   }
 
-  /// -1 where the numbers of the first frame hold for all.
+  /// -1 if all frames have the numbers of the first one.
   int add_moving(const std::vector<float>& numbers, std::size_t components) {
     const auto repeats = [&](std::size_t k) { return numbers[k] == numbers[k % components]; };
     bool is_still = true;
@@ -163,7 +163,7 @@ class Builder {
     return add_accessor(add_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), corners, TINYGLTF_TYPE_SCALAR);
   }
 
-  /// Triangles through which one sees, and edges as lines; viewers give triangles without normals their flat ones.
+  /// Adds a wall: transparent triangles, and edges as lines. Viewers compute flat normals for triangles without normals.
   void add_wall(const WallPicture& wall) {
     supernormal::Tessellation points;
     for (const auto& [x, y, z] : wall.mesh.vertices) points.points.emplace_back(x, y, z);
@@ -196,18 +196,18 @@ class Builder {
     const Colour colour = colour_of_kind(index);
     tinygltf::Material material;
     material.name = kind.name;
-    // glTF takes linear light.
+    // glTF colours are linear.
     for (std::size_t i = 0; i < 3; ++i) material.pbrMetallicRoughness.baseColorFactor[i] = std::pow(colour[i], 2.2);
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     model_.materials.push_back(std::move(material));
   }
 
-  /// A node per body, then one per part of the container, then the root above them.
+  /// Adds a node per grain, then a node per wall, then the root above them.
   void add_nodes(const Contents& contents) {
     tinygltf::Node root;
     root.name = contents.scene->name;
-    root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // glTF has y upwards
+    root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // in glTF y points upwards
     for (std::size_t grain = 0; grain < contents.kind_of_grain.size(); ++grain) {
       tinygltf::Node node;
       node.name = contents.kind(grain).name + " " + std::to_string(grain);
@@ -234,14 +234,15 @@ class Builder {
   tinygltf::Model model_;
   tinygltf::Animation animation_;
   std::size_t view_ = 0;  // of the animation
-  int input_ = 0;         // its times
+  int input_ = 0;         // the times of the animation
 };
 
 }  // namespace
 
 void SceneGlb::Track::add(const Point& position, const std::array<double, 4>& quaternion, double scale) {
   for (const double x : position) translations.push_back(static_cast<float>(x));
-  // w, x, y, z there; and of the two quaternions of an attitude the one on the side of the last, between which players interpolate.
+  // Quaternions are w, x, y, z there. Of the two quaternions of an orientation, takes the one nearer to the last: players
+  // interpolate between them.
   const auto& [w, x, y, z] = quaternion;
   const std::array<double, 4> now = {x, y, z, w};
   double along = 0;

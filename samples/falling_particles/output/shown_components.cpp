@@ -38,12 +38,12 @@ std::vector<ShownComponent> shown_components(const Frame& frame, const Contents&
     for (const Component& component : components) {
       ShownComponent& shown_component = shown.emplace_back(ShownComponent{
           index++, k, scaled(component.body, scale), state.position, state.quaternion, state.velocity, state.angular_velocity});
-      if (contents.kind(k).components.empty()) continue;  // to the last digit what the grain is
-      const Quaterniond attitude = to_quaternion(state.quaternion);
-      const Vector3d offset = attitude * (scale * to_vector(component.position));
-      const Quaterniond turned = attitude * to_quaternion(component.quaternion);
+      if (contents.kind(k).components.empty()) continue;  // exactly the state of the grain
+      const Quaterniond orientation = to_quaternion(state.quaternion);
+      const Vector3d offset = orientation * (scale * to_vector(component.position));
+      const Quaterniond rotation = orientation * to_quaternion(component.quaternion);
       shown_component.position = to_point(to_vector(state.position) + offset);
-      shown_component.quaternion = {turned.w(), turned.x(), turned.y(), turned.z()};
+      shown_component.quaternion = {rotation.w(), rotation.x(), rotation.y(), rotation.z()};
       shown_component.velocity = to_point(to_vector(state.velocity) + to_vector(state.angular_velocity).cross(offset));
     }
   }

@@ -1,4 +1,4 @@
-// The bodies of grains at one time, for formats that know one body a particle.
+// The convex bodies of grains at one time, for formats with one body per particle.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace falling_particles {
 
-/// A body of a grain at one time, in the world's frame, at its true size.
+/// A convex body of a grain at one time, in the world's frame, at its true size.
 struct ShownComponent {
-  std::size_t index;                 ///< its own for the whole run: of all parts, also of grains that are gone
+  std::size_t index;                 ///< unique in a run: counted over the components of all grains, removed ones included
   std::size_t grain;                 ///< index of the grain in the frame
   ConvexBody body;                   ///< scaled
   Point position;                    ///< m, of the body's origin
@@ -18,7 +18,7 @@ struct ShownComponent {
   Point angular_velocity;            ///< rad/s
 };
 
-/// In the order of the grains that are there: one of each, but all of a compound.
+/// In the order of the present grains: one body of each, but all components of a compound.
 std::vector<ShownComponent> shown_components(const Frame& frame, const Contents& contents);
 
 }  // namespace falling_particles

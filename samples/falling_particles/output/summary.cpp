@@ -11,7 +11,7 @@
 namespace falling_particles {
 namespace {
 
-/// Lines of the form key = value, with the values of all lines in one column and the comments in another.
+/// Lines of the form key = value, with aligned values and aligned comments.
 class Lines {
  public:
   explicit Lines(Times times) : times_(times) {}
@@ -25,10 +25,10 @@ class Lines {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", value);
     std::string number = buffer;
-    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float needs one, whatever the value
+    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float needs one of them
     add(key, number, comment);
   }
-  /// Seconds, or a share of them.
+  /// Adds seconds, or a fraction of seconds.
   void add_time(const char* key, double value, const char* comment = "") {
     if (times_ == Times::Told) add(key, value, comment);
   }
@@ -147,7 +147,7 @@ void add_end_state(Lines& lines, const Summary& s) {
   if (s.bed) add_bed(lines, *s.bed, "m, twice the mean height of the grains' volume");
 }
 
-/// Adds the mass flow beside that of Beverloo's law. Keys without a value (nothing discharged, say) are left out.
+/// Adds the mass flow and the mass flow of Beverloo's law. Keys without a value, as before any discharge, are left out.
 void add_mass_flow(Lines& lines, const Scene& scene, const Hopper& hopper, const Discharge& discharge) {
   const Charge& charge = *discharge.charge();
   const std::optional<double> flow = discharge.mass_flow();
@@ -245,8 +245,8 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add_time("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 
-/// Adds the cost of each effect that the scene names; rigid contact itself comes first. Seconds are those of its own passes and,
-/// by rows, its share of the solver's.
+/// Adds the cost of each effect that the scene names, rigid contact first. The seconds are the time of its own passes and, by rows,
+/// its share of the solver's time.
 void add_effect_costs(Lines& lines, const Summary& s) {
   unsigned long long rows = 0;
   for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;

@@ -13,7 +13,7 @@
 #include "grain_mesh.hpp"
 #include "palette.hpp"
 
-// The page as `npm run build` leaves it in page/ (view_page_html.S).
+// The page that `npm run build` makes in page/ (view_page_html.S).
 extern "C" const char kViewPageHtml[], kViewPageHtmlEnd[];
 
 namespace falling_particles {
@@ -21,14 +21,14 @@ namespace {
 
 using nlohmann::json;
 
-// What the page says where the run goes.
+// The placeholder of the run in the page.
 constexpr std::string_view kPlace = "<!-- the run -->";
 
-// Bytes: with them the page of 1000 bodies and 150 frames stays below 8 MB.
+// Bytes: with this budget the page of 1000 grains and 150 frames is smaller than 8 MB.
 constexpr std::size_t kContactBudget = 2'500'000;
 
-// Of the smallest half-axis of a grain. The first one shows no corners; the page takes coarser ones while it moves, where the finer
-// ones are too slow.
+// Relative to the smallest half-axis of a grain. The first mesh shows no edges. While the page moves, it uses the coarser meshes if
+// the finer ones are too slow.
 constexpr std::array kChordErrors = {0.02, 0.1, 0.4};
 
 template <typename Number>
@@ -93,7 +93,7 @@ json describe(const WallPicture& wall) {
           {"moves", wall.role == WallPicture::Role::Moving}};
 }
 
-/// A script that holds text for another one. In JSON a '<', which might end the script, can be written otherwise.
+/// A script element with data for another script. In JSON a '<', which might end the element, is escaped.
 void write_json(std::ostream& stream, const json& value) {
   std::string text = value.dump();
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");

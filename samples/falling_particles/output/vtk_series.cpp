@@ -13,7 +13,7 @@
 namespace falling_particles {
 namespace {
 
-/// An array with a value for each of `count` points, which numbers(k) gives as a std::array.
+/// An array with the value numbers(k), a std::array, for each of `count` points.
 template <typename Numbers>
 std::string array(std::string_view name, std::string_view type, std::size_t count, const Numbers& numbers) {
   constexpr std::size_t kComponents = std::tuple_size_v<std::remove_cvref_t<decltype(numbers(0))>>;
@@ -26,7 +26,7 @@ std::string array(std::string_view name, std::string_view type, std::size_t coun
   return text + "</DataArray>\n";
 }
 
-/// Cells of one kind, each with as many corners.
+/// Cells of one kind, each with N vertices.
 template <std::size_t N>
 std::string cells(std::string_view kind, const std::vector<std::array<unsigned int, N>>& corners) {
   const std::string tag(kind);
@@ -48,7 +48,7 @@ std::string poly_data(std::size_t points, CellCounts counts, const std::string& 
          "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-/// Points with data, each a cell of its own, so that filters for cells see them, too.
+/// Points with data. Each is a cell of its own, so that filters for cells also work.
 std::string cloud(std::size_t count, const std::string& points, const std::string& data) {
   std::vector<std::array<unsigned int, 1>> corners(count);
   for (std::size_t k = 0; k < count; ++k) corners[k] = {static_cast<unsigned int>(k)};
@@ -56,7 +56,7 @@ std::string cloud(std::size_t count, const std::string& points, const std::strin
                    "<PointData>\n" + data + "</PointData>\n<Points>\n" + points + "</Points>\n" + cells("Verts", corners));
 }
 
-/// The parts of a container that are there, in one piece.
+/// The present walls, as one piece.
 std::string container_of(const std::vector<WallPicture>& walls, const std::vector<WallPlace>& places) {
   std::vector<Point> points;
   std::vector<std::array<unsigned int, 2>> edges;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kChordError = 0.01;    // of the smallest half-axis
 constexpr unsigned int kSegments = 64;  // of a circle
-constexpr double kSharp = 0.87;         // cosine of 30 degrees between two triangles, above which their edge is not drawn
+constexpr double kSharp = 0.87;         // cosine of 30 degrees between two triangles; if it is larger, their edge is not drawn
 
 std::array<float, 3> vertex(const Vector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -81,7 +81,7 @@ Vector3 normal_of(const Mesh& mesh, const std::array<unsigned int, 3>& triangle)
   return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
 }
 
-/// The edges of one triangle alone, or between two that are bent.
+/// The edges that have one triangle only, or two triangles with an angle between them.
 std::vector<std::array<unsigned int, 2>> sharp_edges(const Mesh& mesh) {
   std::map<std::array<unsigned int, 2>, std::vector<Vector3>> normals;
   for (const auto& triangle : mesh.triangles) {

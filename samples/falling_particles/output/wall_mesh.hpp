@@ -1,4 +1,4 @@
-// What pictures show of a part.
+// The mesh of a wall in pictures.
 #pragma once
 
 #include "model/wall.hpp"
@@ -6,8 +6,8 @@
 
 namespace falling_particles {
 
-/// The surface of a part and its sharp edges: of one that moves in its own frame, of one that stands where it is. A plane is shown
-/// as a disc around its position if it says so, otherwise as a square with sides of `extent` (m).
+/// The surface of a wall and its sharp edges, for a moving wall in its own frame, for a standing wall in the world's. A plane is a
+/// disc around its position if it has a shown_radius, otherwise a square with sides of `extent` (m).
 WallPicture picture_of(const Wall& wall, double extent);
 
 }  // namespace falling_particles
