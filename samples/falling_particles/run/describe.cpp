@@ -12,7 +12,7 @@ namespace {
 
 class Lines {
  public:
-  /// The name of the first of several lines in a row is enough.
+  /// Adds a line. Of successive lines with the same name, only the first shows it.
   void add(const std::string& name, const std::string& text) {
     constexpr std::size_t kWidth = 14;
     std::string start = name == last_ ? "" : name;

@@ -24,7 +24,7 @@ struct SurfacePoint {
   Vector3 normal;
 };
 
-/// The corners of the triangles that show a part, where it starts.
+/// The vertices of the triangles of a wall at its start, with the normals of the triangles.
 std::vector<SurfacePoint> surface_of(const Wall& wall, double extent) {
   const Mesh mesh = picture_of(wall, extent).mesh;
   const auto corner = [&](unsigned int index) {
@@ -39,7 +39,8 @@ std::vector<SurfacePoint> surface_of(const Wall& wall, double extent) {
   return points;
 }
 
-/// m/s, largest at any time.
+/// m/s, the largest normal velocity at any time. If `turns`, the wall also rotates, and the direction of a velocity relative to the
+/// wall changes.
 double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool turns) {
   const auto along = [&](const Vector3& velocity) { return turns ? velocity.norm() : std::abs(point.normal.dot(velocity)); };
   if (const auto* translation = std::get_if<Translation>(&motion.kind)) return along(translation->velocity);
@@ -53,7 +54,7 @@ double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool tu
   return 0;  // a conveyor stands
 }
 
-/// m, the way of a driven part in its first step, from rest and against nothing.
+/// m, the displacement of a driven wall in its first step, from rest without resistance.
 double first_way_of(const Drive& drive, double step) {
   return step * step * std::abs(drive.force) / (drive.mass + step * drive.damping);
 }
@@ -66,7 +67,8 @@ std::string moves_too_far(const std::string& who, double way, const Scene& scene
   return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
 }
 
-// What grains that look ahead fall onto, they meet in time.
+// Adds a doubt about the height of the start. Grains that look ahead are exempt, since they do not pass through what they fall
+// onto.
 void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
   if (scene.looks_ahead()) return;
   const std::optional<Fall> fall = fall_from_start(scene);
@@ -77,7 +79,7 @@ void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
                    rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
 }
 
-/// m, by which a grain under its own weight sinks into what carries it; infinite where overlaps are never corrected.
+/// m, the depth to which a grain sinks into its support under its own weight; infinite if overlaps are never corrected.
 double rest_depth_of(const GrainCount& entry, const Scene& scene) {
   const auto* const gravity = scene.gravity();
   const double weight =
@@ -85,7 +87,7 @@ double rest_depth_of(const GrainCount& entry, const Scene& scene) {
   return scene.solver.erp == 0 ? INFINITY : scene.solver.cfm * weight * scene.time.step / scene.solver.erp;
 }
 
-/// Contacts that a scene names as soft have a stiffness of their own.
+/// Whether the scene has contacts with a stiffness of their own.
 bool has_soft_contacts(const Scene& scene) {
   return std::ranges::any_of(scene.effects, [](const supernormal::effects::Effect& effect) {
     return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
@@ -117,7 +119,7 @@ void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
-/// What moves or is driven from the end of the run on stands.
+/// Adds a doubt about a motion or drive that starts at the end of the run or later.
 void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
   const auto is_late = [&](double from) { return from >= scene.time.duration; };
   if (std::ranges::none_of(wall.motions, [&](const WallMotion& motion) { return is_late(motion.from); }) &&
@@ -128,7 +130,7 @@ void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& do
                    shortest(scene.time.duration) + " s, or later");
 }
 
-/// m, the least of the lengths that describe a solid; infinite for the others.
+/// m, the least length of a solid; infinite for planes and meshes.
 double thinnest(const WallShape& shape) {
   if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
   if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
@@ -189,7 +191,7 @@ std::optional<Fall> fall_from_start(const Scene& scene) {
 // README.md, "Contacts before overlap", has the measurement.
 std::optional<double> step_for_look_ahead(const Scene& scene) {
   constexpr double kFlat = 4;         // least exponent of grains that lie on faces
-  constexpr double kStep = 1.0 / 10;  // of the time in which a grain would fall by half of its smallest half-axis
+  constexpr double kStep = 1.0 / 10;  // of the time in which a grain falls by half its smallest half-axis
   constexpr double kStepOfFlat = 1.0 / 25;
   const auto* const gravity = scene.gravity();
   if (!scene.looks_ahead() || has_soft_contacts(scene) || gravity == nullptr) return std::nullopt;

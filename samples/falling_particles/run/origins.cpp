@@ -19,11 +19,11 @@
 namespace falling_particles {
 namespace {
 
-/// Places from which grains of the start, or of a feeder, look around.
+/// Positions of grains of the start or of a feeder, from which rays are cast.
 struct Lookout {
   std::string name;  // of a feeder; empty for the start
   std::vector<Point> places;
-  bool falls;  // straight down, where there is gravity
+  bool falls;  // straight down, under gravity
 
   std::string grains(std::size_t count) const {
     if (!name.empty()) return "grains that feeder \"" + name + "\" brings are";
@@ -35,13 +35,13 @@ Lookout start_of(const Scene& scene) {
   Random random(scene.seed);
   Lookout origin{"", {}, true};
   for (const Placement& placement : place(scene, random)) {
-    constexpr std::size_t kEnough = 1000;  // they are in random order
+    constexpr std::size_t kEnough = 1000;  // the placements are in random order
     if (origin.places.size() < kEnough) origin.places.push_back(placement.position);
   }
   return origin;
 }
 
-/// Where grains fall, if they do: of unit length.
+/// The unit vector of gravity; empty without gravity.
 std::optional<Vector3> down_in(const Scene& scene) {
   const auto* const gravity = scene.gravity();
   if (gravity == nullptr || gravity->acceleration.isZero(0)) return std::nullopt;
@@ -57,7 +57,7 @@ double smallest_radius(const Feeder& feeder, const Scene& scene) {
   return least;
 }
 
-/// The outermost centres of grains in the region, and its middle.
+/// The outermost centres of grains in the feeder's region, and its middle.
 Lookout origin_of(const Feeder& feeder, const Scene& scene) {
   Lookout origin{feeder.name, {}, true};
   const double radius = smallest_radius(feeder, scene);
@@ -73,7 +73,7 @@ Lookout origin_of(const Feeder& feeder, const Scene& scene) {
   return origin;
 }
 
-/// Where a grain may be held: below and beside it; on all sides without gravity.
+/// The directions in which a wall may support a grain: below and beside it; on all sides without gravity.
 std::vector<Vector3> directions_of(const Scene& scene) {
   const std::optional<Vector3> gravity = down_in(scene);
   const Vector3 down = gravity.value_or(-Vector3::UnitZ());
@@ -84,7 +84,7 @@ std::vector<Vector3> directions_of(const Scene& scene) {
 }
 
 void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
-  std::map<std::size_t, std::size_t> counts;  // of places, by part
+  std::map<std::size_t, std::size_t> counts;  // of positions, by wall
   for (const Point& place : origin.places) {
     std::set<std::size_t> walls;
     for (const Vector3& direction : directions_of(scene)) {
@@ -121,7 +121,8 @@ void add_sunk(const Scene& scene, const Lookout& origin, std::vector<std::string
   doubts.push_back(origin.grains(origin.places.size()) + " within sinks, which take them at once");
 }
 
-/// Parts that stand outside a box, whose walls have no end. (It is not a periodic one, which has images of its parts.)
+/// Adds doubts about walls that stand outside a box, whose walls are infinitely high. (A periodic box is left out, since it has
+/// images of its walls.)
 void add_unreached(const World& world, std::vector<std::string>& doubts) {
   const Scene& scene = world.scene();
   const auto* const box = std::get_if<Box>(&scene.container);
@@ -144,9 +145,9 @@ std::string name_of(dGeomID solid, const World& world) {
   return "part \"" + world.walls()->wall(static_cast<std::size_t>(found - walls.begin())).name + '"';
 }
 
-/// The names of the solids that are in the way of the grain at every place of many; none if one is free.
+/// The names of the solids that obstruct a grain at many random places; none if one place is free.
 std::set<std::string> names_in_the_way(const Feeder& feeder, std::size_t kind, const World& world) {
-  constexpr int kTries = 512;  // a region of which a hundredth is free is found full in one of 170
+  constexpr int kTries = 512;  // in a region that is free to a hundredth, all fail once in 170 cases
   const GrainCount& fed = world.scene().kinds[kind];
   const Candidate candidate(fed.kind, fed.smallest_scale());
   const Neighbourhood walls(world, feeder.region);
@@ -162,7 +163,7 @@ std::set<std::string> names_in_the_way(const Feeder& feeder, std::size_t kind, c
   return found;
 }
 
-/// Whether there is one.
+/// Adds a doubt about a feeder whose region is full at the start. Returns whether it is.
 bool add_full(const World& world, const Feeder& feeder, std::vector<std::string>& doubts) {
   for (const FedKind& fed : feeder.mixture) {
     std::string names;

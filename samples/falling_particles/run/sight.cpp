@@ -51,8 +51,8 @@ std::optional<Sight::Seen> Sight::look(const Point& from, const Vector3& directi
   return seen;
 }
 
-// Of the two windings of a triangle of a two-sided mesh ODE would look at one for the closest hit, and that may be the one that the
-// mesh then leaves out.
+// For the closest hit only, ODE would test one of the two windings of a triangle of a two-sided mesh, possibly the one that the
+// mesh then rejects. So all hits are collected.
 std::optional<dContactGeom> Sight::hit_of(dGeomID solid) const {
   constexpr int kMostHits = 64;
   std::array<dContactGeom, kMostHits> hits;

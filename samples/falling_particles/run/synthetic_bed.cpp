@@ -1,4 +1,4 @@
-#include "made_up_bed.hpp"
+#include "synthetic_bed.hpp"
 
 #include <supernormal/supernormal.h>
 
@@ -16,16 +16,16 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kPairsPerGrain = 3.5;  // whose bounding boxes meet in a bed of mixed grains
-constexpr double kRest = 0.1;           // of a step: broad phase, contact joints, watches
-constexpr double kPatience = 0.5;       // s, for each of the two times
+constexpr double kPairsPerGrain = 3.5;  // pairs whose bounding boxes meet, in a bed of mixed grains
+constexpr double kRest = 0.1;           // of a step: broad phase, contact joints, monitors
+constexpr double kLongestTiming = 0.5;  // s, for each of the two timings
 
-/// Runs `work` again and again, at least three times; the least of its seconds.
+/// Runs `work` at least three times, and returns the least of its times (s).
 template <typename Work>
 double time_of(const Work& work) {
   double least = INFINITY;
   const double start = processor_time();
-  for (int i = 0; i < 3 || (i < 100 && processor_time() - start < kPatience); ++i) {
+  for (int i = 0; i < 3 || (i < 100 && processor_time() - start < kLongestTiming); ++i) {
     const double before = processor_time();
     work();
     least = std::min(least, processor_time() - before);
@@ -33,7 +33,7 @@ double time_of(const Work& work) {
   return least;
 }
 
-/// The kinds of the scene in the ratio of their numbers, or of what its feeders bring.
+/// The relative numbers of the kinds in the scene, or in the mixtures of its feeders.
 std::vector<double> shares_of_kinds(const Scene& scene) {
   std::vector<double> shares;
   for (const GrainCount& entry : scene.kinds) shares.push_back(entry.count);
@@ -44,7 +44,7 @@ std::vector<double> shares_of_kinds(const Scene& scene) {
   return shares;
 }
 
-/// In a row along x, none near another.
+/// Places grains in a row along x, far apart.
 std::vector<Placement> row_of(const Scene& scene, int grains) {
   const std::vector<double> shares = shares_of_kinds(scene);
   double sum = 0;
@@ -53,7 +53,7 @@ std::vector<Placement> row_of(const Scene& scene, int grains) {
   std::vector<double> given(shares.size(), 0);
   std::vector<Placement> row;
   for (int i = 0; i < grains; ++i) {
-    std::size_t next = 0;  // the kind that is most behind
+    std::size_t next = 0;  // the kind that is most below its share
     for (std::size_t kind = 0; kind < shares.size(); ++kind) {
       const auto behind = [&](std::size_t k) { return shares[k] / sum * (i + 1) - given[k]; };
       if (behind(kind) > behind(next)) next = kind;
@@ -67,7 +67,7 @@ std::vector<Placement> row_of(const Scene& scene, int grains) {
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-/// A point of contact halfway between two grains.
+/// A contact point halfway between two grains.
 dContactGeom contact_of(const Grain& one, const Grain& other) {
   dContactGeom contact{};
   const Point a = one.position();
@@ -112,7 +112,7 @@ double gap_of(const Grain& one, const Grain& other) {
   return gap;
 }
 
-/// Moves the grain along x until it touches the other.
+/// Moves the grain `other` along x until it touches `one`.
 void bring_together(const Grain& one, const Grain& other) {
   for (int i = 0; i < 5; ++i) {
     const Point p = other.position();
@@ -140,12 +140,12 @@ double time_pair(const World& world) {
 }  // namespace
 
 BedTimes time_bed(const Scene& scene, int grains) {
-  Scene still = scene;  // nothing but its grains and effects
+  Scene still = scene;  // only its grains and effects
   still.container = Box{{1, 1}};
   still.walls.clear();
   still.feeders.clear();
   still.periodic = {};
-  std::erase_if(still.effects,  // awake
+  std::erase_if(still.effects,  // all grains stay awake
                 [](const auto& effect) { return std::holds_alternative<supernormal::effects::AutoDisable>(effect); });
   World world(still, row_of(scene, grains));
   BedTimes times;
