@@ -1,5 +1,5 @@
-// Drops real grains into a container (a box, a hopper, a terrain), or packs them in a periodic cell, and measures the result: it
-// reads a scene file and writes trajectories and a summary.
+// Drops real grains into a container, or packs them in a periodic cell, and measures the result. It reads a scene file and writes
+// tables, pictures and a summary.
 
 #include <ode/ode.h>
 
@@ -13,9 +13,9 @@
 
 #include "base/input_error.hpp"
 #include "base/interrupt.hpp"
-#include "input/list_parts.hpp"
 #include "input/list_population.hpp"
 #include "input/list_sections.hpp"
+#include "input/list_walls.hpp"
 #include "input/load_effects.hpp"
 #include "model/scene.hpp"
 #include "observe/measurement.hpp"
@@ -56,7 +56,7 @@ void list() {
   std::puts("  from, until: s, of the first and the last sample, the whole run without them\n");
   std::fputs(falling_particles::list_measurements().c_str(), stdout);
   std::puts("\nWalls besides those of its container, which stand, move or are driven, are its sections [[part]].\n");
-  std::fputs(falling_particles::list_parts().c_str(), stdout);
+  std::fputs(falling_particles::list_walls().c_str(), stdout);
   std::puts("\nIt writes these tables, besides those of its measurements. --tables SCENE prints the columns of a scene's.\n");
   std::fputs(falling_particles::list_tables().c_str(), stdout);
   std::puts("\nGrains come from its sections [[feeder]], and go into its sections [[sink]].\n");
@@ -67,7 +67,7 @@ void print_tables(const std::string& scene_path, const std::vector<std::string>&
   std::fputs(tables_of(falling_particles::load_scene(scene_path, overrides)).c_str(), stdout);
 }
 
-/// All that results depend on besides a run's files and options.
+/// Everything that results depend on besides the files and options of a run.
 std::string version() {
   return std::string("falling_particles ") + FALLING_PARTICLES_VERSION + ", ODE with " +
          (sizeof(dReal) == sizeof(double) ? "double" : "single") + " precision";
@@ -104,7 +104,7 @@ ExitCode simulate(const Options& options) {
   falling_particles::catch_interrupts();
   const falling_particles::RunEnd end = falling_particles::run(scene, options.run);
   std::fflush(stdout);
-  falling_particles::catch_interrupts();  // again: the results are in place, and a Ctrl-C ends only the drawing
+  falling_particles::catch_interrupts();  // again: the results are in place, and Ctrl-C ends only the drawing
   falling_particles::render(end.renderings, end.folder, options.run.quiet);
   if (end.interrupted || falling_particles::interrupted()) return Interrupted;
   return end.leaked && options.check_leaks ? Leaked : Done;
@@ -153,7 +153,7 @@ ExitCode run_program(int argc, char** argv) {
     if (scene->count() + checked->count() + tabled->count() == 0) throw CLI::RequiredError("--scene");
   } catch (const CLI::ExtrasError&) {
     std::vector<std::string> unknown = app.remaining();
-    std::ranges::reverse(unknown);  // ExtrasError tells them the other way round
+    std::ranges::reverse(unknown);  // ExtrasError lists them in reverse
     app.exit(CLI::ExtrasError(unknown));
     return BadInput;
   } catch (const CLI::ParseError& error) {

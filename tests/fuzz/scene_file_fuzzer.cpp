@@ -42,12 +42,12 @@ bool asks_for_a_large_landscape(std::string_view text) {
 }
 
 void check(const Scene& scene) {
-  expect(!scene.grains.empty() && scene.bodies() >= 1 && scene.bodies() <= 1'000'000, "a scene has grains");
-  for (const GrainCount& grain : scene.grains) {
-    expect(grain.count >= 0, "no count is negative");
-    expect(grain.grain.smallest_half_axis() > 0 && std::isfinite(grain.grain.bounding_radius()), "grains have a size");
-    expect(grain.grain.rounding >= 0 && grain.grain.rounding < grain.grain.smallest_half_axis(), "a rounding fits in the grain");
-    expect(grain.grain.density > 0 && std::isfinite(grain.grain.density), "grains have a density");
+  expect(!scene.kinds.empty() && scene.grains_at_start() >= 1 && scene.grains_at_start() <= 1'000'000, "a scene has grains");
+  for (const GrainCount& entry : scene.kinds) {
+    expect(entry.count >= 0, "no count is negative");
+    expect(entry.kind.smallest_half_axis() > 0 && std::isfinite(entry.kind.bounding_radius()), "grains have a size");
+    expect(entry.kind.rounding >= 0 && entry.kind.rounding < entry.kind.smallest_half_axis(), "a rounding fits in the grain");
+    expect(entry.kind.density > 0 && std::isfinite(entry.kind.density), "grains have a density");
   }
   expect(scene.time.steps() >= 1 && scene.time.steps() <= 1'000'000'000, "there are steps to take");
   expect(scene.time.steps_per_frame() >= 1 && scene.time.steps_per_frame() <= scene.time.steps(), "there are frames");

@@ -20,16 +20,16 @@ inline Scene scene_of(const std::string& text, const std::vector<std::string>& o
 }
 
 /// A ball of 1 cm, kg and m.
-inline Grain ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2500, "test"}; }
+inline GrainKind ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2500, "test"}; }
 
-inline Scene scene_of(Container container, std::vector<GrainCount> grains) {
+inline Scene scene_of(Container container, std::vector<GrainCount> kinds) {
   namespace fx = supernormal::effects;
   double smallest = 1;
-  for (const GrainCount& kind : grains) smallest = std::min(smallest, kind.grain.smallest_half_axis());
+  for (const GrainCount& entry : kinds) smallest = std::min(smallest, entry.kind.smallest_half_axis());
   return {.name = "test",
           .seed = 1,
           .container = std::move(container),
-          .grains = std::move(grains),
+          .kinds = std::move(kinds),
           .drop = {0.001, 0.02},
           .time = {2, 5e-4, 0.1},
           .solver = {40, 0.2, 1e-10},
@@ -37,6 +37,6 @@ inline Scene scene_of(Container container, std::vector<GrainCount> grains) {
                       fx::SurfaceLayer{2e-3 * smallest}}};
 }
 
-inline Grain lentil() { return {"lentil", {3.36e-3, 3.36e-3, 1.29e-3}, 2, 2, 0, 1170, "test"}; }
+inline GrainKind lentil() { return {"lentil", {3.36e-3, 3.36e-3, 1.29e-3}, 2, 2, 0, 1170, "test"}; }
 
 }  // namespace falling_particles

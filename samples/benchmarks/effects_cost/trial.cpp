@@ -21,8 +21,8 @@ std::vector<Placement> settle(const Scene& scene) {
   falling_particles::Stepper stepper(world, scene);
   for (int i = 0; i < scene.time.steps(); ++i) stepper.step();
   for (std::size_t i = 0; i < placements.size(); ++i) {
-    placements[i].position = world.bodies()[i].position();
-    placements[i].quaternion = world.bodies()[i].quaternion();
+    placements[i].position = world.grains()[i].position();
+    placements[i].quaternion = world.grains()[i].quaternion();
   }
   return placements;
 }

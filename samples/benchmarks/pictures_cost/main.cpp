@@ -99,7 +99,7 @@ void measure(const Options& options) {
   }
   for (Candidate& candidate : all) candidate.finishing = seconds_of([&] { candidate.picture->finish(""); });
 
-  std::printf("%d bodies, %d steps, %d frames\n\n", scene.bodies(), steps, frames);
+  std::printf("%d bodies, %d steps, %d frames\n\n", scene.grains_at_start(), steps, frames);
   std::printf("| | processor time, s | at the end, s | of the run | MB |\n|---|---:|---:|---:|---:|\n");
   const double run = stepping + writing;
   std::printf("| steps | %.2f | | | |\n| trajectory.csv | %.3f | | %.1f %% | %.2f |\n", stepping, writing, 100 * writing / run,

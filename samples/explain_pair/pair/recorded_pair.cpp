@@ -22,7 +22,7 @@
 namespace explain_pair {
 namespace {
 
-using falling_particles::Grain;
+using falling_particles::GrainKind;
 using falling_particles::InputError;
 using falling_particles::Scene;
 using falling_particles::shortest;
@@ -120,12 +120,12 @@ class Grains {
   }
 
   PlacedBody body(std::size_t index) const {
-    const Grain& grain = kind_of(index).grain;
-    std::string text = "body " + std::to_string(index) + ": " + grain.name;
-    if (!grain.parts.empty()) {
+    const GrainKind& kind = entry_of(index).kind;
+    std::string text = "body " + std::to_string(index) + ": " + kind.name;
+    if (!kind.components.empty()) {
       throw InputError("--bodies: " + text + " is a compound; allowed: grains of one convex body");
     }
-    return {text, falling_particles::shape_of(grain.all_parts().front().body, scale_of(index)), bodies_.at(index).pose};
+    return {text, falling_particles::shape_of(kind.all_components().front().body, scale_of(index)), bodies_.at(index).pose};
   }
 
   /// The body with the smallest gap to the body `first`.
@@ -151,24 +151,24 @@ class Grains {
  private:
   double scale_of(std::size_t index) const {
     if (index < scales_.size()) return scales_[index];
-    const auto& kind = kind_of(index);
-    if (kind.size) {
+    const auto& entry = entry_of(index);
+    if (entry.size) {
       throw InputError(
-          "--bodies: body " + std::to_string(index) + ": " + kind.grain.name +
+          "--bodies: body " + std::to_string(index) + ": " + entry.kind.name +
           " came from a feeder, and a trajectory does not tell its size; allowed: runs in which such kinds are not fed");
     }
     return 1;
   }
-  double radius_of(std::size_t index) const { return scale_of(index) * kind_of(index).grain.bounding_radius(); }
+  double radius_of(std::size_t index) const { return scale_of(index) * entry_of(index).kind.bounding_radius(); }
 
-  const falling_particles::GrainCount& kind_of(std::size_t index) const {
+  const falling_particles::GrainCount& entry_of(std::size_t index) const {
     const std::string& name = bodies_.at(index).grain;
-    const auto kind = std::ranges::find_if(scene_.grains, [&](const auto& one) { return one.grain.name == name; });
-    if (kind == scene_.grains.end()) {
+    const auto entry = std::ranges::find_if(scene_.kinds, [&](const auto& one) { return one.kind.name == name; });
+    if (entry == scene_.kinds.end()) {
       throw InputError("\"" + recording_.trajectory_path + "\" has a grain \"" + name + "\", which \"" + recording_.scene_path +
                        "\" has not; allowed: the trajectory of a run of this scene");
     }
-    return *kind;
+    return *entry;
   }
 
   const Recording& recording_;

@@ -1,4 +1,4 @@
-// Values as bytes, and back.
+// Conversion of values to bytes, and back.
 #pragma once
 
 #include <cereal/archives/binary.hpp>
@@ -14,7 +14,7 @@
 
 namespace falling_particles {
 
-/// Takes values: numbers, text, lists and whatever has a function serialize(archive).
+/// Accepts numbers, text, lists and any type that has serialize(archive).
 class Writer {
  public:
   template <typename... Values>
@@ -28,7 +28,7 @@ class Writer {
   cereal::BinaryOutputArchive archive_{stream_};
 };
 
-/// Gives them back in the same order. Throws std::exception where the bytes end too early.
+/// Returns the values in the same order. Throws std::exception if the bytes end too early.
 class Reader {
  public:
   explicit Reader(const std::string& bytes) : stream_(bytes, std::ios::binary) {}

@@ -10,7 +10,7 @@ std::string to_base64(std::string_view bytes) {
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t start = 0; start < bytes.size(); start += 3) {
-    // Three bytes are four digits of six bits; what is missing at the end counts as zero and is written as '='.
+    // Three bytes are four digits of six bits. Missing bytes at the end count as zero and are written as '='.
     std::uint32_t bits = 0;
     for (std::size_t i = start; i < start + 3; ++i)
       bits = bits << 8U | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U);

@@ -1,4 +1,4 @@
-// Bytes as text.
+// Base 64: bytes as text.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace falling_particles {
 
-/// RFC 4648, section 4.
+/// Encodes bytes as base 64 (RFC 4648, section 4).
 std::string to_base64(std::string_view bytes);
 
 }  // namespace falling_particles

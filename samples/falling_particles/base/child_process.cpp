@@ -20,7 +20,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr int kPatience = 100;  // ms, between two looks for a Ctrl-C
+constexpr int kPollInterval = 100;  // ms, between two checks for Ctrl-C
 
 class Descriptor {
  public:
@@ -41,7 +41,7 @@ class Descriptor {
   int number_;
 };
 
-/// Reads what is there, up to a buffer; false at the end.
+/// Reads the available bytes, up to a buffer. Returns false at the end.
 bool read_some(const Descriptor& from, std::string& text) {
   std::array<char, 65536> buffer;
   const ssize_t count = read(from.number(), buffer.data(), buffer.size());
@@ -50,7 +50,7 @@ bool read_some(const Descriptor& from, std::string& text) {
   return count > 0;
 }
 
-/// A file without a name, in memory.
+/// An anonymous file in memory.
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : file_(memfd_create(name, MFD_CLOEXEC)) {}
@@ -87,14 +87,14 @@ class FileActions {
   posix_spawn_file_actions_t actions_{};
 };
 
-/// Reads the program's output to its end.
+/// Reads the program's output until it ends.
 std::string read_output(const Descriptor& output, pid_t program) {
   std::string text;
   pollfd wait{output.number(), POLLIN, 0};
   bool is_told = false;
   while (true) {
     if (interrupted() && !is_told) is_told = kill(program, SIGTERM) == 0;
-    if (poll(&wait, 1, kPatience) > 0 && !read_some(output, text)) return text;
+    if (poll(&wait, 1, kPollInterval) > 0 && !read_some(output, text)) return text;
   }
 }
 
@@ -112,7 +112,7 @@ ProgramEnd run_program(const std::vector<std::string>& command, const std::files
   actions.give(standard_input.number(), STDIN_FILENO);
   actions.give(output_of_program.number(), STDOUT_FILENO);
   actions.give(messages.number(), STDERR_FILENO);
-  std::vector<std::string> words = command;  // posix_spawn takes what it does not change as variable
+  std::vector<std::string> words = command;  // a copy: posix_spawn takes char* const[] although it changes nothing
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());

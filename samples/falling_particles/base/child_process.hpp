@@ -1,4 +1,4 @@
-// Other programs.
+// Running other programs.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +7,16 @@
 
 namespace falling_particles {
 
-/// How a program ended.
+/// The outcome of a program.
 struct ProgramEnd {
-  bool is_installed;     ///< whether PATH has the program; if not, the rest is empty
+  bool is_installed;     ///< whether PATH has the program; otherwise the other members are empty
   bool has_succeeded;    ///< exit code 0
   std::string output;    ///< its stdout
-  std::string messages;  ///< its stderr; of a program that has not succeeded, with how it ended
+  std::string messages;  ///< its stderr; after a failure also how the program ended
 };
 
-/// Runs a program of PATH, without a shell, in `folder` with `input` as its stdin, and waits. After Ctrl-C (interrupt.hpp) the
-/// program is ended. Throws std::runtime_error when the machine cannot start programs.
+/// Runs a program of PATH without a shell, in `folder`, with `input` as its stdin, and waits for it. Ctrl-C (interrupt.hpp) ends
+/// the program. Throws std::runtime_error when the machine cannot start programs.
 ProgramEnd run_program(const std::vector<std::string>& command, const std::filesystem::path& folder, const std::string& input);
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-// The files of a run with checkpoints, which are in its folder until it has ended.
+// The files of a run with checkpoints. They are in its folder until the run has ended.
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 namespace falling_particles {
 
 inline constexpr std::string_view kCheckpointFile = "checkpoint";
-inline constexpr std::string_view kNewCheckpointFile = "checkpoint.new";  ///< one that is being written
+inline constexpr std::string_view kNewCheckpointFile = "checkpoint.new";  ///< the checkpoint that is being written
 inline constexpr std::string_view kFrameLogFile = "checkpoint.frames";
 inline constexpr std::array kCheckpointFiles = {kCheckpointFile, kNewCheckpointFile, kFrameLogFile};
 
-/// What a user can do where a run cannot go on from what is there.
+/// The advice to a user when a run cannot be resumed.
 inline constexpr const char* kStartAnew =
     "; without --resume the run starts anew, and removes this unless other files are beside it";
 

@@ -11,12 +11,12 @@ struct XXH3_state_s;
 
 namespace falling_particles {
 
-/// XXH3 with 128 bits: tells texts apart unless somebody makes them alike on purpose.
+/// An XXH3 hash of 128 bits. It distinguishes texts unless somebody makes them collide on purpose.
 using Hash = std::array<std::uint64_t, 2>;
 
 Hash hash_of(std::string_view bytes);
 
-/// The hash of bytes that come piece by piece.
+/// Hashes bytes that arrive piece by piece.
 class RunningHash {
  public:
   RunningHash();
@@ -30,7 +30,7 @@ class RunningHash {
   std::unique_ptr<XXH3_state_s, Free> state_;
 };
 
-/// Of a file's content. Throws std::runtime_error when it cannot be read.
+/// Hashes the content of a file. Throws std::runtime_error when the file cannot be read.
 Hash hash_of_file(const std::filesystem::path& path);
 
 }  // namespace falling_particles

@@ -17,7 +17,7 @@ extern "C" void raise_flag(int) { interrupt_flag = 1; }
 
 extern "C" void raise_stop_flag(int) {
   stop_flag = 1;
-  if (write(STDERR_FILENO, stop_note, std::strlen(stop_note)) < 0) return;  // nobody to tell
+  if (write(STDERR_FILENO, stop_note, std::strlen(stop_note)) < 0) return;  // stderr is closed
 }
 
 void catch_signals(void (*handler)(int)) {
@@ -41,7 +41,7 @@ void catch_stop_requests(const char* note) {
   stop_flag = 0;
   stop_note = note;
   catch_signals(raise_stop_flag);
-  if (interrupt_flag == 0) return;  // none was caught before
+  if (interrupt_flag == 0) return;  // no interrupt was caught before
   stop_flag = 1;
   interrupt_flag = 0;
 }

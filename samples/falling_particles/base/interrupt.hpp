@@ -3,14 +3,15 @@
 
 namespace falling_particles {
 
-/// Lowers the flag. From now on the first Ctrl-C (SIGINT) or SIGTERM only raises it; a second one ends the program as usual.
+/// Lowers the flag and installs the handlers. From then on the first Ctrl-C (SIGINT) or SIGTERM only raises the flag; a second one
+/// ends the program as usual.
 void catch_interrupts();
 
 bool interrupted();
 
-/// The same for a run that can go on from its checkpoints only: the signal leaves interrupted() as it is, prints `note` to stderr
-/// and raises the flag of stop_requested(), which the run asks at its checkpoints. An interrupt that came before counts as such.
-/// `note`: a text that stays.
+/// Does the same for a run that can be resumed from its checkpoints only. The signal does not change interrupted(): it prints
+/// `note` to stderr and raises the flag of stop_requested(). The run checks this flag at its checkpoints. An earlier interrupt
+/// counts as a stop request. `note` must stay valid.
 void catch_stop_requests(const char* note);
 
 bool stop_requested();

@@ -6,10 +6,10 @@
 
 namespace falling_particles {
 
-constexpr double kLargestLength = 1000;  ///< m; what is longer in a scene is a slip
+constexpr double kLargestLength = 1000;  ///< m; a longer length in a scene is a typing error
 constexpr double kLargestSpeed = 1000;   ///< m/s
 
-/// A range of real numbers. No bound, open or closed, ever admits infinity or NaN.
+/// A range of real numbers. No range contains infinity or NaN, whatever its bounds.
 struct Interval {
   double lower;
   double upper;
@@ -18,7 +18,7 @@ struct Interval {
   const char* unit;  ///< "" for pure numbers
 
   static Interval positive(double upper, const char* unit) { return {0, upper, false, true, unit}; }
-  /// Admits any finite number; `note` tells what a later check will allow.
+  /// Contains any finite number; `note` says what a later check allows.
   static Interval finite(const char* note) {
     return {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), true, true, note};
   }
@@ -28,10 +28,10 @@ struct Interval {
   std::string describe() const;  ///< "a number in (0, 1] m"
 };
 
-/// Shortest text that reads back as the same number.
+/// The shortest text that reads back as the same number.
 std::string shortest(double value);
 
-/// With three digits.
+/// The number as text, with three significant digits.
 std::string rounded(double value);
 
 }  // namespace falling_particles

@@ -9,8 +9,8 @@
 namespace falling_particles {
 namespace {
 
-/// The number of letters to insert, delete, replace or swap with their neighbour (optimal string alignment): swaps are the usual
-/// slip.
+/// The optimal string alignment distance: the number of letters to insert, delete, replace or swap with their neighbour. Swaps are
+/// the most common typing error.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last;
   std::vector<std::size_t> last;

@@ -7,10 +7,11 @@
 
 namespace falling_particles {
 
-/// The candidate nearest to `word` by typing slips, if at most a third of its letters are wrong (one in short words); otherwise "".
+/// The candidate nearest to `word` by typing errors. Returns "" if more than a third of the letters are wrong (more than one in
+/// short words).
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
-/// `; did you mean "…"?`, or "" when nothing is near.
+/// `; did you mean "…"?`, or "" when no candidate is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
 /// "a, b, c"

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Marks a folder of ours as unfinished, and is locked by the run that writes there.
+/// The file that marks a folder as unfinished. The run that writes there locks it.
 constexpr std::string_view kMarkFile = "UNFINISHED";
 constexpr std::string_view kMarkText =
     "The run that writes here has not ended. If it was killed, these are its results up to then; the next run of the scene with\n"
@@ -50,7 +50,7 @@ bool may_leave(const InnerFolder& folder, const fs::directory_entry& entry) {
   return path.extension() == folder.extension;
 }
 
-/// The first thing in a folder that no run has written: neither results nor what is there until it has ended.
+/// The first entry of a folder that no run has written: it is neither a result nor a file that a run keeps until it has ended.
 std::optional<fs::path> find_foreign(const fs::path& folder, const ResultNames& results) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
@@ -65,16 +65,16 @@ std::optional<fs::path> find_foreign(const fs::path& folder, const ResultNames& 
   return std::nullopt;
 }
 
-/// The same, where an error may not be thrown.
+/// Does the same without throwing.
 bool has_foreign(const fs::path& folder, const ResultNames& results) noexcept {
   try {
     return find_foreign(folder, results).has_value();
   } catch (const fs::filesystem_error&) {
-    return true;  // what cannot be looked at stays
+    return true;  // a folder that cannot be read stays
   }
 }
 
-/// Refuses to delete anything of the user's: a folder is replaced only if everything in it was written by a run, and it is not
+/// Refuses to delete anything of the user's. A folder is replaced only if a run has written everything in it and it is not
 /// write-protected.
 void refuse_foreign(const fs::path& target, const ResultNames& results) {
   if (!fs::exists(fs::symlink_status(target))) return;
@@ -99,9 +99,9 @@ int open_mark(const fs::path& folder, int flags) {
 
 bool lock(int mark) { return flock(mark, LOCK_EX | LOCK_NB) == 0; }
 
-/// Whether another run took the mark for a leftover's before it was locked: that run holds the lock, or has removed the file.
+/// Whether another run took the mark for a leftover before it was locked. That run holds the lock or has removed the file.
 bool is_taken_away(int mark) {
-  // If the file system has no locks, nobody removes anything, and leftovers stay.
+  // If the file system has no locks, no run removes anything, and leftovers stay.
   if (!lock(mark)) return errno == EWOULDBLOCK;
   struct stat status {};
   return fstat(mark, &status) == 0 && status.st_nlink == 0;
@@ -111,8 +111,8 @@ bool has_mark(const fs::path& folder) { return fs::is_regular_file(fs::symlink_s
 
 bool has_checkpoint(const fs::path& folder) { return fs::exists(fs::symlink_status(folder / kCheckpointFile)); }
 
-/// Removes the folder of an unfinished run so that, if this is killed, the next run removes the rest. It may do so meanwhile: what
-/// is gone is no error.
+/// Removes the folder of an unfinished run. If this process is killed meanwhile, the next run removes the rest. Another run may do
+/// so at the same time, so a missing file is no error.
 void remove_unfinished(const fs::path& folder, std::error_code& error) {
   for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error)) {
     if (entry->path().filename() != kMarkFile) fs::remove_all(entry->path(), error);
@@ -122,7 +122,7 @@ void remove_unfinished(const fs::path& folder, std::error_code& error) {
   if (error == std::errc::no_such_file_or_directory) error.clear();
 }
 
-/// The folders beside `target` that are named as those of its runs that were killed, or are on their way.
+/// The folders beside `target` with the names of unfinished runs: runs that were killed or are under way.
 std::vector<fs::path> unfinished_runs(const fs::path& target) {
   std::vector<fs::path> folders;
   if (!fs::is_directory(target.parent_path())) return folders;
@@ -135,14 +135,14 @@ std::vector<fs::path> unfinished_runs(const fs::path& target) {
   return folders;
 }
 
-/// Removes what marks a run as unfinished: no other run may remove its results any more.
+/// Removes the mark and the checkpoint files of an unfinished run. From then on no other run may remove its results.
 void mark_finished(const fs::path& folder) {
-  std::error_code ignored;  // if the mark stays, the next run of the scene replaces the results all the same
+  std::error_code ignored;  // if the mark stays, the next run of the scene still replaces the results
   for (const std::string_view name : kCheckpointFiles) fs::remove(folder / name, ignored);
   fs::remove(folder / kMarkFile, ignored);
 }
 
-/// The same for one that a killed run has left, unless it holds anything of the user's.
+/// Removes a folder that a killed run has left, unless it holds anything of the user's.
 void remove_leftover(const fs::path& folder, const ResultNames& results) {
   if (const std::optional<fs::path> foreign = find_foreign(folder, results)) {
     std::fprintf(stderr, "\"%s\" of an earlier run stays: it holds %s, which no run writes\n", folder.c_str(), foreign->c_str());
@@ -152,24 +152,24 @@ void remove_leftover(const fs::path& folder, const ResultNames& results) {
   remove_unfinished(folder, ignored);
 }
 
-/// Removes the folders that killed runs have left beside `target`. The mark is the first file to come and the last to go: without
-/// it a folder is somebody's copy, or empty.
+/// Removes the folders that killed runs have left beside `target`. The mark is the first file to be created and the last to be
+/// removed. A folder without it is somebody's copy, or empty.
 void remove_leftovers(const fs::path& target, const ResultNames& results) {
   for (const fs::path& folder : unfinished_runs(target)) {
     if (fs::is_symlink(folder) || (!has_mark(folder) && !fs::is_empty(folder))) continue;
     std::error_code ignored;
     const int mark = open_mark(folder, 0);
     if (mark < 0) {
-      fs::remove(folder, ignored);  // if it is empty
+      fs::remove(folder, ignored);  // succeeds only for an empty folder
       continue;
     }
-    if (lock(mark)) remove_leftover(folder, results);  // otherwise its run is alive
+    if (lock(mark)) remove_leftover(folder, results);  // a locked mark belongs to a live run
     close(mark);
   }
 }
 
-/// Exchanges two folders, so that at any time there is one of that name; false where there is no second one, or the file system
-/// cannot.
+/// Exchanges two folders in one operation, so that a folder of that name exists at any time. Returns false if there is no second
+/// folder or the file system cannot exchange them.
 bool exchange(const fs::path& one, const fs::path& other) {
   return renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
 }
@@ -210,7 +210,7 @@ void OutputFolder::create_staging() {
     if (!fs::create_directory(folder)) continue;
     staging_ = folder;
     mark_ = open_mark(staging_, O_CREAT);
-    if (mark_ < 0 && errno == ENOENT) continue;  // another run took the empty folder for a leftover
+    if (mark_ < 0 && errno == ENOENT) continue;  // another run removed the empty folder as a leftover
     if (mark_ < 0 || !write_all(mark_, kMarkText)) {
       throw fs::filesystem_error("", staging_, std::error_code(errno, std::generic_category()));
     }
@@ -220,7 +220,7 @@ void OutputFolder::create_staging() {
   }
 }
 
-/// Takes over the folder with the latest checkpoint, whatever else is in it.
+/// Takes over the folder with the latest checkpoint, whatever else it holds.
 void OutputFolder::take_over() {
   std::vector<fs::path> folders = unfinished_runs(target_);
   std::erase_if(folders, std::not_fn(has_checkpoint));
@@ -250,17 +250,17 @@ void OutputFolder::discard() {
   std::error_code error;
   if (!staging_.empty() && !is_kept_ && !has_foreign(staging_, results_)) {
     remove_unfinished(staging_, error);
-    // Folders above that this object has created are removed too, unless somebody else has put anything into them.
+    // Parent folders that this object has created are removed too, unless somebody has put anything into them.
     fs::path folder = target_.parent_path();
     for (std::size_t i = 0; i < created_parents_ && fs::remove(folder, error); ++i) folder = folder.parent_path();
   }
   if (mark_ >= 0) close(mark_);
 }
 
-// Whenever this is killed, either the run is unfinished, with its checkpoint, or it is in its place, and what it has replaced is
-// marked as a leftover.
+// Two states are possible if this is killed. Either the run is unfinished and has its checkpoint, or it is in its place and the
+// folder that it has replaced is marked as a leftover.
 void OutputFolder::commit() {
-  const fs::path results = std::exchange(staging_, {});  // the run is whole, and stays there if it cannot go to its place
+  const fs::path results = std::exchange(staging_, {});  // the run is complete and stays there if it cannot be moved
   const auto fail = [&results](const std::string& reason) {
     mark_finished(results);
     throw std::runtime_error(reason + "; the results are in \"" + results.string() + '"');
@@ -268,7 +268,7 @@ void OutputFolder::commit() {
   bool has_replaced = false;
   try {
     refuse_foreign(target_, results_);  // somebody may have put something there during the run
-    if (const int mark = open_mark(target_, O_CREAT); mark >= 0) close(mark);  // if there is an earlier run
+    if (const int mark = open_mark(target_, O_CREAT); mark >= 0) close(mark);  // only if there is an earlier run
     has_replaced = exchange(results, target_);
     if (!has_replaced) {
       fs::remove_all(target_);

@@ -9,7 +9,8 @@ namespace falling_particles {
 double Random::uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
 std::uint64_t Random::below(std::uint64_t end) {
-  const std::uint64_t biased = (~end + 1) % end;  // 2^64 mod end: that many draws would make small results more likely
+  const std::uint64_t biased =
+      (~end + 1) % end;  // 2^64 mod end, the number of draws to reject: with them small results would be more likely
   std::uint64_t draw = engine_();
   while (draw < biased) draw = engine_();
   return draw % end;

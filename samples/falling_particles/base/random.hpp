@@ -8,8 +8,8 @@
 
 namespace falling_particles {
 
-/// Random numbers that are the same everywhere: the standard defines the engine bit for bit but leaves its distributions to each
-/// library, so the distributions are written out here.
+/// Random numbers that are the same everywhere. The standard defines the engine bit for bit but leaves the distributions to each
+/// library, so they are implemented here.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -18,7 +18,7 @@ class Random {
   std::uint64_t below(std::uint64_t end);  ///< in [0, end), each equally likely
   std::array<double, 4> rotation();        ///< unit quaternion w, x, y, z; uniform over all rotations
 
-  std::string state() const;  ///< text, from which restore() makes the same numbers follow
+  std::string state() const;  ///< text; after restore() the same numbers follow
   void restore(const std::string& state);
   template <typename Archive>
   std::string save_minimal(const Archive& /*archive*/) const {

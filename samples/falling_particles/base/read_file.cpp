@@ -10,7 +10,7 @@ namespace falling_particles {
 
 std::string what_is_no_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
-  std::error_code ignored;  // what cannot be looked at cannot be opened either
+  std::error_code ignored;  // a path that cannot be examined cannot be opened either
   switch (fs::status(path, ignored).type()) {
     case fs::file_type::directory:
       return "a folder";

@@ -6,11 +6,11 @@
 
 namespace falling_particles {
 
-/// What is in the place of a file that is to be read: "a folder", "a pipe or a socket", "a device". Empty for a file, a link to
-/// one, or nothing. A pipe would be waited for, and a device has no end.
+/// The kind of a path that is no file: "a folder", "a pipe or a socket", "a device". Empty for a file, a link to a file, or
+/// nothing. Reading a pipe would block, and a device has no end.
 std::string what_is_no_file(const std::filesystem::path& path);
 
-/// Throws std::runtime_error when the file cannot be read, or is no file.
+/// Reads a whole file. Throws std::runtime_error when it cannot be read, or is no file.
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace falling_particles

@@ -1,16 +1,16 @@
-// Wall-clock time of parts of a program.
+// Wall-clock time of sections of a program.
 #pragma once
 
 #include <chrono>
 
 namespace falling_particles {
 
-/// Sums up wall-clock time over many intervals. Reading the clock costs about 25 ns (vDSO), a few per cent of a pair query.
+/// Sums wall-clock time over many intervals. Reading the clock costs about 25 ns (vDSO), a few per cent of a pair query.
 class Stopwatch {
   using Clock = std::chrono::steady_clock;
 
  public:
-  /// Adds the time from its construction to its destruction.
+  /// Adds the time from construction to destruction.
   class Lap {
    public:
     explicit Lap(Stopwatch& watch) : watch_(watch), start_(Clock::now()) {}
@@ -23,7 +23,7 @@ class Stopwatch {
     Clock::time_point start_;
   };
 
-  /// Starts an interval whose end is not known in advance: each lap() adds the time since start() or the last lap().
+  /// Starts an interval whose end is not known in advance. Each lap() adds the time since start() or the last lap().
   void start() { last_ = Clock::now(); }
   void start_where_ended(const Stopwatch& other) { last_ = other.last_; }
   void lap() {

@@ -7,7 +7,8 @@
 namespace falling_particles {
 namespace {
 
-/// Takes what is no key, bracket or comma off the start of `rest`: a comment or a text in quotes; how many characters. 0: neither.
+/// Removes a comment or a quoted text from the start of `rest`, because its characters are no keys, brackets or commas. Returns the
+/// number of characters; 0 if there is neither.
 std::size_t length_of_text(std::string_view rest) {
   if (rest.front() == '#') return std::min(rest.find('\n'), rest.size());
   const char quote = rest.front();
@@ -28,7 +29,7 @@ std::size_t length_of_text(std::string_view rest) {
 }  // namespace
 
 std::optional<unsigned> find_deep_toml(std::string_view text) {
-  std::vector<std::size_t> enclosing = {0};  // levels at each bracket that is open
+  std::vector<std::size_t> enclosing = {0};  // levels at each open bracket
   std::size_t level = 0;
   unsigned line = 1;
   while (!text.empty()) {

@@ -7,12 +7,12 @@
 
 namespace falling_particles {
 
-/// Levels of one statement of TOML: keys with dots, arrays and tables within each other. No scene needs more than six.
+/// The most levels of one TOML statement: dotted keys, arrays and tables within each other. No scene needs more than six.
 inline constexpr std::size_t kMostTomlLevels = 100;
 
-/// The first line, from 1, of a statement with more levels; none if there is none. A parser goes down a level by calling itself, so
-/// that a text of 50 000 dots would end the program; this looks at the characters alone. A text that is not valid TOML has any
-/// answer, right up to where the parser refuses it.
+/// The first line, from 1, of a statement with more levels; empty if there is none. A parser descends a level by recursion, so a
+/// text of 50 000 dots would overflow its stack. This function looks at the characters alone. For a text that is not valid TOML,
+/// the answer holds up to the place where the parser refuses the text.
 std::optional<unsigned> find_deep_toml(std::string_view text);
 
 }  // namespace falling_particles

@@ -18,7 +18,7 @@
 namespace falling_particles {
 
 struct TomlTable::Node {
-  std::shared_ptr<const toml::table> root;  // keeps `table`, a part of it, alive
+  std::shared_ptr<const toml::table> root;  // keeps `table`, which is part of it, alive
   const toml::table* table;
   std::string file;
   std::string name;  // "" at the top
@@ -28,7 +28,7 @@ struct TomlTable::Node {
 
 namespace {
 
-/// `place`: in the file, or in an option that set a value.
+/// `place`: a line of the file, or the option that set the value.
 [[noreturn]] void refuse(const std::string& file, const toml::source_region& place, const std::string& text) {
   if (place.path && *place.path != file) throw InputError(*place.path + ": " + text);
   throw InputError(file, std::max(place.begin.line, 1U), text);
@@ -47,7 +47,7 @@ std::string describe(const toml::node& node) {
 }
 
 std::optional<double> as_number(const toml::node& node) {
-  return node.is_number() ? node.value<double>() : std::nullopt;  // value() alone would also convert other types
+  return node.is_number() ? node.value<double>() : std::nullopt;  // value() alone also converts other types
 }
 
 }  // namespace

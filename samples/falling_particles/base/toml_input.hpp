@@ -12,12 +12,12 @@
 
 namespace falling_particles {
 
-/// The characters of a name that TOML takes without quotes.
+/// The characters that a name may have without quotes.
 constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
-/// A table of a TOML file whose keys are known in advance. Every function that reads a value checks it and throws InputError with
-/// file and line, or the option that set it, and what is allowed, so that a value that was read is valid. A table is valid as long
-/// as its TomlFile.
+/// A table of a TOML file whose keys are known in advance. Every reading function checks the value, so that a value that was read
+/// is valid. It throws InputError with the file and line, or with the option that set the value, and with what is allowed. A table
+/// is valid as long as its TomlFile.
 class TomlTable {
  public:
   std::optional<std::string> find_text(std::string_view key) const;
@@ -27,27 +27,27 @@ class TomlTable {
   /// The number of elements of the array under `key`.
   std::size_t array_size(std::string_view key) const;
   std::string choice(std::string_view key, const std::vector<std::string>& allowed) const;
-  /// A list of different words of `allowed`, maybe empty.
+  /// An array of different words of `allowed`; it may be empty.
   std::vector<std::string> choices(std::string_view key, const std::vector<std::string>& allowed) const;
   std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest) const;
   bool boolean(std::string_view key) const;
 
   bool has(std::string_view key) const;
 
-  /// The table under `key`, which may hold `keys` and nothing else.
+  /// The table under `key`, which may have `keys` and no others.
   TomlTable table(std::string_view key, std::vector<std::string> keys) const;
-  /// The table under `key`, if its valid keys depend on its content: refuse_unknown_keys() has to follow.
+  /// The table under `key`, if its valid keys depend on its content. Call refuse_unknown_keys() afterwards.
   TomlTable table(std::string_view key) const;
   std::optional<TomlTable> find_table(std::string_view key, std::vector<std::string> keys) const;
 
   /// The array of tables ([[key]]), not empty.
   std::vector<TomlTable> tables(std::string_view key, const std::vector<std::string>& keys) const;
-  /// The same, if the valid keys of each depend on its content: refuse_unknown_keys() has to follow.
+  /// The same, if the valid keys of each table depend on its content. Call refuse_unknown_keys() for each.
   std::vector<TomlTable> tables(std::string_view key) const;
 
   void refuse_unknown_keys(const std::vector<std::string>& keys) const;
 
-  /// All keys, for tables whose keys are names that the user chooses; in the order of the file.
+  /// All keys in the order of the file, for tables whose keys are names that the user chooses.
   std::vector<std::string> names() const;
 
   /// Throws InputError at the line of `key` (at the line of the table when it has no such key).
@@ -71,13 +71,13 @@ class TomlTable {
 /// A TOML file, parsed.
 class TomlFile {
  public:
-  /// With values of its own in place of the file's (set_values()). Throws InputError when `path` is not a readable file (`what`
-  /// says what it should be: "scene file") or is not valid TOML.
+  /// Replaces values of the file first (set_values()). Throws InputError when `path` is not a readable file or not valid TOML.
+  /// `what` names its purpose in the message: "scene file".
   TomlFile(const std::string& path, const std::string& what, const std::vector<std::string>& assignments = {});
 
-  /// The top of the file with the given keys and nothing else.
+  /// The top level of the file, which may have the given keys and no others.
   TomlTable root(const std::vector<std::string>& keys) const;
-  /// The top of the file with keys of the user's choice.
+  /// The top level of the file, with keys of the user's choice.
   TomlTable root() const;
 
  private:

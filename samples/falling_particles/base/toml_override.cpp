@@ -14,15 +14,15 @@
 namespace falling_particles {
 namespace {
 
-/// A part of a path: the key of a table, or what chooses an entry of an array.
+/// A step of a path: the key of a table, or the selector of an array's entry.
 struct Step {
   std::string word;
   bool chooses_entry;
 };
 
-constexpr std::size_t kLongestEcho = 60;  // characters of an option in a message about its length
+constexpr std::size_t kLongestEcho = 60;  // characters of an option that a message about its length quotes
 
-/// One KEY=VALUE, with the place that its path has come to.
+/// One KEY=VALUE, and the node that its path has reached.
 class Assignment {
  public:
   explicit Assignment(const std::string& text) : option_("--set " + text) {
@@ -57,7 +57,7 @@ class Assignment {
     for (; i + 1 < path_.size(); ++i) {
       const Step& step = path_[i];
       toml::node* next = step.chooses_entry ? &entry(*node, step.word) : table(*node).get(step.word);
-      if (next == nullptr && !path_[i + 1].chooses_entry) break;  // a table that the file does not have
+      if (next == nullptr && !path_[i + 1].chooses_entry) break;  // the file does not have this table
       if (next == nullptr) fail_missing(table(*node), step.word);
       node = next;
       walked_ += step.chooses_entry ? '[' + step.word + ']' : (walked_.empty() ? "" : ".") + step.word;
@@ -91,10 +91,10 @@ class Assignment {
          "; allowed to choose entries of: " + join(keys));
   }
 
-  /// What the value says, under keys whose source is the option.
+  /// The parsed value, under keys whose source is the option.
   toml::table parse(const std::string& keys) const {
     try {
-      // A second line could hold another key.
+      // A second line could set another key.
       if (value_.find('\n') == std::string::npos) return toml::parse(keys + " = " + value_, option_);
     } catch (const toml::parse_error&) {
     }

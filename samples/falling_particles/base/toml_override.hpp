@@ -1,4 +1,4 @@
-// Values of a TOML file that are replaced before it is read.
+// Replacement of values of a TOML file before it is read.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,11 +8,11 @@
 
 namespace falling_particles {
 
-/// Sets values of `root` in turn, each given as KEY=VALUE: the value is TOML, the key a path of names with points between them,
-/// `time.step`. An entry of an array is chosen in brackets, by its index from 0 or by its `name`, which is its `kind` where it has
-/// none: `container.width[1]`, `grain[pea].count`. Tables and keys that are not there are added; what reads the table refuses those
-/// that it does not know. All that is set has the option, `--set KEY=VALUE`, as the path of its source, for messages to name.
-/// Throws InputError, which names the option, when an assignment is not of this form or chooses no entry.
+/// Sets values of `root` one after the other, each given as KEY=VALUE. The value is TOML. The key is a path of names separated by
+/// dots: `time.step`. An entry of an array is selected in brackets, by its index from 0 or by its `name` (by its `kind` if it has
+/// no name): `container.width[1]`, `grain[pea].count`. Missing tables and keys are added; the reader of a table refuses unknown
+/// ones. The source path of each new value is the option, `--set KEY=VALUE`, for messages. Throws InputError, which names the
+/// option, when an assignment is not of this form or selects no entry.
 void set_values(toml::table& root, const std::vector<std::string>& assignments);
 
 }  // namespace falling_particles

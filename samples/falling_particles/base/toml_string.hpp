@@ -5,7 +5,7 @@
 
 namespace falling_particles {
 
-/// Writes `text` as a TOML string on one line, in quotes. Bytes that are not UTF-8, which no TOML file may hold, become
+/// Writes `text` as a quoted TOML string on one line. No TOML file may contain bytes that are not UTF-8: they are replaced by
 /// characters.
 std::string toml_string(const std::string& text);
 

@@ -47,7 +47,7 @@ bool write_all(int file, std::string_view text) {
 }
 
 OutputFile::OutputFile(std::filesystem::path path, const FileState& kept) : path_(std::move(path)) {
-  constexpr mode_t kReadable = 0666;  // less the user's umask
+  constexpr mode_t kReadable = 0666;  // before the user's umask
   file_ = open(path_.c_str(), O_CLOEXEC | (kept.bytes == 0 ? O_WRONLY | O_CREAT | O_TRUNC : O_RDWR), kReadable);
   if (file_ < 0 && kept.bytes > 0 && errno == ENOENT) refuse_damaged(path_, "is missing");
   if (file_ < 0) fail();
@@ -114,7 +114,7 @@ void replace_file(const std::filesystem::path& path, std::string_view text) {
   std::error_code error;
   const fs::file_status there = fs::status(path, error);
   if (fs::exists(there) && !fs::is_regular_file(there)) return write_in_place(path, text);
-  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;  // a link stays one
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;  // a link stays a link
   std::string beside = target.string() + ".XXXXXX";
   const int file = mkstemp(beside.data());
   if (file < 0) fail_to_write(path, errno);
@@ -136,7 +136,7 @@ void sync_folder(const std::filesystem::path& path) {
   const bool is_synced = fsync(folder) == 0;
   const int error = errno;
   ::close(folder);
-  // Some file systems have nothing to do for a folder, and say so.
+  // Some file systems cannot sync folders, and return EINVAL.
   if (!is_synced && error != EINVAL) fail_to_write(path, error);
 }
 

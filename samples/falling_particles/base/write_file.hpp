@@ -1,4 +1,4 @@
-// Writing files without losing anything in silence: what cannot be written is a std::runtime_error with the file and the reason.
+// Writing files without silent loss: a failure throws std::runtime_error with the file and the reason.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace falling_particles {
 
-/// Writes to an open file; false, with errno, when it does not take all.
+/// Writes to an open file. Returns false and sets errno when it cannot write all bytes.
 bool write_all(int file, std::string_view text);
 
-/// How far a file has come.
+/// The written length of a file.
 struct FileState {
   std::uint64_t bytes = 0;
   Hash hash{};  ///< of these bytes
@@ -25,11 +25,11 @@ struct FileState {
   }
 };
 
-/// A file that grows piece by piece. Each piece is handed over to the system at once: a run that is killed leaves whole pieces.
+/// A file that grows piece by piece. Each piece goes to the operating system at once, so that a killed run leaves whole pieces.
 class OutputFile {
  public:
-  /// Goes on after the bytes of `kept`, which the file begins with; what it has beyond them is cut off. Without bytes: a new file.
-  /// Throws InputError when the file does not begin so, or is not there.
+  /// Continues after the bytes of `kept`, with which the file must begin; it cuts off the rest. If `kept` is empty, it creates a
+  /// new file. Throws InputError when the file does not begin with these bytes, or does not exist.
   explicit OutputFile(std::filesystem::path path, const FileState& kept = {});
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -37,8 +37,8 @@ class OutputFile {
 
   void write(std::string_view text);
   void close();
-  FileState state() const { return {size_, hash_.value()}; }  ///< of all that was written, that of before included
-  /// Returns when what was written survives a power cut.
+  FileState state() const { return {size_, hash_.value()}; }  ///< of all bytes, earlier ones included
+  /// Returns when the written bytes survive a power cut.
   void sync();
 
  private:
@@ -51,20 +51,20 @@ class OutputFile {
   RunningHash hash_;
 };
 
-/// Writes a whole file, or none. For files in a folder of ours: what was there is gone if it fails.
+/// Writes a whole file, or none, into an output folder. If it fails, the earlier content is lost.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
-/// Writes a file that the user has named: the whole of it, or what was there stays. What is no regular file, such as a pipe or a
-/// device, is written as it is, and never removed.
+/// Writes a file that the user has named. If it fails, the earlier content stays. A path that is no regular file, such as a pipe or
+/// a device, is written in place and never removed.
 void replace_file(const std::filesystem::path& path, std::string_view text);
 
-/// Returns when the names of the files in a folder survive a power cut.
+/// Returns when the names in a folder survive a power cut.
 void sync_folder(const std::filesystem::path& path);
 
-/// Creates a folder, if it is not there.
+/// Creates a folder if it does not exist.
 void create_folder(const std::filesystem::path& path);
 
-/// Ends a file that a stream has written.
+/// Closes a stream. Throws std::runtime_error if anything could not be written.
 void close_or_throw(std::ofstream& stream, const std::filesystem::path& path);
 
 }  // namespace falling_particles

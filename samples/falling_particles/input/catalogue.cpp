@@ -11,12 +11,12 @@
 namespace falling_particles {
 namespace {
 
-// Larger lengths are millimetres typed in as metres, the usual slip: nothing that one pours is larger than this.
+// No grain is larger than this. The usual mistake is millimetres typed as metres.
 constexpr double kLargestHalfAxis = 1;  // m
-// Osmium is the densest solid there is: 22 590 kg/m^3.
+// Osmium is the densest solid: 22 590 kg/m^3.
 constexpr double kLargestDensity = 23000;  // kg/m^3
 
-using Shape = GrainBody::Shape;
+using Shape = ConvexBody::Shape;
 
 Shape shape_in(const TomlTable& table) {
   if (table.has("taper")) return Shape::Superovoid;
@@ -31,14 +31,14 @@ std::vector<std::string> keys_of(Shape shape) {
   return keys;
 }
 
-GrainBody read_capsule(const TomlTable& table) {
+ConvexBody read_capsule(const TomlTable& table) {
   const double radius = table.number("radius", Interval::positive(kLargestHalfAxis, "m"));
   const double length = table.number("length", Interval::closed(0, 2 * kLargestHalfAxis, "m (of the cylinder between the caps)"));
   return {{radius, radius, radius + length / 2}, 2, 2, 0, Shape::Capsule};
 }
 
-/// The range of a taper depends on the exponents: the core knows it.
-void read_taper(const TomlTable& table, GrainBody& body) {
+/// The library's core checks the taper, whose range depends on the exponents.
+void read_taper(const TomlTable& table, ConvexBody& body) {
   const std::vector<double> taper = table.numbers("taper", 2, Interval::closed(-1, 1, "(so small that the body is convex)"));
   body.taper = {taper[0], taper[1]};
   const auto [a, b, c] = body.core_half_axes();
@@ -49,13 +49,13 @@ void read_taper(const TomlTable& table, GrainBody& body) {
   }
 }
 
-/// Without the exponents, which are 2 and 2 where a part of a compound leaves them out.
-GrainBody read_body(const TomlTable& table, bool needs_exponents) {
+/// Reads a convex body. If `needs_exponents` is false, as for a component of a compound, missing exponents are 2 and 2.
+ConvexBody read_body(const TomlTable& table, bool needs_exponents) {
   const Shape shape = shape_in(table);
   if (shape == Shape::Capsule) return read_capsule(table);
-  // The range is that of snCreateSuperellipsoid.
+  // The range of snCreateSuperellipsoid.
   const Interval exponents = Interval::closed(1.01, 1000, "");
-  GrainBody body{{}, 2, 2, 0, shape};
+  ConvexBody body{{}, 2, 2, 0, shape};
   const std::vector<double> axes = table.numbers("half_axes", 3, Interval::positive(kLargestHalfAxis, "m"));
   body.half_axes = {axes[0], axes[1], axes[2]};
   if (needs_exponents || table.has("delta")) body.delta = table.number("delta", exponents);
@@ -70,8 +70,8 @@ GrainBody read_body(const TomlTable& table, bool needs_exponents) {
 
 double read_density(const TomlTable& table) { return table.number("density", Interval::positive(kLargestDensity, "kg/m^3")); }
 
-/// A turn by `angle` (degrees) about `axis`.
-std::array<double, 4> read_attitude(const TomlTable& table) {
+/// The quaternion (w, x, y, z) of a rotation by `angle` (degrees) about `axis`; the identity without them.
+std::array<double, 4> read_orientation(const TomlTable& table) {
   if (!table.has("axis") && !table.has("angle")) return {1, 0, 0, 0};
   const std::vector<double> axis = table.numbers("axis", 3, Interval::closed(-1e6, 1e6, "(of any length but 0)"));
   const double length = std::hypot(axis[0], axis[1], axis[2]);
@@ -81,33 +81,34 @@ std::array<double, 4> read_attitude(const TomlTable& table) {
   return {std::cos(half), s * axis[0], s * axis[1], s * axis[2]};
 }
 
-CatalogueEntry compound_entry(const std::string& name, const std::vector<GrainPart>& parts, const std::string& source) {
-  return {name, [=] { return make_compound(name, parts, source); }};
+CatalogueEntry compound_entry(const std::string& name, const std::vector<Component>& components, const std::string& source) {
+  return {name, [=] { return make_compound(name, components, source); }};
 }
 
 CatalogueEntry read_compound(const TomlTable& table, const std::string& name) {
   table.refuse_unknown_keys({"parts", "density", "source"});
   const std::vector<TomlTable> tables = table.tables("parts");
-  constexpr std::size_t kMostParts = 100;
-  if (tables.size() > kMostParts) {
+  constexpr std::size_t kMostComponents = 100;
+  if (tables.size() > kMostComponents) {
     table.fail("parts", table.full_name("parts") + " has " + std::to_string(tables.size()) + " parts; allowed: up to " +
-                            std::to_string(kMostParts));
+                            std::to_string(kMostComponents));
   }
-  std::vector<GrainPart> parts;
-  parts.reserve(tables.size());
-  for (const TomlTable& part : tables) {
-    std::vector<std::string> keys = keys_of(shape_in(part));
+  std::vector<Component> components;
+  components.reserve(tables.size());
+  for (const TomlTable& component : tables) {
+    std::vector<std::string> keys = keys_of(shape_in(component));
     keys.insert(keys.end(), {"density", "position", "axis", "angle"});
-    part.refuse_unknown_keys(keys);
-    GrainPart& read = parts.emplace_back(GrainPart{read_body(part, false), 0});
-    read.density = read_density(part.has("density") ? part : table);
-    if (part.has("position")) {
-      const std::vector<double> position = part.numbers("position", 3, Interval::closed(-kLargestHalfAxis, kLargestHalfAxis, "m"));
+    component.refuse_unknown_keys(keys);
+    Component& read = components.emplace_back(Component{read_body(component, false), 0});
+    read.density = read_density(component.has("density") ? component : table);
+    if (component.has("position")) {
+      const std::vector<double> position =
+          component.numbers("position", 3, Interval::closed(-kLargestHalfAxis, kLargestHalfAxis, "m"));
       read.position = {position[0], position[1], position[2]};
     }
-    read.quaternion = read_attitude(part);
+    read.quaternion = read_orientation(component);
   }
-  return compound_entry(name, parts, table.text("source"));
+  return compound_entry(name, components, table.text("source"));
 }
 
 CatalogueEntry read_grain(const TomlTable& table, const std::string& name) {
@@ -116,13 +117,13 @@ CatalogueEntry read_grain(const TomlTable& table, const std::string& name) {
   std::vector<std::string> keys = keys_of(shape);
   keys.insert(keys.end(), {"density", "source", "parts"});
   table.refuse_unknown_keys(keys);
-  const GrainBody body = read_body(table, true);
+  const ConvexBody body = read_body(table, true);
   const double density = read_density(table);
   const std::string source = table.text("source");
-  // The centre of mass of a superovoid is not the origin of its frame.
+  // A superovoid becomes a compound, because its centre of mass is not the origin of its frame.
   if (shape == Shape::Superovoid) return compound_entry(name, {{body, density}}, source);
-  const Grain grain{name, body.half_axes, body.delta, body.epsilon, body.rounding, density, source, shape == Shape::Capsule};
-  return {name, [grain] { return grain; }};
+  const GrainKind kind{name, body.half_axes, body.delta, body.epsilon, body.rounding, density, source, shape == Shape::Capsule};
+  return {name, [kind] { return kind; }};
 }
 
 }  // namespace
@@ -140,10 +141,10 @@ std::vector<CatalogueEntry> open_catalogue(const std::string& path) {
   return entries;
 }
 
-std::vector<Grain> load_catalogue(const std::string& path) {
-  std::vector<Grain> grains;
-  for (const CatalogueEntry& entry : open_catalogue(path)) grains.push_back(entry.make());
-  return grains;
+std::vector<GrainKind> load_catalogue(const std::string& path) {
+  std::vector<GrainKind> kinds;
+  for (const CatalogueEntry& entry : open_catalogue(path)) kinds.push_back(entry.make());
+  return kinds;
 }
 
 }  // namespace falling_particles

@@ -5,21 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "model/grain.hpp"
+#include "model/grain_kind.hpp"
 
 namespace falling_particles {
 
-/// A grain of a catalogue, read and checked. The mass of a compound takes tenths of a second, so it is integrated when the grain
-/// is made.
+/// An entry of a catalogue, read and checked. make() integrates the mass of a compound, which takes tenths of a second.
 struct CatalogueEntry {
   std::string name;
-  std::function<Grain()> make;
+  std::function<GrainKind()> make;
 };
 
-/// Reads a catalogue file, one table a grain, in the order of the file. Throws InputError.
+/// Reads a catalogue file, with a table for each kind, in the order of the file. Throws InputError.
 std::vector<CatalogueEntry> open_catalogue(const std::string& path);
 
-/// Makes all grains of a catalogue file, in its order. Throws InputError.
-std::vector<Grain> load_catalogue(const std::string& path);
+/// Makes all kinds of a catalogue file, in its order. Throws InputError.
+std::vector<GrainKind> load_catalogue(const std::string& path);
 
 }  // namespace falling_particles

@@ -1,11 +1,11 @@
-// The feeders and sinks that a scene may name, as text.
+// The list of the keys of feeders and sinks.
 #pragma once
 
 #include <string>
 
 namespace falling_particles {
 
-/// [[feeder]] and [[sink]] with their parameters, units and ranges, for users.
+/// The parameters of [[feeder]] and [[sink]] with units and ranges, for users.
 std::string list_population();
 
 }  // namespace falling_particles

@@ -100,7 +100,7 @@ std::string list_sections() {
   height           m, in (0, 1000]; of the belt's top above the floor
   thickness        m, above 0, up to height; of the belt with its rollers
   wall_height      m, in (0, 1000]
-  speed            m/s, above 0; up to a tenth of a turn of a roller in a step
+  speed            m/s, above 0; up to a tenth of a revolution of a roller in a step
   drop_length      m, above half of thickness, up to 1000; beyond the last roller
   starts_at        s, from 0, before time.duration; 0 without it
 [periodic]

@@ -86,7 +86,7 @@ Open read_open(const TomlTable& root, const TomlTable& table) {
   return open;
 }
 
-/// The lattice needs room for at least one cell, whatever the attitude of the largest grain.
+/// The lattice needs space for at least one cell, which holds the largest grain in any orientation.
 void check_width(const TomlTable& table, const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   const double narrowest = std::min(plan.width[0], plan.width[1]);
@@ -96,22 +96,22 @@ void check_width(const TomlTable& table, const Scene& scene) {
   if (std::holds_alternative<Open>(scene.container)) key = "start";
   if (std::holds_alternative<Drum>(scene.container)) key = plan.width[0] < plan.width[1] ? "diameter" : "length";
   table.fail(key, "container." + std::string(key) + " is " + shortest(narrowest) + " at its narrowest; allowed: at least " +
-                      shortest(cell) + " m, so that the largest grain fits in any attitude");
+                      shortest(cell) + " m, so that the largest grain fits in any orientation");
 }
 
-/// Where grains start below a ceiling, there may be too many.
+/// Below a ceiling there may be no space for all grains of the start.
 void check_ceiling(const TomlTable& table, const Scene& scene) {
   if (std::isinf(ceiling_of(scene.container))) return;
   Lattice lattice(scene);
   int room = 0;
   try {
-    for (const GrainCount& kind : scene.grains) {
-      const double radius = kind.grain.bounding_radius();
-      for (int i = 0; i < kind.count; ++i, ++room) lattice.next(kind.scale(static_cast<std::size_t>(i)) * radius);
+    for (const GrainCount& entry : scene.kinds) {
+      const double radius = entry.kind.bounding_radius();
+      for (int i = 0; i < entry.count; ++i, ++room) lattice.next(entry.scale(static_cast<std::size_t>(i)) * radius);
     }
   } catch (const NoRoom&) {
-    table.fail("kind", "the scene has " + std::to_string(scene.bodies()) + " grains; allowed: up to " + std::to_string(room) +
-                           ", which find room in the container at the start");
+    table.fail("kind", "the scene has " + std::to_string(scene.grains_at_start()) + " grains; allowed: up to " +
+                           std::to_string(room) + ", which find room in the container at the start");
   }
 }
 
@@ -122,7 +122,7 @@ void check_periodic(const TomlTable& table, const Scene& scene, const Periodic& 
                          " m, so that no grain meets itself");
 }
 
-/// A lattice of three by three cells has one that lies within the circle around them, one of two by two has none.
+/// Among three by three cells, one lies within the circle around them; among two by two cells, none does.
 void check_hopper(const TomlTable& table, const Scene& scene, const Hopper& hopper) {
   const double narrowest = 3 * scene.smallest_cell();
   if (hopper.diameter < narrowest) {

@@ -11,10 +11,10 @@ namespace falling_particles {
 /// Reads the [container] of a scene file. Throws InputError.
 Container read_container(const TomlTable& root, const Time& time);
 
-/// `width` = [x, y] (m) of a container with walls along x and y.
+/// Reads `width` = [x, y] (m) of a container with walls along x and y.
 std::array<double, 2> read_width(const TomlTable& table);
 
-/// Throws InputError unless the grains of the scene find room in its container at the start.
+/// Throws InputError unless the container has space for all grains of the start.
 void check_fit(const TomlTable& root, const Scene& scene);
 
 }  // namespace falling_particles

@@ -13,10 +13,10 @@ namespace fx = supernormal::effects;
 
 constexpr bool kSpeculativeByDefault = false;  // whether a scene without [speculative_contacts] has them
 
-/// The list of effects, to which each reader adds those of its section.
+/// The list of effects. Each reader adds the effects of its section.
 using List = std::vector<fx::Effect>;
 
-/// The section of an effect. The library knows the ranges and refuses values outside.
+/// The section of an effect. The library checks the ranges.
 class Section {
  public:
   Section(TomlTable table, const char* ranges) : table_(std::move(table)), allowed_(Interval::finite(ranges)) {}
@@ -119,7 +119,7 @@ class Reader {
     if (has_speculative_contacts()) list_.emplace_back(fx::SpeculativeContacts{});
   }
 
-  // A compression works by overlaps.
+  // A compression works by overlaps, which speculative contacts prevent.
   bool has_speculative_contacts() const {
     const auto section = find_section(root_, "speculative_contacts", {"enabled"});
     if (!section) return kSpeculativeByDefault && !root_.has("compression");

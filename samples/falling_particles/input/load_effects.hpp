@@ -9,14 +9,14 @@
 
 namespace falling_particles {
 
-/// The names of the sections of effects: those of supernormal::effects.
+/// The names of the sections of effects, from supernormal::effects.
 std::vector<std::string> effect_sections();
 
-/// The keys of an effect's section, for users: the library's, with those that scenes have besides, and what holds without them.
+/// The keys of an effect's section with their defaults, for users: the library's parameters and the additional keys of scenes.
 std::string scene_parameters(const supernormal::effects::Description& effect);
 
-/// Loads the effects whose sections the file has. Throws InputError. `smallest_half_axis`, m, is the length that [surface_layer]
-/// refers to; `step`, s, is that of the scene.
+/// Loads the effects whose sections the file has. Throws InputError. `smallest_half_axis` (m) is the unit of the depth of
+/// [surface_layer]; `step` (s) is the scene's.
 std::vector<supernormal::effects::Effect> load_effects(const TomlTable& root, double smallest_half_axis, double step);
 
 }  // namespace falling_particles

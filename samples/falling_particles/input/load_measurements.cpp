@@ -18,7 +18,7 @@ const MeasurementKind& read_kind(const TomlTable& table) {
   return *find_measurement_kind(table.choice("kind", names));
 }
 
-/// The keys of a kind's parameters, some of which are described together: "lower, upper".
+/// The keys of a kind's parameters. Some are described together: "lower, upper".
 std::vector<std::string> keys_of(const MeasurementKind& kind) {
   std::vector<std::string> keys = {"kind", "name", "interval", "from", "until"};
   for (const MeasurementParameter& parameter : kind.parameters) {
@@ -31,7 +31,7 @@ std::vector<std::string> keys_of(const MeasurementKind& kind) {
   return keys;
 }
 
-/// The name becomes that of a file.
+/// The name is also the name of a file.
 std::string read_name(const TomlTable& table, const MeasurementKind& kind) {
   if (!table.has("name")) return kind.name;
   constexpr std::size_t kLongest = 64;
@@ -48,7 +48,7 @@ int read_every(const TomlTable& table, const Time& time) {
   const double interval =
       table.number("interval", Interval::closed(time.step, time.duration, "s, a multiple of time.step (up to time.duration)"));
   const double steps = std::round(interval / time.step);
-  constexpr double kRounding = 1e-6;  // as people type them: a step of 0.000333 and an interval of 0.00999 agree to this
+  constexpr double kRounding = 1e-6;  // tolerance for typed numbers: a step of 0.000333 and an interval of 0.00999 agree to this
   if (std::abs(interval - steps * time.step) > kRounding * time.step) {
     table.fail("interval", table.full_name("interval") + " is " + shortest(interval) + "; allowed: a multiple of time.step, " +
                                shortest(time.step) + " s");

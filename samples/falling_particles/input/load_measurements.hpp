@@ -9,7 +9,7 @@
 
 namespace falling_particles {
 
-/// The scene's container, grains and time have been read. Throws InputError.
+/// Reads the sections [[measurement]]. The scene's container, grains and time must have been read. Throws InputError.
 std::vector<MeasurementRequest> load_measurements(const TomlTable& root, const Scene& scene);
 
 }  // namespace falling_particles

@@ -23,7 +23,7 @@ namespace falling_particles {
 
 namespace {
 
-/// What is not finite is refused at once: it is equal to nothing, and corners are found by their order.
+/// Refuses coordinates that are not finite, because equal vertices are found by sorting and a NaN has no order.
 std::array<float, 3> scaled(const aiVector3D& vertex, double unit) {
   const auto metres = [unit](double x) {
     const auto length = static_cast<float>(unit * x);
@@ -33,8 +33,8 @@ std::array<float, 3> scaled(const aiVector3D& vertex, double unit) {
   return {metres(vertex.x), metres(vertex.y), metres(vertex.z)};
 }
 
-/// Opens the mesh alone: a file may name others, such as the materials of an OBJ (mtllib), which are none of its triangles, and of
-/// which messages would quote lines.
+/// Opens the file of the mesh only. The file may name others, such as the materials of an OBJ (mtllib). They have no triangles, and
+/// messages would quote their lines.
 class OneFile : public Assimp::DefaultIOSystem {
  public:
   explicit OneFile(std::string path) : path_(std::move(path)) {}
@@ -47,11 +47,11 @@ class OneFile : public Assimp::DefaultIOSystem {
   std::string path_;
 };
 
-/// Adds the triangles of a mesh, but for those that have shrunk to a line.
+/// Adds the triangles of a mesh, without degenerate ones.
 void append(const aiMesh& added, double unit, std::map<std::array<float, 3>, unsigned int>& index_of, Mesh& mesh) {
   for (unsigned k = 0; k < added.mNumFaces; ++k) {
     const aiFace& face = added.mFaces[k];
-    if (face.mNumIndices != 3) continue;  // points and lines, which an OBJ may hold
+    if (face.mNumIndices != 3) continue;  // points and lines, which an OBJ may contain
     std::array<unsigned int, 3> triangle{};
     for (unsigned corner = 0; corner < 3; ++corner) {
       const std::array<float, 3> vertex = scaled(added.mVertices[face.mIndices[corner]], unit);
@@ -73,8 +73,8 @@ Mesh load_mesh(const std::string& path, double unit) {
   }
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("there is no file \"" + path + "\"");
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFile(path));  // which the importer deletes
-  // The two formats have no transformations, so that nodes need not be looked at.
+  importer.SetIOHandler(new OneFile(path));  // the importer deletes the handler
+  // The two formats have no transformations, so the tree of nodes is ignored.
   const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw std::runtime_error("\"" + path + "\" cannot be read: " + importer.GetErrorString());
   Mesh mesh;

@@ -7,11 +7,11 @@
 
 namespace falling_particles {
 
-/// Whether this build can read meshes: it then has assimp.
+/// Whether this build can read meshes, which needs assimp.
 bool can_load_meshes();
 
-/// The triangles of an STL or OBJ file, whose lengths are in units of `unit` m; vertices in the same place are one. Throws
-/// std::runtime_error, which names the file and what is wrong with it.
+/// Reads the triangles of an STL or OBJ file, whose lengths are in units of `unit` m. Equal vertices are merged. Throws
+/// std::runtime_error with the file and the mistake.
 Mesh load_mesh(const std::string& path, double unit);
 
 }  // namespace falling_particles

@@ -38,7 +38,7 @@ Conveyor read_conveyor(const TomlTable& table, const Time& time) {
   return conveyor;
 }
 
-decltype(PartMotion::kind) read_kind(const TomlTable& table, const Time& time) {
+decltype(WallMotion::kind) read_kind(const TomlTable& table, const Time& time) {
   const std::string kind = table.choice("kind", {"velocity", "rotation", "vibration", "conveyor"});
   if (kind == "rotation") return read_rotation(table, time);
   if (kind == "vibration") return read_vibration(table, time);
@@ -47,7 +47,7 @@ decltype(PartMotion::kind) read_kind(const TomlTable& table, const Time& time) {
   return Translation{read_vector(table, "velocity", Interval::closed(-kLargestSpeed, kLargestSpeed, "m/s"))};
 }
 
-PartMotion read_motion(const TomlTable& table, const Time& time) {
+WallMotion read_motion(const TomlTable& table, const Time& time) {
   const auto kind = read_kind(table, time);
   const auto [from, until] = read_times(table);
   return {kind, from, until};
@@ -89,8 +89,8 @@ std::pair<double, double> read_times(const TomlTable& table) {
   return {from, until};
 }
 
-std::vector<PartMotion> read_motions(const TomlTable& part, const Time& time) {
-  std::vector<PartMotion> motions;
+std::vector<WallMotion> read_motions(const TomlTable& part, const Time& time) {
+  std::vector<WallMotion> motions;
   const std::vector<std::string> keys = {"kind",      "velocity",  "axis",  "point",     "rpm",  "from",
                                          "direction", "amplitude", "phase", "frequency", "until"};
   for (const TomlTable& table : part.tables("motion", keys)) motions.push_back(read_motion(table, time));

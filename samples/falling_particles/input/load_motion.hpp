@@ -1,4 +1,4 @@
-// Reads the [[part.motion]] sections of a part.
+// Reads the [[part.motion]] sections of a wall.
 #pragma once
 
 #include <utility>
@@ -12,25 +12,25 @@ namespace falling_particles {
 
 Vector3 read_vector(const TomlTable& table, const char* key, const Interval& allowed);
 
-/// A direction of any length but 0, as a unit vector.
+/// Reads a direction of any length but 0, and returns its unit vector.
 Vector3 read_direction(const TomlTable& table, const char* key);
 
-/// Revolutions of a part in a step, at most: the velocity of a step is that of the smaller turn.
+/// The most revolutions of a wall in a step. The mean velocity of a step assumes the smaller rotation.
 inline constexpr double kLargestTurn = 0.1;
 
-/// `rpm`: revolutions a minute, up to kLargestTurn in a step.
+/// Reads `rpm`, revolutions per minute, up to kLargestTurn in a step.
 double read_rpm(const TomlTable& table, const Time& time);
 
-/// `frequency` (Hz) of a vibration, a period of which takes at least ten steps.
+/// Reads `frequency` (Hz) of a vibration, whose period takes at least ten steps.
 double read_frequency(const TomlTable& table, const Time& time);
 
-/// `phase`, in degrees there, in radians here; 0 if it is not given.
+/// Reads `phase` in degrees and returns it in radians; 0 if it is not given.
 double read_phase(const TomlTable& table);
 
-/// `from` and `until` (s): 0 and never if they are not given.
+/// Reads `from` and `until` (s); 0 and infinity if they are not given.
 std::pair<double, double> read_times(const TomlTable& table);
 
-/// The motions of a part. Throws InputError.
-std::vector<PartMotion> read_motions(const TomlTable& part, const Time& time);
+/// Reads the motions of a wall. Throws InputError.
+std::vector<WallMotion> read_motions(const TomlTable& part, const Time& time);
 
 }  // namespace falling_particles

@@ -10,7 +10,7 @@ namespace {
 
 double read_length(const TomlTable& table, const char* key) { return table.number(key, Interval::positive(kLargestLength, "m")); }
 
-/// When a motion starts: 0 if the scene does not say.
+/// Reads the start (s) of a motion; 0 if it is not given.
 double read_start(const TomlTable& table, const char* key, const Time& time) {
   return table.has(key) ? table.number(key, {0, time.duration, true, false, "s (before time.duration)"}) : 0;
 }
@@ -74,7 +74,7 @@ ConveyorBelt read_conveyor_belt(const TomlTable& table, const Time& time) {
   belt.wall_height = read_length(table, "wall_height");
   belt.drop_length = table.number("drop_length", {belt.thickness / 2, kLargestLength, false, true, "m (beyond the last roller)"});
   const double most = kLargestTurn * std::numbers::pi * belt.thickness / time.step;
-  belt.speed = table.number("speed", Interval::positive(most, "m/s (a roller turns by a tenth in time.step)"));
+  belt.speed = table.number("speed", Interval::positive(most, "m/s (a roller rotates by a tenth of a revolution in time.step)"));
   belt.starts_at = read_start(table, "starts_at", time);
   return belt;
 }

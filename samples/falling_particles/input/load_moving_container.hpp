@@ -1,4 +1,4 @@
-// Reads [container] sections of kinds that move.
+// Reads the [container] sections of moving containers.
 #pragma once
 
 #include "base/toml_input.hpp"

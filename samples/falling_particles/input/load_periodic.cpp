@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "model/container_parts.hpp"
-#include "model/periodic_parts.hpp"
+#include "model/container_walls.hpp"
+#include "model/periodic_walls.hpp"
 
 namespace falling_particles {
 namespace {
@@ -16,13 +16,13 @@ constexpr std::array kAxes = {"x", "y"};
 
 std::string in_brackets(const Period& period) { return "[" + shortest(period.lower) + ", " + shortest(period.upper()) + "]"; }
 
-/// The axes along which a container can be opened.
+/// The axes along which containers can be periodic.
 constexpr const char* kAllowed =
     "allowed: periodic.x and periodic.y in a box, a tray or a container of kind \"none\"; periodic.y in a drum, a shear_cell or a "
     "conveyor";
 
-/// What a container has between its walls along an axis; nothing where it cannot be without them. Any period will do for one that
-/// has no walls.
+/// The interval between the container's walls along an axis. Empty if the container cannot be periodic along it. A container
+/// without walls may have any period.
 std::optional<Period> between_walls(const Container& container, std::size_t axis) {
   const Rectangle plan = plan_of(container);
   const bool is_open_everywhere = std::holds_alternative<Box>(container) || std::holds_alternative<Tray>(container);
@@ -77,14 +77,14 @@ void load_periodic(const TomlTable& root, Scene& scene) {
     if (table->has(kAxes[axis])) scene.periodic[axis] = read_period(*table, axis, scene);
   }
   const double reach = 2 * scene.largest_bounding_radius();
-  open_container(scene.periodic, reach, parts_in(scene.container).size(), scene.parts);
+  open_container(scene.periodic, reach, walls_in(scene.container).size(), scene.walls);
   for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
     if (!scene.periodic[axis]) continue;
-    for (const Part& part : scene.parts) {
-      const std::optional<std::string> end = find_end(part, axis, *scene.periodic[axis], reach);
+    for (const Wall& wall : scene.walls) {
+      const std::optional<std::string> end = find_end(wall, axis, *scene.periodic[axis], reach);
       if (!end) continue;
       table->fail(kAxes[axis],
-                  "part \"" + part.name + "\" is not the same all along " + kAxes[axis] + ", on which the scene repeats: " + *end +
+                  "part \"" + wall.name + "\" is not the same all along " + kAxes[axis] + ", on which the scene repeats: " + *end +
                       "; allowed: planes, boxes, cylinders and prisms through the whole cell that move in the same way "
                       "everywhere along it");
     }

@@ -6,8 +6,8 @@
 
 namespace falling_particles {
 
-/// Reads along which axes a scene repeats, of which the container, the parts and the grains have been read, and takes away the
-/// parts of the container that close it there. Throws InputError, also when a part is not the same all along such an axis.
+/// Reads the axes along which a scene repeats, and removes the walls of the container that close it there. The scene's container,
+/// walls and grains must have been read. Throws InputError, also when a wall is not uniform along such an axis.
 void load_periodic(const TomlTable& root, Scene& scene);
 
 }  // namespace falling_particles

@@ -14,9 +14,9 @@ namespace falling_particles {
 namespace {
 
 constexpr double kLargestRate = 1e9;  // grains/s and kg/s
-constexpr double kMostGrains = 1e6;   // of all feeders, and at the start
+constexpr double kMostGrains = 1e6;   // of all feeders and of the start together
 
-/// A name stands in a line of a table.
+/// Reads a name, which must fit into a CSV field.
 std::string read_name(const TomlTable& table, std::set<std::string>& names) {
   const std::string name = table.text("name");
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
@@ -37,7 +37,7 @@ Region read_region(const TomlTable& table) {
   return {to_point(corner), to_point(size)};
 }
 
-/// One of two keys, in grains or in kg.
+/// Reads one of two keys, in grains or in kg.
 Quantity read_quantity(const TomlTable& table, const char* grains, const char* kg, const char* unit_of_grains,
                        const char* unit_of_kg) {
   if (table.has(grains) == table.has(kg)) {
@@ -50,23 +50,23 @@ Quantity read_quantity(const TomlTable& table, const char* grains, const char* k
 
 std::size_t find_kind(const TomlTable& entry, const Scene& scene) {
   std::vector<std::string> names;
-  for (const GrainCount& kind : scene.grains) names.push_back(kind.grain.name);
+  for (const GrainCount& each : scene.kinds) names.push_back(each.kind.name);
   const std::string name = entry.choice("name", names);
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-/// The list of the feeder, or the grains of the scene in the ratio of their numbers.
+/// Reads the kinds that the feeder lists. Without a list, the mixture has the scene's kinds in the ratio of their counts.
 std::vector<FedKind> read_mixture(const TomlTable& table, const Scene& scene) {
   std::vector<FedKind> mixture;
   if (!table.has("grain")) {
-    const int all = scene.bodies();
-    if (all == 0 && scene.grains.size() > 1) {
+    const int all = scene.grains_at_start();
+    if (all == 0 && scene.kinds.size() > 1) {
       table.fail("",
                  "feeder.grain is missing in a scene whose grains all have count = 0; allowed: [[feeder.grain]] with name and "
                  "fraction of each kind");
     }
-    for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) {
-      const int count = scene.grains[kind].count;
+    for (std::size_t kind = 0; kind < scene.kinds.size(); ++kind) {
+      const int count = scene.kinds[kind].count;
       if (count > 0 || all == 0) mixture.push_back({kind, all == 0 ? 1.0 : static_cast<double>(count) / all});
     }
     return mixture;
@@ -87,7 +87,7 @@ std::vector<FedKind> read_mixture(const TomlTable& table, const Scene& scene) {
   return mixture;
 }
 
-/// A total that no grain fits in would feed nothing.
+/// Refuses a total below the mass of every grain, which would feed nothing.
 void check_total(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
   if (!feeder.total) return;
   const double number = feeder.total->number;
@@ -102,12 +102,12 @@ void check_total(const TomlTable& table, const Feeder& feeder, const Scene& scen
                              " kg, the mass of the lightest grain that it may feed");
 }
 
-/// All grains come into the container, or into a sink. The containers are convex, so that the outermost centres tell it.
+/// Refuses a region outside the container and every sink. The containers are convex, so the outermost centres suffice.
 void check_inside(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
-  double least = INFINITY;  // m, of a centre from the region's sides
+  double least = INFINITY;  // m, distance of a centre from the region's sides
   for (const FedKind& fed : feeder.mixture) {
-    const GrainCount& kind = scene.grains[fed.kind];
-    least = std::min(least, kind.smallest_scale() * kind.grain.bounding_radius());
+    const GrainCount& entry = scene.kinds[fed.kind];
+    least = std::min(least, entry.smallest_scale() * entry.kind.bounding_radius());
   }
   for (unsigned corner = 0; corner < 8; ++corner) {
     Point centre = feeder.region.corner;
@@ -121,21 +121,21 @@ void check_inside(const TomlTable& table, const Feeder& feeder, const Scene& sce
   }
 }
 
-/// A grain is within the region in any attitude.
+/// Refuses a region that is too small for a grain in any orientation.
 void check_size(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
   for (const FedKind& fed : feeder.mixture) {
-    const GrainCount& kind = scene.grains[fed.kind];
-    const double width = 2 * kind.largest_scale() * kind.grain.bounding_radius();
+    const GrainCount& entry = scene.kinds[fed.kind];
+    const double width = 2 * entry.largest_scale() * entry.kind.bounding_radius();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (feeder.region.size[axis] >= width) continue;
       table.fail("size", table.full_name("size") + "[" + std::to_string(axis) + "] is " + shortest(feeder.region.size[axis]) +
-                             "; allowed: at least " + shortest(width) + " m, so that grain \"" + kind.grain.name +
-                             "\" fits in any attitude");
+                             "; allowed: at least " + shortest(width) + " m, so that grain \"" + entry.kind.name +
+                             "\" fits in any orientation");
     }
   }
 }
 
-/// Grains come within the cell of a periodic scene, and not through its boundary.
+/// Refuses a region that crosses the boundary of a periodic cell.
 void check_cell(const TomlTable& table, const Feeder& feeder, const Scene& scene) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::optional<Period>& period = scene.periodic[axis];
@@ -202,7 +202,7 @@ std::vector<Feeder> load_feeders(const TomlTable& root, const Scene& scene) {
   if (!root.has("feeder")) return feeders;
   refuse_in_packing(root, scene, "feeder");
   std::set<std::string> names;
-  double most = scene.bodies();
+  double most = scene.grains_at_start();
   for (const TomlTable& table :
        root.tables("feeder", {"name", "corner", "size", "grain", "fractions_of", "grains_per_second", "kg_per_second",
                               "total_grains", "total_kg", "from", "until", "velocity", "patience"})) {

@@ -1,4 +1,4 @@
-// Feeders and sinks from a scene file.
+// Reads feeders and sinks from a scene file.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace falling_particles {
 
-/// The sections [[feeder]] of a scene of which the container, the grains and the time have been read. Throws InputError.
+/// Reads the sections [[feeder]]. The scene's container, grains and time must have been read. Throws InputError.
 std::vector<Feeder> load_feeders(const TomlTable& root, const Scene& scene);
 
-/// The sections [[sink]]. Throws InputError.
+/// Reads the sections [[sink]]. Throws InputError.
 std::vector<Sink> load_sinks(const TomlTable& root, const Scene& scene);
 
 }  // namespace falling_particles

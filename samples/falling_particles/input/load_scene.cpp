@@ -13,14 +13,14 @@
 #include "load_container.hpp"
 #include "load_effects.hpp"
 #include "load_measurements.hpp"
-#include "load_parts.hpp"
 #include "load_periodic.hpp"
 #include "load_population.hpp"
 #include "load_sizes.hpp"
+#include "load_walls.hpp"
 #include "memory.hpp"
-#include "model/part_material.hpp"
 #include "model/picture_names.hpp"
 #include "model/scene.hpp"
+#include "model/wall_material.hpp"
 
 namespace falling_particles {
 namespace {
@@ -28,7 +28,7 @@ namespace {
 constexpr std::int64_t kMostBodies = 1'000'000;
 constexpr std::int64_t kMostSteps = 1'000'000'000;
 
-/// Reads the catalogue that the scene names, relative to the scene's folder.
+/// Reads the catalogue that the scene names by a path relative to its folder.
 std::vector<CatalogueEntry> read_catalogue(const TomlTable& root, const std::string& scene_path) {
   const std::filesystem::path path = std::filesystem::path(scene_path).parent_path() / root.text("catalogue");
   const std::string allowed = "; allowed: a grain catalogue, its path relative to the scene file";
@@ -51,7 +51,7 @@ const CatalogueEntry& find_grain(const std::vector<CatalogueEntry>& catalogue, c
   entry.fail("name", "unknown grain \"" + name + "\"" + did_you_mean(name, names) + "; allowed (the catalogue's): " + join(names));
 }
 
-/// Whole numbers in the ratio of `fractions` that sum to `total`: all are rounded down, then the largest remainders up.
+/// Whole numbers in the ratio of `fractions` that sum to `total`: all are rounded down, then those with the largest remainders up.
 std::vector<int> apportion(const std::vector<double>& fractions, int total) {
   std::vector<int> counts;
   std::vector<std::pair<double, std::size_t>> remainders;
@@ -76,7 +76,7 @@ std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const Tom
     fractions.push_back(entry.number("fraction", Interval::positive(1, "")));
     sum += fractions.back();
   }
-  // Fractions may be rounded as people type them: 0.333 three times is one.
+  // Typed fractions may be rounded: three times 0.333 counts as 1.
   if (std::abs(sum - 1) > 0.005) {
     entries.front().fail("fraction", "the fractions of the grains sum to " + shortest(sum) + "; allowed: a sum of 1");
   }
@@ -84,7 +84,7 @@ std::vector<int> read_fractions(const std::vector<TomlTable>& entries, const Tom
   return apportion(fractions, total);
 }
 
-/// `least`: 0 where feeders bring grains.
+/// `least`: the least allowed count; 0 if there are feeders.
 std::vector<int> read_counts(const std::vector<TomlTable>& entries, const TomlTable& drop, int least) {
   if (drop.has("total")) drop.fail("total", "drop.total is given besides counts; allowed: with fractions only");
   std::vector<int> counts;
@@ -98,14 +98,14 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   const std::vector<CatalogueEntry> catalogue = read_catalogue(root, scene_path);
   const std::vector<TomlTable> entries = root.tables("grain", {"name", "count", "fraction", "size"});
   const bool by_fraction = entries.front().has("fraction");
-  std::vector<GrainCount> grains;
+  std::vector<GrainCount> kinds;
   std::set<std::string> seen;
   for (const TomlTable& entry : entries) {
     const CatalogueEntry& found = find_grain(catalogue, entry);
     if (!seen.insert(found.name).second) {
       entry.fail("name", "grain \"" + found.name + "\" is listed twice; allowed: once, with the sum");
     }
-    grains.push_back({found.make(), 0});
+    kinds.push_back({found.make(), 0});
     const char* other = by_fraction ? "count" : "fraction";
     if (entry.has(other)) {
       entry.fail(other, entry.full_name(other) + " is mixed with " + (by_fraction ? "fraction" : "count") +
@@ -119,17 +119,20 @@ std::vector<GrainCount> read_grains(const TomlTable& root, const TomlTable& drop
   if (sum > kMostBodies)
     root.fail("grain", "the scene has " + std::to_string(sum) + " grains; allowed: up to " + std::to_string(kMostBodies));
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    GrainCount& kind = grains[i];
-    kind.count = counts[i];
-    kind.is_fed = root.has("feeder");
-    kind.size = load_sizes(entries[i], kind.grain.sieve_size());
-    if (kind.size) kind.scales = draw_sizes(*kind.size, kind.count, seed_of_sizes(seed, i));
+    GrainCount& entry = kinds[i];
+    entry.count = counts[i];
+    entry.is_fed = root.has("feeder");
+    entry.size = load_sizes(entries[i], entry.kind.sieve_size());
+    if (entry.size) entry.scales = draw_sizes(*entry.size, entry.count, seed_of_sizes(seed, i));
   }
-  return grains;
+  return kinds;
 }
 
-/// Grains that a scene may have at once. How many its sinks leave cannot be told.
-int most_at_once(const Scene& scene) { return static_cast<int>(scene.bodies() + (scene.sinks.empty() ? most_fed(scene) : 0)); }
+/// The most grains that a scene may have at once. With sinks only the grains of the start count, because the effect of sinks is not
+/// known in advance.
+int most_at_once(const Scene& scene) {
+  return static_cast<int>(scene.grains_at_start() + (scene.sinks.empty() ? most_fed(scene) : 0));
+}
 
 void check_memory(const TomlTable& root, int grains) {
   constexpr double kGigabyte = 1e9;
@@ -158,7 +161,8 @@ Solver read_solver(const TomlTable& table) {
           table.number("cfm", Interval::closed(0, 1, "s/kg"))};
 }
 
-/// Grains in a periodic container do not drop: they start anywhere. Where feeders bring all grains, none drops.
+/// Reads [drop] into the scene and returns the table that may have `total`. Grains in a periodic container do not drop. A scene
+/// with feeders may lack the section.
 TomlTable read_drop(const TomlTable& root, Scene& scene) {
   if (root.has("feeder") && !root.has("drop")) return root;
   if (std::holds_alternative<Periodic>(scene.container)) {
@@ -209,7 +213,7 @@ void read_output(const TomlTable& root, Scene& scene) {
   scene.pictures = table->choices("pictures", names);
 }
 
-/// The scene file and those that it names, relative to its folder; all have been read.
+/// The scene file and the files that it names relative to its folder. All have been read before.
 std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files = {path, path.parent_path() / root.text("catalogue")};
   if (!root.has("part")) return files;
@@ -219,7 +223,7 @@ std::vector<std::filesystem::path> files_of(const TomlTable& root, const std::fi
   return files;
 }
 
-/// The names of the sections at the top of the file.
+/// The names of the sections at the top level of the file.
 std::vector<std::string> sections() {
   std::vector<std::string> names = {"seed",   "catalogue",   "container",   "drop",   "grain", "time",
                                     "solver", "compression", "broad_phase", "output", "part",  "measurement",
@@ -238,14 +242,14 @@ Scene load_scene(const std::string& path, const std::vector<std::string>& overri
   scene.seed = static_cast<std::uint64_t>(root.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   scene.time = read_time(root.table("time", {"duration", "step", "frame"}));
   scene.container = read_container(root, scene.time);
-  scene.parts = load_parts(root, scene, path);
+  scene.walls = load_walls(root, scene, path);
   const TomlTable drop = read_drop(root, scene);
-  scene.grains = read_grains(root, drop, path, scene.seed);
-  if (root.has("feeder") && scene.bodies() > 0) root.table("drop");  // says that it is missing
+  scene.kinds = read_grains(root, drop, path, scene.seed);
+  if (root.has("feeder") && scene.grains_at_start() > 0) root.table("drop");  // reports that it is missing
   load_periodic(root, scene);
   scene.solver = read_solver(root.table("solver", {"iterations", "erp", "cfm"}));
   scene.effects = load_effects(root, scene.smallest_half_axis(), scene.time.step);
-  add_part_effects(scene.parts, scene.effects);
+  add_wall_effects(scene.walls, scene.effects);
   scene.compression = read_compression(root, scene);
   scene.sinks = load_sinks(root, scene);
   scene.feeders = load_feeders(root, scene);

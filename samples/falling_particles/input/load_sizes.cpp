@@ -9,11 +9,11 @@ namespace {
 using By = SizeDistribution::By;
 using Bounds = SizeDistribution::Bounds;
 
-// As for the half-axes of a catalogue: nothing that one pours is larger.
+// No grain is larger, as for the half-axes of a catalogue.
 constexpr double kLargestSize = 2;  // m
-// Of the catalogue's size. Beyond it the kind is another one.
+// Relative to the catalogue's size. Beyond it the grain is of another kind.
 constexpr double kLargestFactor = 100;
-// A distribution that is wider has its largest grains in cells of the lattice where all others are dust.
+// In a wider distribution the largest cells of the lattice hold few large grains among dust.
 constexpr double kLargestRatio = 1000;
 constexpr std::int64_t kMostOpenings = 200;
 
@@ -27,7 +27,7 @@ std::vector<std::string> keys_of_sizes(const std::string& distribution) {
   return keys;
 }
 
-/// Reads the lengths of a size, in m or relative to the catalogue's, as factors on the catalogue's.
+/// Reads the lengths of a size, in m or relative to the catalogue's size, as factors on the catalogue's size.
 class Lengths {
  public:
   Lengths(const TomlTable& table, double sieve_size)

@@ -1,4 +1,4 @@
-// Sizes of grains from a scene file.
+// Reads the sizes of grains from a scene file.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace falling_particles {
 
-/// Reads `size` of a [[grain]], if it has one. Throws InputError. The distribution is that of the factor on all lengths of the
-/// grain, whose sieve size in the catalogue is `sieve_size` (m).
+/// Reads `size` of a [[grain]], if it has one. Throws InputError. The result is the distribution of the factor on all lengths of
+/// the grain. `sieve_size` (m) is its sieve size in the catalogue.
 std::optional<SizeDistribution> load_sizes(const TomlTable& entry, double sieve_size);
 
 }  // namespace falling_particles

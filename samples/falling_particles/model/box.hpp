@@ -1,4 +1,4 @@
-// A box that grains fall into.
+// A box into which grains fall.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace falling_particles {
 
-/// A floor at z = 0 and four walls without upper end, at x = 0, x = width[0], y = 0 and y = width[1].
+/// A floor at z = 0 and four walls of infinite height at x = 0, x = width[0], y = 0 and y = width[1].
 struct Box {
   std::array<double, 2> width;  ///< m
 

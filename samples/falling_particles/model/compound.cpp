@@ -23,7 +23,7 @@ using supernormal::Matrix3;
 using supernormal::Pose;
 using supernormal::Vector3;
 
-/// Integrals over a body of any density.
+/// Integrals over a body.
 struct Moments {
   double volume = 0;                 // m^3
   double mass = 0;                   // kg
@@ -31,13 +31,13 @@ struct Moments {
   Matrix3 second = Matrix3::Zero();  // kg m^2, of x x^T
 };
 
-/// A stretch of a vertical; empty where its end is not above its start.
+/// An interval of a vertical line; empty unless its end is above its start.
 struct Stretch {
   double start = 0, end = 0;
   double length() const { return std::max(0.0, end - start); }
 };
 
-struct PlacedPart {
+struct PlacedComponent {
   std::shared_ptr<const supernormal::Shape> shape;
   Pose pose;
   double density;
@@ -52,15 +52,15 @@ struct PlacedPart {
     return {own.volume, density * own.volume, density * (first + own.volume * p), density * second};
   }
 
-  /// m, how far the part reaches along an axis of the grain, on both sides.
+  /// m, lower and upper end of the component along an axis of the grain.
   std::pair<double, double> range(int axis) const { return ranges[static_cast<std::size_t>(axis)]; }
   bool is_in_range(int axis, double x) const { return x >= range(axis).first && x <= range(axis).second; }
 
-  /// Where the vertical through x and y is within the part.
+  /// The interval of the vertical line through x and y that lies within the component.
   Stretch chord(double x, double y) const;
 
   std::array<std::pair<double, double>, 3> ranges = find_ranges();
-  std::optional<Matrix3> to_ball = find_to_ball();  // of an ellipsoid: to a frame in which it is the unit ball
+  std::optional<Matrix3> to_ball = find_to_ball();  // of an ellipsoid: into a frame in which it is the unit ball
 
  private:
   std::optional<Matrix3> find_to_ball() const {
@@ -78,7 +78,7 @@ struct PlacedPart {
   }
 };
 
-/// The chord of the unit ball, whose half is the root of a quadratic equation.
+/// The chord of the unit ball; its half length is the root of a quadratic equation.
 Stretch chord_of_ball(const Vector3& from_centre, const Vector3& up) {
   const double closest = -from_centre.dot(up) / up.squaredNorm();
   const double squared = 1 - (from_centre + closest * up).squaredNorm();
@@ -87,8 +87,8 @@ Stretch chord_of_ball(const Vector3& from_centre, const Vector3& up) {
   return {closest - half, closest + half};
 }
 
-Stretch PlacedPart::chord(double x, double y) const {
-  if (!is_in_range(0, x) || !is_in_range(1, y)) return {};  // a ray would cost a hundred times as much
+Stretch PlacedComponent::chord(double x, double y) const {
+  if (!is_in_range(0, x) || !is_in_range(1, y)) return {};  // a ray costs a hundred times as much
   if (to_ball) return chord_of_ball(*to_ball * (Vector3(x, y, 0) - pose.position), to_ball->col(2));
   const auto [bottom, top] = range(2);
   const double margin = top - bottom;
@@ -101,7 +101,7 @@ Stretch PlacedPart::chord(double x, double y) const {
   return {below.z() + up.distance, above.z() - down.distance};
 }
 
-/// The parts of a stretch that the others cover, together, without an overlap.
+/// The disjoint pieces of an interval that the other intervals cover.
 std::vector<Stretch> covered(const Stretch& whole, std::vector<Stretch> others) {
   std::ranges::sort(others, {}, &Stretch::start);
   std::vector<Stretch> result;
@@ -115,20 +115,20 @@ std::vector<Stretch> covered(const Stretch& whole, std::vector<Stretch> others) 
   return result;
 }
 
-bool overlaps(const PlacedPart& one, const PlacedPart& other) {
-  constexpr double kTouching = 1e-6;  // of the smaller body: parts that are placed to touch, with six digits
+bool overlaps(const PlacedComponent& one, const PlacedComponent& other) {
+  constexpr double kTouching = 1e-6;  // of the smaller body: tolerance for components that touch, given to six digits
   const double size = std::min(one.shape->half_extents().minCoeff(), other.shape->half_extents().minCoeff());
   return find_proximity(*one.shape, one.pose, *other.shape, other.pose).gap < -kTouching * size;
 }
 
-/// Takes away from `sum` what a part shares with earlier ones.
-void subtract_shared(const PlacedPart& part, const std::vector<PlacedPart>& earlier, Moments& sum) {
+/// Subtracts from `sum` the volume that a component shares with earlier ones.
+void subtract_shared(const PlacedComponent& component, const std::vector<PlacedComponent>& earlier, Moments& sum) {
   constexpr int kLines = 160;  // along each axis
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<Stretch, 2> box{{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}}};  // that holds all that is shared, from above
-  for (const PlacedPart& other : earlier) {
+  std::array<Stretch, 2> box{{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}}};  // around all shared volume, seen from above
+  for (const PlacedComponent& other : earlier) {
     for (const int axis : {0, 1}) {
-      const auto [low1, high1] = part.range(axis);
+      const auto [low1, high1] = component.range(axis);
       const auto [low2, high2] = other.range(axis);
       Stretch& side = box[static_cast<std::size_t>(axis)];
       side = {std::min(side.start, std::max(low1, low2)), std::max(side.end, std::min(high1, high2))};
@@ -140,16 +140,16 @@ void subtract_shared(const PlacedPart& part, const std::vector<PlacedPart>& earl
     for (int j = 0; j < kLines; ++j) {
       const double x = box[0].start + (i + 0.5) * dx;
       const double y = box[1].start + (j + 0.5) * dy;
-      const auto is_above = [&](const PlacedPart& other) { return other.is_in_range(0, x) && other.is_in_range(1, y); };
+      const auto is_above = [&](const PlacedComponent& other) { return other.is_in_range(0, x) && other.is_in_range(1, y); };
       if (std::ranges::none_of(earlier, is_above)) continue;
-      const Stretch own = part.chord(x, y);
+      const Stretch own = component.chord(x, y);
       if (own.length() == 0) continue;
       std::vector<Stretch> others;
       others.reserve(earlier.size());
-      for (const PlacedPart& other : earlier) others.push_back(other.chord(x, y));
+      for (const PlacedComponent& other : earlier) others.push_back(other.chord(x, y));
       for (const Stretch& shared : covered(own, std::move(others))) {
         const double volume = dx * dy * shared.length();
-        const double mass = part.density * volume;
+        const double mass = component.density * volume;
         const Vector3 middle(x, y, (shared.start + shared.end) / 2);
         sum.volume -= volume;
         sum.mass -= mass;
@@ -162,10 +162,10 @@ void subtract_shared(const PlacedPart& part, const std::vector<PlacedPart>& earl
   }
 }
 
-/// Tells on stderr, once, when what parts of a compound share takes long.
-class Patience {
+/// Prints one line to stderr if integrating the shared volume of a compound takes long.
+class ProgressNote {
  public:
-  explicit Patience(std::string name) : name_(std::move(name)) {}
+  explicit ProgressNote(std::string name) : name_(std::move(name)) {}
   void after(std::size_t done, std::size_t all) {
     constexpr std::chrono::milliseconds kLong(500);
     if (has_told_ || done == all || std::chrono::steady_clock::now() - start_ < kLong) return;
@@ -179,54 +179,55 @@ class Patience {
   bool has_told_ = false;
 };
 
-Moments moments_of(const std::string& name, const std::vector<PlacedPart>& parts) {
+Moments moments_of(const std::string& name, const std::vector<PlacedComponent>& components) {
   Moments sum;
-  Patience patience(name);
-  std::vector<PlacedPart> before;
-  before.reserve(parts.size());
-  for (const PlacedPart& part : parts) {
-    const Moments own = part.moments();
+  ProgressNote note(name);
+  std::vector<PlacedComponent> before;
+  before.reserve(components.size());
+  for (const PlacedComponent& component : components) {
+    const Moments own = component.moments();
     sum.volume += own.volume;
     sum.mass += own.mass;
     sum.first += own.first;
     sum.second += own.second;
-    std::vector<PlacedPart> earlier;
-    std::ranges::copy_if(before, std::back_inserter(earlier), [&part](const PlacedPart& other) { return overlaps(other, part); });
-    if (!earlier.empty()) subtract_shared(part, earlier, sum);
-    before.push_back(part);
-    patience.after(before.size(), parts.size());
+    std::vector<PlacedComponent> earlier;
+    std::ranges::copy_if(before, std::back_inserter(earlier),
+                         [&component](const PlacedComponent& other) { return overlaps(other, component); });
+    if (!earlier.empty()) subtract_shared(component, earlier, sum);
+    before.push_back(component);
+    note.after(before.size(), components.size());
   }
   return sum;
 }
 
 }  // namespace
 
-Grain make_compound(std::string name, std::vector<GrainPart> parts, std::string source) {
-  std::vector<PlacedPart> placed;
-  placed.reserve(parts.size());
-  for (const GrainPart& part : parts) placed.push_back({shape_of(part.body), pose_of(part), part.density});
+GrainKind make_compound(std::string name, std::vector<Component> components, std::string source) {
+  std::vector<PlacedComponent> placed;
+  placed.reserve(components.size());
+  for (const Component& component : components) placed.push_back({shape_of(component.body), pose_of(component), component.density});
   const Moments moments = moments_of(name, placed);
   const Vector3 centre = moments.first / moments.mass;
   const Matrix3 central = moments.second - moments.mass * centre * centre.transpose();
   const Matrix3 inertia = central.trace() * Matrix3::Identity() - central;
 
-  Grain grain{std::move(name), {}, 2, 2, 0, moments.mass / moments.volume, std::move(source)};
-  CompoundMass& mass = grain.compound_mass.emplace(CompoundMass{moments.mass, {}});
+  GrainKind kind{std::move(name), {}, 2, 2, 0, moments.mass / moments.volume, std::move(source)};
+  CompoundMass& mass = kind.compound_mass.emplace(CompoundMass{moments.mass, {}});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<int>(axis);
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
-    for (const PlacedPart& part : placed) {
-      const auto [low, high] = part.range(i);
+    for (const PlacedComponent& component : placed) {
+      const auto [low, high] = component.range(i);
       least = std::min(least, low);
       most = std::max(most, high);
     }
-    grain.half_axes[axis] = (most - least) / 2;
+    kind.half_axes[axis] = (most - least) / 2;
     for (std::size_t other = 0; other < 3; ++other) mass.inertia[axis][other] = inertia(i, static_cast<int>(other));
-    for (GrainPart& part : parts) part.position[axis] -= centre[i];
+    for (Component& component : components) component.position[axis] -= centre[i];
   }
-  grain.parts = std::move(parts);
-  return grain;
+  kind.components = std::move(components);
+  return kind;
 }
 
 }  // namespace falling_particles

@@ -1,16 +1,16 @@
-// Grains of several bodies.
+// Compounds: grains of several convex bodies.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "grain.hpp"
+#include "grain_kind.hpp"
 
 namespace falling_particles {
 
-/// A grain of these parts, which are given in any frame: it is moved so that the centre of mass is the origin. The mass is exact:
-/// the sum of the parts' closed forms where they do not overlap. What several parts share is the first one's, with its density; it
-/// is found by a quadrature over lines, to about 1e-4 of its own size.
-Grain make_compound(std::string name, std::vector<GrainPart> parts, std::string source);
+/// Makes a kind of grain of these components, which may be given in any frame. The result is moved so that its centre of mass is
+/// the origin. The mass is exact, by closed forms, where components do not overlap. Volume that several components share belongs to
+/// the first one, with its density. A quadrature over lines integrates the shared volume to about 1e-4 of its size.
+GrainKind make_compound(std::string name, std::vector<Component> components, std::string source);
 
 }  // namespace falling_particles

@@ -30,7 +30,7 @@ double ceiling_of(const Container& container) {
 bool has_room(const Container& container, const Point& lower, const Point& size) {
   const auto room = [&](const auto& kind) {
     if constexpr (requires { kind.has_room(lower, size); }) return kind.has_room(lower, size);
-    return true;  // only walls can be in the way of a cell above it, and the plan leaves them out
+    return true;  // the plan leaves out the walls, so nothing else can obstruct a cell above it
   };
   return std::visit(room, container);
 }

@@ -1,4 +1,4 @@
-// The container of a scene: a box, a hopper, a terrain, a periodic cell, one that moves, or none.
+// The container of a scene: a box, a hopper, a terrain, a periodic cell, a moving container, or none.
 #pragma once
 
 #include <variant>
@@ -21,13 +21,13 @@ const char* kind_of(const Container& container);
 /// The rectangle above which grains may start.
 Rectangle plan_of(const Container& container);
 
-/// The lowest z at which grains may start, m: nowhere in the container is the floor above it, except for the cone of a hopper.
+/// m, the lowest z at which grains may start. Except for a hopper's cone, the floor is nowhere above it.
 double lowest_start(const Container& container);
 
-/// The z below which all grains start, m; infinite where there is no such limit.
+/// m, the z below which all grains start; infinite if there is no such limit.
 double ceiling_of(const Container& container);
 
-/// Whether there is only air in the cell and above it: the cell lies within the plan and above lowest_start().
+/// Whether the cell and the space above it are free of walls. The cell must lie within the plan and above lowest_start().
 bool has_room(const Container& container, const Point& lower, const Point& size);
 
 /// Whether a point may be the centre of a grain. False for a NaN.

@@ -10,12 +10,12 @@
 namespace falling_particles {
 namespace {
 
-/// Above the number of grains of the lightest kind that a quantity holds.
+/// An upper bound of the number of grains that a quantity contains, if all are of the lightest kind.
 double most_grains(const Quantity& quantity, double lightest) {
   return quantity.of == Quantity::Of::Grains ? quantity.number : quantity.number / lightest + 1;
 }
 
-double smallest_mass(const GrainCount& kind) { return std::pow(kind.smallest_scale(), 3) * mass_of(kind.grain); }
+double smallest_mass(const GrainCount& entry) { return std::pow(entry.smallest_scale(), 3) * mass_of(entry.kind); }
 
 }  // namespace
 
@@ -23,7 +23,7 @@ std::string Quantity::in_words() const { return shortest(number) + (of == Of::Ma
 
 double lightest_grain(const Feeder& feeder, const Scene& scene) {
   double lightest = INFINITY;
-  for (const FedKind& fed : feeder.mixture) lightest = std::min(lightest, smallest_mass(scene.grains[fed.kind]));
+  for (const FedKind& fed : feeder.mixture) lightest = std::min(lightest, smallest_mass(scene.kinds[fed.kind]));
   return lightest;
 }
 
@@ -32,7 +32,7 @@ double most_grains(const Feeder& feeder, const Scene& scene) {
   const double on = std::max(0.0, std::min(feeder.until, scene.time.duration) - feeder.from);
   double most = most_grains({feeder.rate.number * on, feeder.rate.of}, lightest);
   if (feeder.total) most = std::min(most, most_grains(*feeder.total, lightest));
-  return std::ceil(1.001 * most) + 1;  // the mass of the geom may differ in the last digits
+  return std::ceil(1.001 * most) + 1;  // the geom's mass may differ in the last digits
 }
 
 double most_fed(const Scene& scene) {

@@ -1,4 +1,4 @@
-// Feeders and sinks of a scene: where grains come from and where they go.
+// Feeders, which insert grains, and sinks, which remove them.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@ namespace falling_particles {
 
 struct Scene;
 
-/// Grains, counted and weighed.
+/// A number of grains and their mass.
 struct Amount {
   unsigned long long grains = 0;
   double mass = 0;  ///< kg
@@ -33,47 +33,47 @@ struct Amount {
   }
 };
 
-/// A number of grains or a mass of them, in grains or kg; of a rate, in grains/s or kg/s.
+/// A number of grains (grains) or a mass (kg); of a rate, in grains/s or kg/s.
 struct Quantity {
   enum class Of { Grains, Mass };
   double number;
   Of of;
 
-  /// What of the amount is counted here.
+  /// The amount in the unit of this quantity.
   double in(const Amount& amount) const { return of == Of::Mass ? amount.mass : static_cast<double>(amount.grains); }
   std::string in_words() const;  ///< "0.2 kg"
 };
 
-/// A share of a kind in what a feeder feeds.
+/// A kind of grain in the mixture of a feeder.
 struct FedKind {
-  std::size_t kind;  ///< index into Scene::grains
-  double fraction;   ///< of Feeder::fraction_of; all sum to 1
+  std::size_t kind;  ///< index into Scene::kinds
+  double fraction;   ///< the fractions sum to 1
 };
 
-/// A region into which grains come at a rate, wherever in it they touch nothing.
+/// A region into which grains are inserted at a rate, at random places where they touch nothing.
 struct Feeder {
   std::string name;
   Region region;
   std::vector<FedKind> mixture;
-  Quantity::Of fraction_of;  ///< whether the fractions are of the grains or of their mass
-  Quantity rate;             ///< a second
+  Quantity::Of fraction_of;  ///< whether the fractions are by number or by mass
+  Quantity rate;             ///< per second
   std::optional<Quantity> total = {};
   double from = 0;                                         ///< s
   double until = std::numeric_limits<double>::infinity();  ///< s
-  Point velocity = {};                                     ///< m/s, of the grains when they come
-  double patience = 1;                                     ///< s, for which the region may be too full for the rate
+  Point velocity = {};                                     ///< m/s, of inserted grains
+  double patience = 1;  ///< s, timeout: the longest time for which the region may be too full for the rate
 };
 
-/// kg, of the grains that the feeder may bring.
+/// kg, the mass of the lightest grain that the feeder may insert.
 double lightest_grain(const Feeder& feeder, const Scene& scene);
 
-/// A number of grains that the feeder cannot reach within the duration of the scene.
+/// An upper bound of the number of grains that the feeder inserts within the duration of the scene.
 double most_grains(const Feeder& feeder, const Scene& scene);
 
-/// The same of all feeders of the scene.
+/// The same for all feeders of the scene together.
 double most_fed(const Scene& scene);
 
-/// What is below a plane.
+/// The half-space below a plane.
 struct HalfSpace {
   Point point;   ///< m, of the plane
   Point normal;  ///< unit, upwards
@@ -85,7 +85,7 @@ struct HalfSpace {
   }
 };
 
-/// A region that takes grains away as soon as their centres are inside.
+/// A region that removes grains as soon as their centres are inside.
 struct Sink {
   std::string name;
   std::variant<Region, HalfSpace> region;

@@ -8,9 +8,9 @@ namespace falling_particles {
 
 using Point = std::array<double, 3>;  ///< m
 
-/// An upright rectangle, seen from above.
+/// A rectangle in the xy-plane with sides along x and y.
 struct Rectangle {
-  std::array<double, 2> corner;  ///< m, the one with the lowest x and y
+  std::array<double, 2> corner;  ///< m, the corner with the lowest x and y
   std::array<double, 2> width;   ///< m, along x and y
 
   /// The border is not inside.
@@ -19,10 +19,10 @@ struct Rectangle {
   }
 };
 
-/// A triangle mesh, single-sided: bodies are on the side from which a triangle's corners run anticlockwise.
+/// A single-sided triangle mesh. Grains are on the side from which the vertices of a triangle run anticlockwise.
 struct Mesh {
   std::vector<std::array<float, 3>> vertices;          ///< m; ODE keeps meshes in single precision
-  std::vector<std::array<unsigned int, 3>> triangles;  ///< corners, as indices of vertices
+  std::vector<std::array<unsigned int, 3>> triangles;  ///< indices of vertices
 };
 
 }  // namespace falling_particles

@@ -11,15 +11,15 @@ namespace {
 
 using supernormal::Vector3;
 
-std::shared_ptr<const supernormal::Shape> core_of(const GrainBody& body, double scale) {
+std::shared_ptr<const supernormal::Shape> core_of(const ConvexBody& body, double scale) {
   const auto [a, b, c] = body.core_half_axes();
   const Vector3 half_axes = scale * Vector3(a, b, c);
   switch (body.shape) {
-    case GrainBody::Shape::Superovoid:
+    case ConvexBody::Shape::Superovoid:
       return std::make_shared<supernormal::Superovoid>(half_axes, body.delta, body.epsilon, body.taper[0], body.taper[1]);
-    case GrainBody::Shape::Capsule:
+    case ConvexBody::Shape::Capsule:
       return std::make_shared<supernormal::Capsule>(half_axes.x(), half_axes.z() - half_axes.x());
-    case GrainBody::Shape::Superellipsoid:
+    case ConvexBody::Shape::Superellipsoid:
       break;
   }
   return std::make_shared<supernormal::Superellipsoid>(half_axes, body.delta, body.epsilon);
@@ -27,20 +27,20 @@ std::shared_ptr<const supernormal::Shape> core_of(const GrainBody& body, double 
 
 }  // namespace
 
-std::shared_ptr<const supernormal::Shape> shape_of(const GrainBody& body, double scale) {
+std::shared_ptr<const supernormal::Shape> shape_of(const ConvexBody& body, double scale) {
   auto core = core_of(body, scale);
   if (body.rounding == 0) return core;
   return std::make_shared<supernormal::Rounded>(std::move(core), scale * body.rounding);
 }
 
-double mass_of(const Grain& grain) {
-  if (grain.compound_mass) return grain.compound_mass->mass;
-  return grain.density * shape_of(grain.all_parts().front().body)->mass_properties().volume;
+double mass_of(const GrainKind& kind) {
+  if (kind.compound_mass) return kind.compound_mass->mass;
+  return kind.density * shape_of(kind.all_components().front().body)->mass_properties().volume;
 }
 
-supernormal::Pose pose_of(const GrainPart& part, double scale) {
-  const auto [w, x, y, z] = part.quaternion;
-  const auto [px, py, pz] = part.position;
+supernormal::Pose pose_of(const Component& component, double scale) {
+  const auto [w, x, y, z] = component.quaternion;
+  const auto [px, py, pz] = component.position;
   return {scale * Vector3(px, py, pz), Eigen::Quaterniond(w, x, y, z).toRotationMatrix()};
 }
 

@@ -1,21 +1,21 @@
-// The bodies of a grain as shapes of the library's core.
+// The bodies of a kind of grain as shapes of the library's core.
 #pragma once
 
 #include <memory>
 #include <supernormal/proximity/pose.hpp>
 #include <supernormal/shapes/shape.hpp>
 
-#include "grain.hpp"
+#include "grain_kind.hpp"
 
 namespace falling_particles {
 
-/// The body that create_geom() makes.
-std::shared_ptr<const supernormal::Shape> shape_of(const GrainBody& body, double scale = 1);
+/// The shape of the geom that create_geom() makes.
+std::shared_ptr<const supernormal::Shape> shape_of(const ConvexBody& body, double scale = 1);
 
 /// kg, of a grain of scale 1.
-double mass_of(const Grain& grain);
+double mass_of(const GrainKind& kind);
 
-/// Where a part of a grain is in the grain's frame.
-supernormal::Pose pose_of(const GrainPart& part, double scale = 1);
+/// The pose of a component in the grain's frame.
+supernormal::Pose pose_of(const Component& component, double scale = 1);
 
 }  // namespace falling_particles

@@ -10,7 +10,7 @@ namespace {
 
 double angle_of(int side, int segments) { return 2 * std::numbers::pi * side / segments; }
 
-/// Appends a horizontal ring of corners, midway between the directions of the sides.
+/// Appends a horizontal ring of vertices, midway between the directions of the sides.
 void append_ring(Mesh& mesh, int segments, double radius, double z) {
   const double to_corner = radius / std::cos(std::numbers::pi / segments);
   for (int side = 0; side < segments; ++side) {
@@ -32,11 +32,11 @@ void append_band(Mesh& mesh, unsigned int segments, unsigned int lower_ring) {
 }
 
 struct ConeMoments {
-  double volume = 0, first = 0;  // without the polygon's constant factor
+  double volume = 0, first = 0;  // up to the constant factor of the polygon
 };
 
-/// Adds the part from height a to b, over which the radius is linear: Simpson's rule is then exact.
-void add_part(const Hopper& hopper, double a, double b, ConeMoments& moments) {
+/// Adds the volume from height a to b. The radius is linear there, so that Simpson's rule is exact.
+void add_moments(const Hopper& hopper, double a, double b, ConeMoments& moments) {
   const double middle = (a + b) / 2;
   for (const auto& [height, weight] : std::array<std::array<double, 2>, 3>{{{a, 1}, {middle, 4}, {b, 1}}}) {
     const double radius = hopper.radius_at(hopper.clearance + height);
@@ -68,7 +68,7 @@ bool Hopper::is_in_tray(const Point& p) const {
   return !dish || p[2] > dish->height || !is_within(p[0], p[1], dish->outer_radius());
 }
 
-// A hopper does not narrow upwards: the cell's lower end decides, at its corner farthest from the axis.
+// A hopper does not narrow upwards. So the farthest corner of the cell's lower end from the axis decides.
 bool Hopper::has_room(const Point& lower, const Point& size) const {
   const double x = std::max(std::abs(lower[0]), std::abs(lower[0] + size[0]));
   const double y = std::max(std::abs(lower[1]), std::abs(lower[1] + size[1]));
@@ -79,8 +79,8 @@ double Hopper::mean_height(double level) const {
   const double height = level - clearance;
   const double in_cone = std::fmin(height, cone_height());
   ConeMoments moments;
-  add_part(*this, 0, in_cone, moments);
-  if (height > in_cone) add_part(*this, in_cone, height, moments);
+  add_moments(*this, 0, in_cone, moments);
+  if (height > in_cone) add_moments(*this, in_cone, height, moments);
   return moments.first / moments.volume;
 }
 

@@ -8,7 +8,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr std::size_t kFewestHalvings = 2;  // with fewer, grains share the largest cells
+constexpr std::size_t kFewestHalvings = 2;  // with fewer halvings, grains use the largest cells
 
 }  // namespace
 
@@ -38,7 +38,7 @@ Lattice::Cell Lattice::take(std::size_t halvings) {
   if (free_[halvings].empty()) {
     const Cell whole = take(halvings - 1);
     const Point half = {whole.size[0] / 2, whole.size[1] / 2, whole.size[2] / 2};
-    for (unsigned corner = 8; corner-- > 0;) {  // the lower four are taken first
+    for (unsigned corner = 8; corner-- > 0;) {  // the lower four are used first
       Cell part{whole.offset, half};
       for (unsigned axis = 0; axis < 3; ++axis) part.offset[axis] += ((corner >> axis) & 1U) != 0 ? half[axis] : 0;
       free_[halvings].push_back(part);
@@ -68,9 +68,9 @@ Lattice::Cell Lattice::take_largest() {
 
 Lattice filled_lattice(const Scene& scene) {
   Lattice lattice(scene);
-  for (const GrainCount& kind : scene.grains) {
-    const double radius = kind.grain.bounding_radius();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kind.count); ++i) lattice.next(kind.scale(i) * radius);
+  for (const GrainCount& entry : scene.kinds) {
+    const double radius = entry.kind.bounding_radius();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(entry.count); ++i) lattice.next(entry.scale(i) * radius);
   }
   return lattice;
 }

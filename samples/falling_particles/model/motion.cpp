@@ -10,7 +10,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kSecondsPerMinute = 60;
 
-/// Whole turns are left out before they cost digits.
+/// Drops whole revolutions first, because they would cost digits.
 Eigen::Quaterniond turned(const Rotation& rotation, double seconds) {
   const double turns = rotation.rpm * seconds / kSecondsPerMinute;
   return Eigen::Quaterniond(Eigen::AngleAxisd(kTurn * (turns - std::floor(turns)), rotation.axis));
@@ -22,22 +22,23 @@ Eigen::Matrix3d cross_matrix(const Vector3& v) {
   return matrix;
 }
 
-/// The matrix of the rotation less the identity, with the digits of small angles.
+/// The rotation matrix minus the identity, accurate for small angles.
 Eigen::Matrix3d less_identity(const Eigen::Quaterniond& rotation) {
   const Eigen::Matrix3d cross = cross_matrix(rotation.vec());
   return 2 * rotation.w() * cross + 2 * cross * cross;
 }
 
-/// Where a step takes the surface of a part relative to the part: a lever from the part's position becomes rotation lever + shift.
+/// The motion of the wall's surface relative to the wall in a step: a lever from the wall's position becomes rotation lever +
+/// shift.
 struct SurfaceStep {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Vector3 shift = Vector3::Zero();  // m
 };
 
-SurfaceStep surface_step(const PartPose& start, const Eigen::Quaterniond& turned_by, std::span<const PartMotion> motions,
+SurfaceStep surface_step(const WallPose& start, const Eigen::Quaterniond& turned_by, std::span<const WallMotion> motions,
                          double from, double until) {
   SurfaceStep step;
-  for (const PartMotion& motion : motions) {
+  for (const WallMotion& motion : motions) {
     const auto* conveyor = std::get_if<Conveyor>(&motion.kind);
     if (conveyor == nullptr) continue;
     const double seconds = motion.elapsed(until) - motion.elapsed(from);
@@ -51,7 +52,7 @@ SurfaceStep surface_step(const PartPose& start, const Eigen::Quaterniond& turned
   return step;
 }
 
-Vector3 displacement(const PartMotion& motion, double seconds) {
+Vector3 displacement(const WallMotion& motion, double seconds) {
   if (const auto* translation = std::get_if<Translation>(&motion.kind)) return seconds * translation->velocity;
   if (const auto* vibration = std::get_if<Vibration>(&motion.kind)) {
     const double cycles = vibration->frequency * seconds;
@@ -63,13 +64,13 @@ Vector3 displacement(const PartMotion& motion, double seconds) {
 
 }  // namespace
 
-double PartMotion::elapsed(double time) const { return std::max(0.0, std::min(time, until) - from); }
+double WallMotion::elapsed(double time) const { return std::max(0.0, std::min(time, until) - from); }
 
-PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, double time) {
-  PartPose pose = start;
+WallPose pose_at(const WallPose& start, std::span<const WallMotion> motions, double time) {
+  WallPose pose = start;
   Vector3 moved = Vector3::Zero();
   for (std::size_t k = motions.size(); k-- > 0;) {
-    const PartMotion& motion = motions[k];
+    const WallMotion& motion = motions[k];
     const double seconds = motion.elapsed(time);
     if (const auto* rotation = std::get_if<Rotation>(&motion.kind)) {
       const Eigen::Quaterniond turn = turned(*rotation, seconds);
@@ -84,22 +85,22 @@ PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, dou
   return pose;
 }
 
-PartVelocity mean_velocity(const PartPose& from, const PartPose& to, double duration) {
+WallVelocity mean_velocity(const WallPose& from, const WallPose& to, double duration) {
   const Eigen::Quaterniond turn = to.rotation * from.rotation.conjugate();
-  // Twice the arctangent keeps the digits of small turns, which the arccosine of w would lose.
+  // Twice the arctangent keeps the digits of small angles, which the arccosine of w would lose.
   const double sine = turn.vec().norm();
   const double angle = 2 * std::atan2(sine, std::abs(turn.w()));
   const double sign = turn.w() < 0 ? -1 : 1;
-  PartVelocity velocity{(to.position - from.position) / duration, Vector3::Zero()};
+  WallVelocity velocity{(to.position - from.position) / duration, Vector3::Zero()};
   if (sine > 0) velocity.angular = sign * angle / (sine * duration) * turn.vec();
   return velocity;
 }
 
-PartVelocity conveyor_velocity(const PartPose& start, const PartPose& now, std::span<const PartMotion> motions, double from,
+WallVelocity conveyor_velocity(const WallPose& start, const WallPose& now, std::span<const WallMotion> motions, double from,
                                double until) {
-  PartVelocity sum;
+  WallVelocity sum;
   const Eigen::Quaterniond turned_by = now.rotation * start.rotation.conjugate();
-  for (const PartMotion& motion : motions) {
+  for (const WallMotion& motion : motions) {
     const auto* conveyor = std::get_if<Conveyor>(&motion.kind);
     if (conveyor == nullptr) continue;
     const double share = (motion.elapsed(until) - motion.elapsed(from)) / (until - from);
@@ -112,30 +113,30 @@ PartVelocity conveyor_velocity(const PartPose& start, const PartPose& now, std::
   return sum;
 }
 
-ChordExcess::ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const PartVelocity& rigid, double duration)
+ChordExcess::ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const WallVelocity& rigid, double duration)
     : turn_(rotation.toRotationMatrix()),
       chord_(less_identity(rotation) / duration),
-      chord_at_part_(shift / duration),
+      chord_at_wall_(shift / duration),
       rigid_(rigid),
       duration_(duration) {}
 
 Vector3 ChordExcess::at(const Vector3& lever, const Vector3& velocity) const {
-  const Vector3 chord = chord_at_part_ + chord_ * lever;
-  const Vector3 excess = (chord_at_part_ - rigid_.linear) + (chord_ * lever - rigid_.angular.cross(lever));
-  // What rides along has, at the end of the step, its velocity turned with the surface: that of the chord.
+  const Vector3 chord = chord_at_wall_ + chord_ * lever;
+  const Vector3 excess = (chord_at_wall_ - rigid_.linear) + (chord_ * lever - rigid_.angular.cross(lever));
+  // A grain that rides along has, at the end of the step, its velocity rotated with the surface: the velocity of the chord.
   return excess + duration_ / 2 * rigid_.angular.cross(turn_ * velocity - chord);
 }
 
-std::optional<ChordExcess> chord_excess(const PartPose& start, const PartPose& now, const PartPose& next,
-                                        std::span<const PartMotion> motions, double from, double until) {
+std::optional<ChordExcess> chord_excess(const WallPose& start, const WallPose& now, const WallPose& next,
+                                        std::span<const WallMotion> motions, double from, double until) {
   const double duration = until - from;
-  const PartVelocity part = mean_velocity(now, next, duration);
-  const PartVelocity conveyor = conveyor_velocity(start, now, motions, from, until);
-  if (part.angular.isZero(0) && conveyor.angular.isZero(0)) return std::nullopt;
+  const WallVelocity wall = mean_velocity(now, next, duration);
+  const WallVelocity conveyor = conveyor_velocity(start, now, motions, from, until);
+  if (wall.angular.isZero(0) && conveyor.angular.isZero(0)) return std::nullopt;
   const Eigen::Quaterniond turn = next.rotation * now.rotation.conjugate();
   const SurfaceStep surface = surface_step(start, now.rotation * start.rotation.conjugate(), motions, from, until);
   return ChordExcess(turn * surface.rotation, next.position - now.position + turn * surface.shift,
-                     {part.linear + conveyor.linear, part.angular + conveyor.angular}, duration);
+                     {wall.linear + conveyor.linear, wall.angular + conveyor.angular}, duration);
 }
 
 }  // namespace falling_particles

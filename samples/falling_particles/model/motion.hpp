@@ -1,4 +1,4 @@
-// Prescribed motions of parts, as functions of time.
+// Prescribed motions of walls as functions of time.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,8 +12,8 @@ namespace falling_particles {
 
 using Vector3 = Eigen::Vector3d;
 
-/// Where a part is: a point x of it is at rotation x + position.
-struct PartPose {
+/// The pose of a wall: a point x in its frame is at rotation x + position.
+struct WallPose {
   Vector3 position = Vector3::Zero();  ///< m
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
@@ -25,8 +25,8 @@ struct PartPose {
   }
 };
 
-/// Of the body's position, and of the body.
-struct PartVelocity {
+/// The velocity of the wall's position, and its angular velocity.
+struct WallVelocity {
   Vector3 linear = Vector3::Zero();   ///< m/s
   Vector3 angular = Vector3::Zero();  ///< rad/s
 
@@ -43,74 +43,75 @@ struct Translation {
   Vector3 velocity;  ///< m/s
 };
 
-/// Turns about an axis.
+/// A rotation about an axis.
 struct Rotation {
   Vector3 axis;   ///< unit
-  Vector3 point;  ///< m, of the axis, where it is at the start
-  double rpm;     ///< revolutions a minute, anticlockwise as seen from the tip of the axis
+  Vector3 point;  ///< m, on the axis at the start
+  double rpm;     ///< revolutions per minute, anticlockwise as seen from the tip of the axis
 };
 
-/// Shakes by amplitude (sin(2 pi frequency t + phase) - sin phase): it starts where the part is.
+/// A displacement by amplitude (sin(2 pi frequency t + phase) - sin phase), which is zero at the start.
 struct Vibration {
   Vector3 amplitude;  ///< m, along the direction
   double frequency;   ///< Hz
   double phase;       ///< rad
 };
 
-/// The surface moves, and the part stands. The velocity is that of the whole surface, which a face across it pushes with.
+/// The surface moves and the wall stands. The whole surface has this velocity: a face across it pushes with it.
 struct Conveyor {
-  Vector3 velocity;  ///< m/s, at the start; it turns with the part
-  Rotation turn;     ///< of the surface about an axis of the part; none for rpm = 0
+  Vector3 velocity;  ///< m/s, at the start; it rotates with the wall
+  Rotation turn;     ///< of the surface about an axis of the wall; none for rpm = 0
 };
 
-/// One motion of a part.
-struct PartMotion {
+/// One motion of a wall.
+struct WallMotion {
   std::variant<Translation, Rotation, Vibration, Conveyor> kind;
-  double from = 0;                                         ///< s, when it starts
-  double until = std::numeric_limits<double>::infinity();  ///< s; then the part stays where it is
+  double from = 0;                                         ///< s, start
+  double until = std::numeric_limits<double>::infinity();  ///< s, end; then the wall stays where it is
 
-  double elapsed(double time) const;  ///< s, the time for which it has been on
+  double elapsed(double time) const;  ///< s, the time for which the motion has acted
 };
 
-/// The pose at a time (s) of a part that starts in `start`: an exact function of time, whatever the steps. Displacements add up,
-/// and are along directions of the world. Rotations turn the part about the places where their axes are at the start, the last one
-/// first, and are then displaced: an axis is carried by the displacements and by the rotations listed before.
-PartPose pose_at(const PartPose& start, std::span<const PartMotion> motions, double time);
+/// The pose at `time` (s) of a wall that starts in `start`. It is an exact function of time, whatever the steps. Displacements add
+/// up, along directions of the world. Rotations are about the places where their axes are at the start. The last rotation acts
+/// first, then the ones before it, then the displacements. So an axis is carried by the displacements and by the rotations listed
+/// before it.
+WallPose pose_at(const WallPose& start, std::span<const WallMotion> motions, double time);
 
-/// The constant velocity that leads from one pose to the other within `duration` (s), by the smaller turn.
-PartVelocity mean_velocity(const PartPose& from, const PartPose& to, double duration);
+/// The constant velocity that leads from one pose to the other within `duration` (s), by the smaller rotation.
+WallVelocity mean_velocity(const WallPose& from, const WallPose& to, double duration);
 
-/// The mean velocity that conveyors give the surface of the part from one time to another (s), in the world's frame, at the
-/// position of the part, which is at `now`.
-PartVelocity conveyor_velocity(const PartPose& start, const PartPose& now, std::span<const PartMotion> motions, double from,
+/// The mean velocity that conveyors give the wall's surface between two times (s), in the world's frame, at the wall's position.
+/// `now` is the pose of the wall.
+WallVelocity conveyor_velocity(const WallPose& start, const WallPose& now, std::span<const WallMotion> motions, double from,
                                double until);
 
-/// A rigid velocity gives each point of a part that rotates the tangent of its circle at the start of a step, while the point moves
-/// along a chord. A grain that was carried along tangents would move outwards by (angular velocity)^2 step / 2 times its distance
-/// from the axis, in every second.
+/// The correction of a rigid velocity for the curved paths of a rotating wall. A rigid velocity gives each point of the wall the
+/// tangent of its circle at the start of a step. The point itself moves along a chord. A grain carried along tangents would move
+/// outwards by (angular velocity)^2 step / 2 times its distance from the axis, in every second.
 class ChordExcess {
  public:
-  /// Of a surface that moves with the velocity `rigid` at the position of the part and is, relative to that position, turned by
+  /// Of a surface that moves with the velocity `rigid` at the wall's position. Relative to that position, it is rotated by
   /// `rotation` and displaced by `shift` (m) in `duration` (s).
-  ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const PartVelocity& rigid, double duration);
+  ChordExcess(const Eigen::Quaterniond& rotation, const Vector3& shift, const WallVelocity& rigid, double duration);
 
-  /// m/s; what a grain needs besides the rigid velocity. `lever`: m, from the position of the part to the grain's centre;
-  /// `velocity`: m/s, of the grain. A grain that rides along gets the chord of the surface's point at its centre: all its contacts
-  /// ask for the same, since the chords of its own points differ by as much. One that rolls is elsewhere in the middle of the step,
-  /// and gets the velocity of the surface there.
+  /// m/s, the velocity that a grain needs in addition to the rigid one. `lever` (m) leads from the wall's position to the grain's
+  /// centre; `velocity` (m/s) is the grain's. A grain that rides along gets the chord of the surface's point at its centre. All its
+  /// contacts ask for the same velocity, since the chords of its own points differ by as much. A grain that rolls is elsewhere in
+  /// the middle of the step, and gets the velocity of the surface there.
   Vector3 at(const Vector3& lever, const Vector3& velocity) const;
 
  private:
   Eigen::Matrix3d turn_;   // of the step
   Eigen::Matrix3d chord_;  // 1/s; gradient of the chords' velocities
-  Vector3 chord_at_part_;  // m/s
-  PartVelocity rigid_;
+  Vector3 chord_at_wall_;  // m/s
+  WallVelocity rigid_;
   double duration_;  // s
 };
 
-/// For the step from `from` to `until` (s), in which the part goes from `now` to `next`, and conveyors move its surface; empty if
-/// neither of them rotates.
-std::optional<ChordExcess> chord_excess(const PartPose& start, const PartPose& now, const PartPose& next,
-                                        std::span<const PartMotion> motions, double from, double until);
+/// For the step from `from` to `until` (s), in which the wall moves from `now` to `next` and conveyors move its surface. Empty if
+/// neither rotates.
+std::optional<ChordExcess> chord_excess(const WallPose& start, const WallPose& now, const WallPose& next,
+                                        std::span<const WallMotion> motions, double from, double until);
 
 }  // namespace falling_particles

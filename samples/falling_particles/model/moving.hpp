@@ -1,4 +1,4 @@
-// Containers that are made of parts which move (model/container_parts.hpp).
+// Containers that are made of moving walls (model/container_walls.hpp).
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,18 @@
 
 namespace falling_particles {
 
-/// A drum that turns about the line x = 0, z = diameter / 2, from y = 0 to y = length. Its shell has `segments` flat sides, and the
-/// diameter is that of the inscribed circle; the ends are closed and turn with it.
+/// A drum that rotates about the line x = 0, z = diameter / 2, from y = 0 to y = length. Its shell has `segments` flat sides around
+/// a circle of `diameter`. The ends are closed and rotate with it.
 struct Drum {
   double diameter;  ///< m
   double length;    ///< m
   int segments;
-  double rpm;       ///< revolutions a minute; the floor of the drum moves towards -x for a positive number
-  bool is_smooth;   ///< whether only the surface moves, and the flat sides stand
+  double rpm;       ///< revolutions per minute; for a positive number the floor of the drum moves towards -x
+  bool is_smooth;   ///< whether only the surface moves while the flat sides stand
   double turns_at;  ///< s
 
   double radius() const { return diameter / 2; }                                            ///< m
-  double outer_radius() const { return radius() / std::cos(std::numbers::pi / segments); }  ///< m, of the corners
+  double outer_radius() const { return radius() / std::cos(std::numbers::pi / segments); }  ///< m, of the edges
 
   Rectangle plan() const { return {{-radius(), 0}, {diameter, length}}; }
   double lowest() const { return 0; }
@@ -35,7 +35,7 @@ struct Drum {
   bool contains(const Point& p) const { return p[1] > 0 && p[1] < length && std::hypot(p[0], p[2] - radius()) < outer_radius(); }
 };
 
-/// A tray that vibrates: a floor at z = 0 and four walls around 0 < x < width[0], 0 < y < width[1].
+/// A vibrating tray: a floor at z = 0 and four walls around 0 < x < width[0], 0 < y < width[1].
 struct Tray {
   std::array<double, 2> width;  ///< m
   double wall_height;           ///< m
@@ -48,7 +48,7 @@ struct Tray {
 
   Rectangle plan() const { return {{0, 0}, width}; }
   double lowest() const { return 0; }
-  /// Within the walls, wherever they are, or above them.
+  /// Within the walls at any phase of the vibration, or above them.
   bool contains(const Point& p) const {
     const auto way = [this](std::size_t axis) { return 2 * amplitude * std::abs(direction[axis]); };
     const auto is_between = [&](std::size_t axis) { return p[axis] > -way(axis) && p[axis] < width[axis] + way(axis); };
@@ -56,8 +56,8 @@ struct Tray {
   }
 };
 
-/// A direct shear test: a box that is cut at half its height. The lower half moves along x below the upper one, and a lid that can
-/// move up and down presses on the grains.
+/// A direct shear test: a box cut at half its height. The lower half moves along x below the upper one. A lid that can move up and
+/// down presses on the grains.
 struct ShearCell {
   std::array<double, 2> width;  ///< m
   double height;                ///< m
@@ -67,26 +67,26 @@ struct ShearCell {
   double pressure;              ///< Pa, of the lid on the plan
   double lid_mass;              ///< kg
   double lid;                   ///< m, z of the lid's lower side at the start
-  double presses_at;            ///< s, until when the lid is held
+  double presses_at;            ///< s; until then the lid is held
   double shears_at;             ///< s
 
   Rectangle plan() const { return {{0, 0}, width}; }
   double lowest() const { return 0; }
   double ceiling() const { return lid; }
-  /// Within the upper half or the lower one, which has moved by less than the walls are thick.
+  /// Within the upper half or the lower one, which moves by less than the thickness of the walls.
   bool contains(const Point& p) const {
     return p[0] > -thickness && p[0] < width[0] + thickness && p[1] > 0 && p[1] < width[1] && p[2] > 0 && p[2] < height + thickness;
   }
 };
 
-/// A belt around two rollers, from x = 0 to x = length, between two side walls, and a drop at its end to a floor at z = 0, with a
+/// A belt around two rollers, from x = 0 to x = length, between two side walls. At its end grains drop to a floor at z = 0 with a
 /// wall at its end.
 struct ConveyorBelt {
   double length;       ///< m, between the axes of the rollers
   double width;        ///< m
   double height;       ///< m, z of the belt
-  double thickness;    ///< m, of the belt, the diameter of the rollers, and of the walls
-  double wall_height;  ///< m, of the walls above the belt
+  double thickness;    ///< m, of the belt and the walls, and the diameter of the rollers
+  double wall_height;  ///< m, height of the walls above the belt
   double speed;        ///< m/s, along x
   double drop_length;  ///< m, from the end of the belt to the last wall
   double starts_at;    ///< s

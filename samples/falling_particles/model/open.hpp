@@ -1,4 +1,4 @@
-// A space without walls of its own, where parts hold the grains.
+// A container without walls of its own: the walls of the scene hold the grains.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 
 namespace falling_particles {
 
-/// A box along the axes.
+/// A box with sides along the axes.
 struct Region {
-  Point corner;  ///< m, the one with the lowest x, y and z
+  Point corner;  ///< m, the corner with the lowest x, y and z
   Point size;    ///< m
 
   /// The border is not inside.
@@ -21,14 +21,15 @@ struct Region {
   }
 };
 
-/// No walls. Grains start in one region; those that leave the other one, which is around it, have leaked.
+/// A container without walls. Grains start in one region. Grains that leave the other region, which contains the first, have
+/// leaked.
 struct Open {
   Region start;
   Region bounds;
 
   Rectangle plan() const { return {{start.corner[0], start.corner[1]}, {start.size[0], start.size[1]}}; }
   double lowest() const { return start.corner[2]; }
-  double ceiling() const { return start.corner[2] + start.size[2]; }  ///< m, above which no grain starts
+  double ceiling() const { return start.corner[2] + start.size[2]; }  ///< m; no grain starts above it
   bool contains(const Point& p) const { return bounds.contains(p); }
 };
 

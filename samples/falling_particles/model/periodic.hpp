@@ -1,4 +1,4 @@
-// Cells that repeat: a container without walls, which does in all directions, and axes along which any scene may.
+// Periodic boundaries: a periodic container without walls, and periodic axes of other scenes.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace falling_particles {
 
-/// The part of an axis after which a scene repeats.
+/// The interval of an axis after which a scene repeats.
 struct Period {
   double lower;   ///< m
   double length;  ///< m
@@ -20,7 +20,7 @@ struct Period {
   double wrapped(double x) const { return x - length * std::floor((x - lower) / length); }  ///< m, the image of x in the cell
 };
 
-/// Along x, y and z; empty where a scene does not repeat.
+/// The periods along x, y and z; empty where a scene does not repeat.
 using PeriodicAxes = std::array<std::optional<Period>, 3>;
 
 inline bool is_any(const PeriodicAxes& axes) {
@@ -35,13 +35,13 @@ inline Point wrapped(const PeriodicAxes& axes, Point point) {
   return point;
 }
 
-/// A cube from the origin that repeats for ever in all directions: a grain that leaves on one side enters on the other.
+/// A cube with a corner at the origin that repeats in all directions: a grain that leaves on one side enters on the other.
 struct Periodic {
   double side;  ///< m, at the start
 
   Rectangle plan() const { return {{0, 0}, {side, side}}; }
   double lowest() const { return 0; }
-  /// Every finite point is inside.
+  /// Contains every finite point.
   bool contains(const Point& p) const { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 };
 

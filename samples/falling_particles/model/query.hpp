@@ -1,4 +1,4 @@
-// How the bodies of a scene find their contacts.
+// The settings of the contact queries of a scene.
 #pragma once
 
 #include <supernormal/supernormal.h>
@@ -10,12 +10,13 @@
 
 namespace falling_particles {
 
-/// The settings of all queries of two smooth bodies (snSetDefaultSolver, snSetWarmStart); those of the library without a section.
+/// The settings of all queries of two smooth bodies (snSetDefaultSolver, snSetWarmStart). Without a section [query] the library's
+/// defaults hold.
 struct Query {
   snSolver solver = SN_SOLVER_HYBRID;
   double tolerance = 1e-9;  ///< of the gap, relative to the smallest half-extent
   int max_evaluations = 1000;
-  bool warm_start = true;  ///< whether a pair starts from its last normal
+  bool warm_start = true;  ///< whether a query starts from the last normal of its pair
 };
 
 std::string name_of(snSolver solver);

@@ -1,4 +1,4 @@
-// A measurement that a scene asks for.
+// A measurement that a scene requests.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@ namespace falling_particles {
 class Measurement;
 class World;
 
-/// Makes a measurement for a world that has not started.
+/// Makes a measurement for a world that has made no step.
 using MeasurementMaker = std::function<std::unique_ptr<Measurement>(const World&)>;
 
 /// A section [[measurement]] of a scene file, checked.
 struct MeasurementRequest {
   std::string name;  ///< of its table, measurements/NAME.csv
   std::string kind;  ///< in measurement_kinds()
-  int every;         ///< steps from sample to sample: the multiples of it from `first` to `last`
-  int first;         ///< in steps; at 0, the start, only kinds that need no contacts have a sample
+  int every;         ///< steps between two samples; samples are at multiples of it from `first` to `last`
+  int first;         ///< in steps; at step 0 only kinds that need no contacts have a sample
   int last;
   bool needs_contacts;
   MeasurementMaker make;

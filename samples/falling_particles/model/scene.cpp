@@ -32,41 +32,41 @@ double GrainCount::largest_scale() const {
   return is_fed ? size->largest() : std::ranges::max(scales);
 }
 
-int Scene::bodies() const {
+int Scene::grains_at_start() const {
   int sum = 0;
-  for (const GrainCount& kind : grains) sum += kind.count;
+  for (const GrainCount& entry : kinds) sum += entry.count;
   return sum;
 }
 
-std::size_t Scene::kind_of(const Grain& grain) const {
-  const auto is_kind = [&](const GrainCount& kind) { return &kind.grain == &grain; };
-  return static_cast<std::size_t>(std::ranges::find_if(grains, is_kind) - grains.begin());
+std::size_t Scene::kind_of(const GrainKind& kind) const {
+  const auto is_kind = [&](const GrainCount& entry) { return &entry.kind == &kind; };
+  return static_cast<std::size_t>(std::ranges::find_if(kinds, is_kind) - kinds.begin());
 }
 
 bool Scene::has_sizes() const {
-  return std::ranges::any_of(grains, [](const GrainCount& kind) { return kind.size.has_value(); });
+  return std::ranges::any_of(kinds, [](const GrainCount& entry) { return entry.size.has_value(); });
 }
 
 bool Scene::has_compounds() const {
-  return std::ranges::any_of(grains, [](const GrainCount& kind) { return !kind.grain.parts.empty(); });
+  return std::ranges::any_of(kinds, [](const GrainCount& entry) { return !entry.kind.components.empty(); });
 }
 
 double Scene::smallest_half_axis() const {
   double smallest = INFINITY;
-  for (const GrainCount& kind : grains) smallest = std::min(smallest, kind.smallest_scale() * kind.grain.smallest_half_axis());
+  for (const GrainCount& entry : kinds) smallest = std::min(smallest, entry.smallest_scale() * entry.kind.smallest_half_axis());
   return smallest;
 }
 
 double Scene::largest_bounding_radius() const {
   double largest = 0;
-  for (const GrainCount& kind : grains) largest = std::max(largest, kind.largest_scale() * kind.grain.bounding_radius());
+  for (const GrainCount& entry : kinds) largest = std::max(largest, entry.largest_scale() * entry.kind.bounding_radius());
   return largest;
 }
 
 double Scene::smallest_cell() const { return 2 * largest_bounding_radius() * (1 + drop.gap); }
 
 bool is_inside(const Scene& scene, const Point& point) {
-  // Along an axis on which the scene repeats everything is inside, but for a NaN.
+  // Along a periodic axis every coordinate but a NaN is inside.
   Point within = point;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (scene.periodic[axis] && std::isfinite(point[axis])) within[axis] = scene.periodic[axis]->middle();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kCellsPerPiece = 2000;
 
-/// `ends` and points between them, in equal ratios.
+/// `ends` and `cells_per_piece` - 1 points between each two of them, in equal ratios.
 std::vector<double> refine(const std::vector<double>& ends, std::size_t cells_per_piece) {
   std::vector<double> nodes;
   nodes.reserve((ends.size() - 1) * cells_per_piece + 1);
@@ -25,9 +25,9 @@ std::vector<double> refine(const std::vector<double>& ends, std::size_t cells_pe
   return nodes;
 }
 
-/// The share of the way through a cell below which a share p of it lies, when the density goes linearly from f0 to f1.
+/// The relative position in a cell below which the fraction p of the cell lies. The density is linear from f0 to f1.
 double share_of_way(double f0, double f1, double p) {
-  // f0 t + (f1 - f0) t^2 / 2 = p (f0 + f1) / 2, solved without a difference of like numbers.
+  // solved without cancellation
   const double root = std::sqrt(f0 * f0 + p * (f1 - f0) * (f1 + f0));
   return f0 + root > 0 ? p * (f0 + f1) / (f0 + root) : 0;
 }
@@ -39,7 +39,7 @@ SizeDistribution::SizeDistribution(const std::vector<double>& ends, By by,
     : nodes_(refine(ends, std::max<std::size_t>(1, kCellsPerPiece / (ends.size() - 1)))) {
   const std::size_t cells = nodes_.size() - 1;
   const std::size_t cells_per_piece = cells / (ends.size() - 1);
-  // Grains of a given mass are the fewer the larger they are.
+  // The larger the grains are, the fewer of them are in a given mass.
   const auto by_number = [&](std::size_t piece, double size) {
     return density(piece, size) / (by == By::Mass ? std::pow(size / nodes_.back(), 3) : 1);
   };

@@ -11,15 +11,15 @@ namespace falling_particles {
 namespace {
 
 constexpr std::array kRelativeAmplitudes = {1.0, 1.0 / 4, 1.0 / 16};
-constexpr std::array kRelativeLengths = {1.0, 1.0 / 2, 1.0 / 4, 1.0};  // of the three waves and of the ridges
+constexpr std::array kRelativeLengths = {1.0, 1.0 / 2, 1.0 / 4, 1.0};  // of the three waves and the ridges
 
 struct Cell {
   std::size_t index;  // index of the lower sample
-  double share;       // share of the distance to the next sample
+  double share;       // fraction of the distance to the next sample
 };
 
 Cell find_cell(double x, double spacing, std::size_t per_side) {
-  const double position = x / spacing + 1;  // the first sample lies a cell before the wall
+  const double position = x / spacing + 1;  // the first sample lies one cell outside the wall
   const double cell = std::clamp(std::floor(position), 0.0, static_cast<double>(per_side - 2));
   return {static_cast<std::size_t>(cell), position - cell};
 }

@@ -17,7 +17,7 @@ namespace {
 
 using Triangle = std::array<unsigned int, 3>;
 
-constexpr double kSeam = 1e-6;  // of the longest side: how far vertices are apart that were meant to be one, as floats are
+constexpr double kSeam = 1e-6;  // of the longest side: vertices closer than this are one, since they are in single precision
 
 constexpr std::size_t next(std::size_t corner) { return (corner + 1) % 3; }
 
@@ -35,7 +35,7 @@ double longest_side(const Mesh& mesh) {
   return longest;
 }
 
-/// The number of the first vertex within a seam, for each vertex.
+/// For each vertex, the index of the first vertex within the tolerance.
 std::vector<unsigned int> weld(const Mesh& mesh) {
   const double seam = std::max(kSeam * longest_side(mesh), std::numeric_limits<double>::min());
   std::map<std::array<double, 3>, std::vector<unsigned int>> cells;
@@ -58,7 +58,7 @@ std::vector<unsigned int> weld(const Mesh& mesh) {
   return first;
 }
 
-/// Each triangle once, with its corners; those that have shrunk to a line are left out.
+/// Each triangle once, with its welded vertices. Degenerate triangles are left out.
 Sheets distinct_triangles(const Mesh& mesh) {
   const std::vector<unsigned int> first = weld(mesh);
   Sheets sheets;
@@ -87,7 +87,8 @@ void find_neighbours(Sheets& sheets) {
   }
 }
 
-/// Whether two neighbours run along the edge from `corner` to the next in opposite directions, as triangles of one side do.
+/// Whether two neighbours run along their common edge, from `corner` to the next, in opposite directions. Triangles with the same
+/// orientation do.
 bool agree(const Sheets& sheets, std::size_t triangle, std::size_t corner, std::size_t neighbour) {
   const Triangle& other = sheets.corners[neighbour];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -102,7 +103,7 @@ void turn_around(Sheets& sheets, std::size_t triangle) {
   std::swap(sheets.neighbours[triangle][0], sheets.neighbours[triangle][2]);
 }
 
-/// Goes from triangle to triangle and turns those around that are seen from the other side.
+/// Visits each sheet triangle by triangle and flips the triangles with the opposite orientation.
 void orient(Sheets& sheets) {
   constexpr auto kNone = std::numeric_limits<unsigned int>::max();
   sheets.sheet.assign(sheets.triangles.size(), kNone);
@@ -135,10 +136,10 @@ std::uint64_t next_number() {
   return ++last;
 }
 
-/// The geom's centre in the frame of the mesh.
+/// The centre of the geom in the frame of the mesh.
 Vector3 centre_of(dGeomID geom, dGeomID mesh) {
   const Vector3 lever = to_vector(dGeomGetPosition(geom)) - to_vector(dGeomGetPosition(mesh));
-  const dReal* const rotation = dGeomGetRotation(mesh);  // three rows of four
+  const dReal* const rotation = dGeomGetRotation(mesh);  // three rows of four numbers
   return to_vector(rotation) * lever.x() + to_vector(rotation + 4) * lever.y() + to_vector(rotation + 8) * lever.z();
 }
 
@@ -153,11 +154,11 @@ Sheets sheets_of(const Mesh& mesh) {
   return sheets;
 }
 
-/// What was seen last from a point.
+/// The cached results for one mesh and one point.
 struct TwoSidedMesh::View {
-  std::uint64_t mesh = 0;  // its number
+  std::uint64_t mesh = 0;  // number_ of the mesh
   Vector3 centre = Vector3::Zero();
-  std::vector<std::pair<unsigned int, Foot>> feet;  // of sheets
+  std::vector<std::pair<unsigned int, Foot>> feet;  // the nearest place of each sheet
 };
 
 TwoSidedMesh::TwoSidedMesh(const MeshShape& mesh)
@@ -179,8 +180,8 @@ Vector3 TwoSidedMesh::normal(std::size_t triangle) const {
   return (vertex(triangle, 1) - a).cross(vertex(triangle, 2) - a).normalized();
 }
 
-// Pseudonormals (Baerentzen and Aanaes, 2005): a point is in front of a surface where it is in front of the one at the nearest
-// place. At a vertex it is the sum of the normals of the triangles there, each times its angle.
+// Pseudonormals (Baerentzen and Aanaes, 2005): a point is in front of a surface if it is in front of the pseudonormal at the
+// nearest place. At a vertex, the pseudonormal is the sum of the normals of the adjacent triangles, each times its angle.
 void TwoSidedMesh::find_normals() {
   const std::size_t count = sheets_.triangles.size();
   std::map<std::pair<unsigned int, unsigned int>, Vector3> at_vertices;  // by sheet and number of the vertex
@@ -207,7 +208,7 @@ TwoSidedMesh::Foot TwoSidedMesh::foot_on(std::size_t triangle, const Vector3& po
     return Foot{(point - place).squaredNorm(), normal.dot(point - place) >= 0};
   };
   std::array<Vector3, 3> sides;   // from each corner to the next
-  std::array<double, 3> along{};  // of the point, from each corner to the next: 0 to 1 on the side
+  std::array<double, 3> along{};  // of the projected point, from each corner to the next; within [0, 1] it is on the side
   for (std::size_t k = 0; k < 3; ++k) {
     sides[k] = vertex(triangle, next(k)) - vertex(triangle, k);
     along[k] = sides[k].dot(point - vertex(triangle, k)) / sides[k].squaredNorm();
@@ -223,14 +224,14 @@ TwoSidedMesh::Foot TwoSidedMesh::foot_on(std::size_t triangle, const Vector3& po
   return foot(point - face.dot(point - vertex(triangle, 0)) * face, face);
 }
 
-/// Looks at those of the triangles that are near, or at all of a sheet when it is asked for.
+/// Finds the nearest place on each sheet among the triangles `near`.
 void TwoSidedMesh::look(View& view, const Vector3& centre, std::span<const int> near) const {
   view.mesh = number_;
   view.centre = centre;
   view.feet.clear();
   for (const int index : near) {
     const auto triangle = static_cast<std::size_t>(index);
-    if (triangle >= sheets_.triangles.size()) continue;  // the other way round
+    if (triangle >= sheets_.triangles.size()) continue;  // a flipped copy
     const Foot foot = foot_on(triangle, centre);
     const unsigned int sheet = sheets_.sheet[triangle];
     const auto known = std::ranges::find(view.feet, sheet, &std::pair<unsigned int, Foot>::first);
@@ -273,7 +274,7 @@ int TwoSidedMesh::is_wanted(dGeomID mesh, dGeomID geom, int triangle) {
 }
 
 void TwoSidedMesh::attach(dGeomID geom) const {
-  dGeomSetData(geom, const_cast<TwoSidedMesh*>(this));  // NOLINT(cppcoreguidelines-pro-type-const-cast): ODE's data is of any kind
+  dGeomSetData(geom, const_cast<TwoSidedMesh*>(this));  // ODE's data pointer is not const
   dGeomTriMeshSetArrayCallback(geom, be_told);
   dGeomTriMeshSetCallback(geom, is_wanted);
 }

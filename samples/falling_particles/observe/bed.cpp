@@ -17,15 +17,15 @@ constexpr std::size_t kPointsPerAxis = 48;  // 110 592 points in a box: standard
 
 using Aabb = std::array<dReal, 6>;  // x, x, y, y, z, z
 
-/// Finds the grains that may hold a point, by columns of the container: a bed is much wider than a grain, and not high.
+/// Finds the grains that may contain a point by vertical columns of the container: a bed is much wider than a grain, and not high.
 class Columns {
  public:
   Columns(const World& world, const Rectangle& plan) : plan_(plan), cells_(kPerAxis * kPerAxis) {
     world.for_each_grain_geom([this](dGeomID geom) { add(Entry{geom, {}}); });
   }
 
-  /// The grain that holds the point, or null.
-  const Body* find_grain(const Point& point) const {
+  /// The grain that contains the point, or null.
+  const Grain* find_grain(const Point& point) const {
     const auto [x, y, z] = point;
     const std::vector<Entry>& column = cells_[index(x, 0) * kPerAxis + index(y, 1)];
     const auto found = std::ranges::find_if(column, [x = x, y = y, z = z](const Entry& entry) {
@@ -36,7 +36,7 @@ class Columns {
       if (std::isnan(depth)) throw std::runtime_error(std::string("snGeomPointDepth: ") + snLastError());
       return depth > 0;
     });
-    return found == column.end() ? nullptr : body_of(found->geom);
+    return found == column.end() ? nullptr : grain_of(found->geom);
   }
 
  private:
@@ -66,9 +66,9 @@ class Columns {
 double mean_z(const World& world) {
   double volume = 0;
   double moment = 0;
-  for (const Body& body : world.present()) {
-    volume += body.volume();
-    moment += body.volume() * dBodyGetPosition(body.body)[2];
+  for (const Grain& grain : world.present()) {
+    volume += grain.volume();
+    moment += grain.volume() * dBodyGetPosition(grain.body)[2];
   }
   return volume > 0 ? moment / volume : 0;  // without grains there is no bed
 }
@@ -77,7 +77,8 @@ double bed_height(const World& world, const Box&) { return 2 * mean_z(world); }
 
 double bed_height(const World& world, const Hopper& hopper) {
   const double mean = mean_z(world) - hopper.clearance;
-  // The height lies between that of a cone on its tip, 4/3 of the mean height, and that of a cylinder.
+  // The height of a cone on its tip is 4/3 of the mean height, the height of a cylinder twice the mean height. The bed's height
+  // lies between these.
   double low = 4.0 / 3 * mean;
   double high = 2 * mean;
   constexpr int kHalvings = 60;
@@ -106,10 +107,10 @@ Bed measure(const World& world, const Vessel& vessel, Random& random) {
         const Point point{x, y, vessel.lowest() + height * std::lerp(kSlabBottom, kSlabTop, level)};
         if (!vessel.contains(point)) continue;
         ++points;
-        const Body* body = columns.find_grain(point);
-        if (body == nullptr) continue;
+        const Grain* grain = columns.find_grain(point);
+        if (grain == nullptr) continue;
         ++inside;
-        density += body->grain->density;
+        density += grain->kind->density;
       }
     }
   }

@@ -8,16 +8,17 @@
 
 namespace falling_particles {
 
-/// The slab in which the volume fraction is taken, relative to the bed's height: above the floor's own layer, which is partly
-/// empty under round grains, and below the uneven surface.
+/// The slab in which the volume fraction is measured, relative to the height of the bed. It is above the layer at the floor, which
+/// is partly empty under round grains, and below the uneven surface.
 constexpr double kSlabBottom = 0.05;
 constexpr double kSlabTop = 0.80;
 
 struct Bed {
-  double height;           ///< m; height of a homogeneous bed whose volume has the same mean height as the grains'
-  double volume_fraction;  ///< share of the slab, from wall to wall, that lies within a grain; an overlap counts once
-  double standard_error;   ///< error of volume_fraction, as if the sampling points were independent (they are stratified: less)
-  double bulk_density;     ///< kg/m^3, of the slab
+  double height;           ///< m; height of a homogeneous bed whose volume has the same mean height as the grains' volume
+  double volume_fraction;  ///< fraction of the slab, from wall to wall, that lies within a grain; an overlap counts once
+  double
+      standard_error;   ///< standard error of volume_fraction for independent sampling points; stratified points have a smaller one
+  double bulk_density;  ///< kg/m^3, of the slab
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -25,7 +26,7 @@ struct Bed {
   }
 };
 
-/// Measures the bed in a box: samples the slab with stratified random points and snGeomPointDepth.
+/// Measures the bed in a box. It samples the slab at stratified random points with snGeomPointDepth.
 Bed measure_bed(const World& world, const Box& box, Random& random);
 /// Measures the bed in a closed hopper; heights are above the outlet.
 Bed measure_bed(const World& world, const Hopper& hopper, Random& random);

@@ -1,4 +1,4 @@
-// A line a contact.
+// The measurement contact_forces: a line for each contact.
 
 #include "kinds.hpp"
 #include "region.hpp"
@@ -19,12 +19,12 @@ class ContactForces final : public Measurement {
 
   void measure(const Sample& sample, TableText& table) const override {
     const Bounds bounds = region_.bounds(sample.world);
-    const Body* bodies = sample.world.bodies().data();
+    const Grain* grains = sample.world.grains().data();
     for (const PairContact& contact : sample.contacts) {
       if (!bounds.contains(contact.position)) continue;
-      table.add(sample.time).add(static_cast<std::size_t>(contact.body1 - bodies)).add(contact.body1->grain->name);
-      if (contact.body2 != nullptr) {
-        table.add(static_cast<std::size_t>(contact.body2 - bodies)).add(contact.body2->grain->name);
+      table.add(sample.time).add(static_cast<std::size_t>(contact.grain1 - grains)).add(contact.grain1->kind->name);
+      if (contact.grain2 != nullptr) {
+        table.add(static_cast<std::size_t>(contact.grain2 - grains)).add(contact.grain2->kind->name);
       } else {
         table.blank().add(surface_name(surfaces_, contact.geom2));
       }

@@ -1,4 +1,4 @@
-// Contacts per grain.
+// The measurement coordination: contacts per grain.
 
 #include <algorithm>
 #include <array>
@@ -10,39 +10,39 @@
 namespace falling_particles {
 namespace {
 
-constexpr std::size_t kMostCounted = 16;  // grains with as many contacts or more share a column
+constexpr std::size_t kMostCounted = 16;  // grains with this many contacts or more are counted in one column
 
-/// The grains that touch each grain, by force-bearing contacts; its own index stands for a wall.
+/// For each grain, the grains that touch it by force-bearing contacts. Its own index stands for a wall.
 using Neighbours = std::vector<std::vector<std::size_t>>;
 
 Neighbours neighbours_of(const Sample& sample, bool counts_walls) {
-  const std::vector<Body>& bodies = sample.world.bodies();
-  Neighbours neighbours(bodies.size());
+  const std::vector<Grain>& grains = sample.world.grains();
+  Neighbours neighbours(grains.size());
   for (const PairContact& contact : sample.contacts) {
     if (!contact.bears_force()) continue;
-    const auto one = static_cast<std::size_t>(contact.body1 - bodies.data());
-    if (contact.body2 == nullptr) {
+    const auto one = static_cast<std::size_t>(contact.grain1 - grains.data());
+    if (contact.grain2 == nullptr) {
       if (counts_walls) neighbours[one].push_back(one);
       continue;
     }
-    const auto two = static_cast<std::size_t>(contact.body2 - bodies.data());
+    const auto two = static_cast<std::size_t>(contact.grain2 - grains.data());
     neighbours[one].push_back(two);
     neighbours[two].push_back(one);
   }
   return neighbours;
 }
 
-/// Takes grains with fewer contacts away until all that are left have as many, without those that are gone. Returns who is gone;
-/// `contacts` becomes the number that is left to each grain.
+/// Removes grains with fewer contacts than `least`, together with their contacts, until none is left. Returns whether each grain
+/// was removed. `contacts` becomes the number of remaining contacts of each grain.
 std::vector<bool> find_rattlers(const Neighbours& neighbours, std::size_t least, std::vector<std::size_t>& contacts) {
   std::vector<bool> is_rattler(neighbours.size(), false);
   std::vector<std::size_t> waiting;
-  const auto take = [&](std::size_t grain) {
-    if (is_rattler[grain] || contacts[grain] >= least) return;
-    is_rattler[grain] = true;
-    waiting.push_back(grain);
+  const auto take = [&](std::size_t index) {
+    if (is_rattler[index] || contacts[index] >= least) return;
+    is_rattler[index] = true;
+    waiting.push_back(index);
   };
-  for (std::size_t grain = 0; grain < neighbours.size(); ++grain) take(grain);
+  for (std::size_t index = 0; index < neighbours.size(); ++index) take(index);
   while (!waiting.empty()) {
     const std::size_t gone = waiting.back();
     waiting.pop_back();
@@ -75,16 +75,16 @@ class Coordination final : public Measurement {
     const Bounds bounds = region_.bounds(sample.world);
     std::array<std::size_t, kMostCounted + 1> histogram{};
     std::size_t grains = 0, contacts = 0, rattlers = 0, lasting = 0;
-    for (std::size_t grain = 0; grain < neighbours.size(); ++grain) {
-      const Body& body = sample.world.bodies()[grain];
-      if (!body.is_present() || !bounds.contains(place_of(body, sample.world))) continue;
+    for (std::size_t index = 0; index < neighbours.size(); ++index) {
+      const Grain& grain = sample.world.grains()[index];
+      if (!grain.is_present() || !bounds.contains(place_of(grain, sample.world))) continue;
       ++grains;
-      contacts += neighbours[grain].size();
-      ++histogram[std::min(neighbours[grain].size(), kMostCounted)];
-      if (is_rattler[grain]) {
+      contacts += neighbours[index].size();
+      ++histogram[std::min(neighbours[index].size(), kMostCounted)];
+      if (is_rattler[index]) {
         ++rattlers;
       } else {
-        lasting += left[grain];
+        lasting += left[index];
       }
     }
     table.add(sample.time).add(grains);
@@ -113,7 +113,7 @@ class Coordination final : public Measurement {
 
 MeasurementKind coordination_kind() {
   constexpr std::int64_t kMostNeeded = 20;
-  constexpr std::size_t kIsostaticSpheres = 4;  // frictionless, in three dimensions
+  constexpr std::size_t kIsostaticSpheres = 4;  // frictionless spheres, in three dimensions
   return {"coordination",
           "the number of force-bearing contacts of a grain, and rattlers",
           {{"lower, upper", "m, corners of a box that holds the grains' centres; without them everywhere"},

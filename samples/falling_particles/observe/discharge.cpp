@@ -7,7 +7,7 @@
 namespace falling_particles {
 
 Discharge::Discharge(World& world, const Hopper& hopper, Random& random)
-    : world_(world), hopper_(hopper), random_(random), has_passed_(world.bodies().size(), false) {
+    : world_(world), hopper_(hopper), random_(random), has_passed_(world.grains().size(), false) {
   passages_.reserve(has_passed_.size());
 }
 
@@ -16,14 +16,14 @@ void Discharge::after_step(double time) {
     if (time >= hopper_.opens_at) open(time);
     return;
   }
-  has_passed_.resize(world_.bodies().size(), false);
-  for (const Body& body : world_.present()) {
-    const std::size_t i = world_.index_of(body);
-    const Point p = body.position();
-    // A grain that comes down beside the outlet has not come through it: that is a leak (leaks.hpp).
+  has_passed_.resize(world_.grains().size(), false);
+  for (const Grain& grain : world_.present()) {
+    const std::size_t i = world_.index_of(grain);
+    const Point p = grain.position();
+    // A grain that comes down beside the outlet has not passed it: this is a leak (leaks.hpp).
     if (has_passed_[i] || !(p[2] < hopper_.clearance) || !hopper_.is_within(p[0], p[1], hopper_.outlet / 2)) continue;
     has_passed_[i] = true;
-    passages_.push_back({time, mass() + body.mass.mass});
+    passages_.push_back({time, mass() + grain.mass.mass});
   }
 }
 
@@ -31,10 +31,10 @@ void Discharge::open(double time) {
   double mass = 0;
   double volume = 0;
   std::size_t grains = 0;
-  for (const Body& body : world_.present()) {
+  for (const Grain& grain : world_.present()) {
     ++grains;
-    mass += body.mass.mass;
-    volume += body.volume();
+    mass += grain.mass.mass;
+    volume += grain.volume();
   }
   const double mean_volume = volume / static_cast<double>(std::max<std::size_t>(grains, 1));
   charge_ = Charge{time, mass, std::cbrt(6 / std::numbers::pi * mean_volume), measure_bed(world_, hopper_, random_)};
@@ -50,7 +50,7 @@ std::optional<double> Discharge::mass_flow() const {
   if (!charge_) return std::nullopt;
   const Passage* from = find_passage(kSteadyFrom);
   const Passage* to = find_passage(kSteadyTo);
-  // All grains have passed in one step (there are a handful), so there is no flow.
+  // All grains of the section have passed in one step, since there are only a few. So there is no flow.
   if (to == nullptr || !(to->time > from->time)) return std::nullopt;
   return (to->total_mass - from->total_mass) / (to->time - from->time);
 }

@@ -12,8 +12,7 @@
 
 namespace falling_particles {
 
-/// The part of the discharge that counts as steady, in shares of the charge: after the start, and while the outlet is well
-/// covered.
+/// The steady section of the discharge, as fractions of the charge: after the start, and while the outlet is well covered.
 constexpr double kSteadyFrom = 0.2;
 constexpr double kSteadyTo = 0.6;
 
@@ -21,7 +20,7 @@ constexpr double kSteadyTo = 0.6;
 struct Charge {
   double time;            ///< s
   double mass;            ///< kg, of all grains
-  double grain_diameter;  ///< m, diameter of the sphere of the grains' mean volume
+  double grain_diameter;  ///< m, diameter of a sphere with the grains' mean volume
   Bed bed;
 
   template <typename Archive>
@@ -30,7 +29,7 @@ struct Charge {
   }
 };
 
-/// Opens the outlet of a hopper when its time has come, and counts the grains whose centre passes it.
+/// Opens the outlet of a hopper at its time, and counts the grains whose centres pass it.
 class Discharge {
  public:
   Discharge(World& world, const Hopper& hopper, Random& random);
@@ -42,7 +41,7 @@ class Discharge {
   double mass() const { return passages_.empty() ? 0 : passages_.back().total_mass; }    ///< kg
   double last_passage() const { return passages_.empty() ? 0 : passages_.back().time; }  ///< s
 
-  /// kg/s, the mean over the steady part; empty if less than that was discharged.
+  /// kg/s, the mean over the steady section; empty if less was discharged.
   std::optional<double> mass_flow() const;
 
   template <typename Archive>
@@ -53,7 +52,7 @@ class Discharge {
  private:
   struct Passage {
     double time;
-    double total_mass;  // up to and including this grain
+    double total_mass;  // kg, up to and including this grain
     template <typename Archive>
     void serialize(Archive& archive) {
       archive(time, total_mass);

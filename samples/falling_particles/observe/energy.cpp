@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
-#include "world/body_energy.hpp"
+#include "world/grain_energy.hpp"
 
 namespace falling_particles {
 Energy measure_energy(const World& world, const Scene& scene) {
   Energy energy{0, 0};
   const auto* const gravity = scene.gravity();
-  for (const Body& body : world.present()) {
-    energy.kinetic += kinetic_energy(body);
+  for (const Grain& grain : world.present()) {
+    energy.kinetic += kinetic_energy(grain);
     if (gravity == nullptr) continue;
-    const dReal* position = dBodyGetPosition(body.body);
-    for (int i = 0; i < 3; ++i) energy.potential -= body.mass.mass * gravity->acceleration[i] * position[i];
+    const dReal* position = dBodyGetPosition(grain.body);
+    for (int i = 0; i < 3; ++i) energy.potential -= grain.mass.mass * gravity->acceleration[i] * position[i];
   }
   return energy;
 }
@@ -21,14 +21,14 @@ double kinetic_height(const World& world, const Scene& scene) {
   const auto* const gravity = scene.gravity();
   if (gravity == nullptr) return 0;
   double mass = 0;
-  for (const Body& body : world.present()) mass += body.mass.mass;
+  for (const Grain& grain : world.present()) mass += grain.mass.mass;
   const double weight = mass * gravity->acceleration.norm();
   return weight > 0 ? measure_energy(world, scene).kinetic / weight : 0;
 }
 
 double largest_kinetic_energy(const World& world) {
   double largest = 0;
-  for (const Body& body : world.present()) largest = std::max(largest, kinetic_energy(body));
+  for (const Grain& grain : world.present()) largest = std::max(largest, kinetic_energy(grain));
   return largest;
 }
 

@@ -18,23 +18,23 @@ struct Energy {
 
 Energy measure_energy(const World& world, const Scene& scene);
 
-/// The height, m, to which the kinetic energy would lift all grains together; 0 without gravity.
+/// m, the height to which the kinetic energy would lift all grains together; 0 without gravity.
 double kinetic_height(const World& world, const Scene& scene);
 
-/// J, of the grain that has most.
+/// J, of the grain with the largest kinetic energy.
 double largest_kinetic_energy(const World& world);
 
-/// Watches the energy of all grains together in all steps: nothing in a scene may add to it.
+/// Monitors the total energy of all grains in all steps. Nothing in a scene without moving walls may increase it.
 class EnergyWatch {
  public:
   EnergyWatch(const World& world, const Scene& scene);
 
   void after_step();
-  /// Grains have come with that energy (J), or gone with it (below 0): that is neither gain nor loss.
+  /// Accounts for the energy (J) of grains that were inserted (above 0) or removed (below 0), which is neither a gain nor a loss.
   void exchange(double energy);
 
-  double gained() const { return gained_; }        ///< J, the largest rise over any step before
-  double lost() const { return start_ - least_; }  ///< J, from the start to the least
+  double gained() const { return gained_; }        ///< J, the largest increase from the energy after an earlier step
+  double lost() const { return start_ - least_; }  ///< J, from the start to the least energy
 
   template <typename Archive>
   void serialize(Archive& archive) {

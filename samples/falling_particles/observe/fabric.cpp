@@ -1,4 +1,4 @@
-// The directions of contacts.
+// The measurement fabric: the directions of contacts.
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -25,7 +25,7 @@ class Fabric final : public Measurement {
     std::size_t contacts = 0;
     for (const PairContact& contact : sample.contacts) {
       if (!contact.bears_force() || !bounds.contains(contact.position)) continue;
-      if (contact.body2 == nullptr && !counts_walls_) continue;
+      if (contact.grain2 == nullptr && !counts_walls_) continue;
       F += contact.normal * contact.normal.transpose();
       ++contacts;
     }
@@ -37,7 +37,7 @@ class Fabric final : public Measurement {
     }
     F /= static_cast<double>(contacts);
     const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(F);
-    const Vector3& values = solver.eigenvalues();  // rising
+    const Vector3& values = solver.eigenvalues();  // in increasing order
     const Matrix3d deviator = 7.5 * (F - Matrix3d::Identity() / 3);
     table.add(F(0, 0)).add(F(1, 1)).add(F(2, 2)).add(F(0, 1)).add(F(0, 2)).add(F(1, 2));
     table.add(values[2]).add(values[1]).add(values[0]);

@@ -1,4 +1,4 @@
-// Fields on a grid of cells.
+// The measurement grid: fields on a grid of cells.
 
 #include <Eigen/Dense>
 #include <vector>
@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// The grains whose centres are in a cell.
+/// Sums over the grains whose centres are in a cell.
 struct CellSums {
   double mass = 0;                     // kg
   double volume = 0;                   // m^3, of the grains
@@ -23,8 +23,8 @@ struct CellSums {
   std::size_t grains = 0;
 };
 
-/// What is left of the energy when the linear velocity field that fits best is taken off, in the directions in which the grains
-/// are spread at all; `unknowns`: of the field, per component of velocity.
+/// The energy that remains after subtracting the best linear fit of the velocity field, in the directions in which the grains are
+/// spread. `unknowns`: of the fit, per component of velocity.
 double energy_beside_field(const CellSums& sums, int& unknowns) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(sums.spread);
   constexpr double kFlat = 1e-9;
@@ -51,25 +51,25 @@ class Grid final : public Measurement {
   void measure(const Sample& sample, TableText& table) const override {
     const Bounds bounds = region_.bounds(sample.world);
     std::vector<CellSums> all(number_of(cells_));
-    // Moments are taken about the means of the cells, so that nothing cancels: two passes.
+    // Two passes: moments about the means of the cells avoid cancellation.
     for_each(
         bounds, sample.world,
-        [&](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
-          sums.mass += body.mass.mass;
-          sums.volume += body.volume();
-          sums.place += body.mass.mass * place;
-          sums.velocity += body.mass.mass * velocity;
+        [&](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
+          sums.mass += grain.mass.mass;
+          sums.volume += grain.volume();
+          sums.place += grain.mass.mass * place;
+          sums.velocity += grain.mass.mass * velocity;
           ++sums.grains;
         },
         all);
     for_each(
         bounds, sample.world,
-        [](CellSums& sums, const Body& body, const Vector3& place, const Vector3& velocity) {
+        [](CellSums& sums, const Grain& grain, const Vector3& place, const Vector3& velocity) {
           const Vector3 x = place - sums.place / sums.mass;
           const Vector3 v = velocity - sums.velocity / sums.mass;
-          sums.spread += body.mass.mass * x * x.transpose();
-          sums.shear += body.mass.mass * x * v.transpose();
-          sums.energy += body.mass.mass * v.squaredNorm();
+          sums.spread += grain.mass.mass * x * x.transpose();
+          sums.shear += grain.mass.mass * x * v.transpose();
+          sums.energy += grain.mass.mass * v.squaredNorm();
         },
         all);
     const Vector3 size =
@@ -90,10 +90,10 @@ class Grid final : public Measurement {
  private:
   template <typename Visit>
   void for_each(const Bounds& bounds, const World& world, Visit visit, std::vector<CellSums>& all) const {
-    for (const Body& body : world.present()) {
-      const Vector3 place = place_of(body, world);
-      const dReal* v = dBodyGetLinearVel(body.body);
-      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], body, place, Vector3(v[0], v[1], v[2]));
+    for (const Grain& grain : world.present()) {
+      const Vector3 place = place_of(grain, world);
+      const dReal* v = dBodyGetLinearVel(grain.body);
+      if (const auto cell = cell_of(place, bounds, cells_)) visit(all[*cell], grain, place, Vector3(v[0], v[1], v[2]));
     }
   }
 

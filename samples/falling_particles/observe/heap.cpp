@@ -21,7 +21,7 @@ struct Top {
   std::array<dReal, 6> aabb;
 };
 
-/// m, the highest point of a grain on the vertical through x and y; `base` when there is none above it.
+/// m, the highest point of the grains on the vertical line through x and y; `base` if there is none above it.
 double surface_height(std::span<const Top> grains, dGeomID ray, double x, double y, double base) {
   double height = base;
   for (const Top& grain : grains) {
@@ -61,10 +61,10 @@ Line fit(std::span<const double> x, std::span<const double> y) {
 Heap measure_heap(const World& world, const Point& centre, double radius) {
   std::vector<Top> tops;
   std::size_t grains = 0;
-  for (const Body& body : world.present()) {
-    const Point p = body.position();
+  for (const Grain& grain : world.present()) {
+    const Point p = grain.position();
     if (p[2] < centre[2] || std::hypot(p[0] - centre[0], p[1] - centre[1]) > radius) continue;
-    for (const dGeomID geom : body.geoms()) {
+    for (const dGeomID geom : grain.geoms()) {
       Top& top = tops.emplace_back(Top{geom, {}});
       dGeomGetAABB(geom, top.aabb.data());
     }

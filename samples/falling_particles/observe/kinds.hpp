@@ -1,4 +1,4 @@
-// The kinds of measurements, one a file.
+// The kinds of measurements, each in a file of its own.
 #pragma once
 
 #include "measurement.hpp"

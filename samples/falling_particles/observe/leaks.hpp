@@ -1,4 +1,4 @@
-// Grains that have left the container.
+// Leaks: grains that have left the container.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,26 @@
 
 namespace falling_particles {
 
-/// A grain whose centre has left the container: through a wall, the floor or the ground, or over a hopper's rim. In a sink it has
-/// not.
+/// A grain whose centre has left the container: through a wall, the floor or the ground, or over a hopper's rim. A grain in a sink
+/// has not left.
 struct Leak {
-  double time;                       ///< s, of the first step after which it is outside
-  std::size_t body;                  ///< index in World::bodies()
-  std::string grain;                 ///< kind
+  double time;                       ///< s, after the first step that left it outside
+  std::size_t grain;                 ///< index in World::grains()
+  std::string kind;                  ///< kind
   Point position;                    ///< m
   std::array<double, 4> quaternion;  ///< w, x, y, z
   Point velocity;                    ///< m/s
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(time, body, grain, position, quaternion, velocity);
+    archive(time, grain, kind, position, quaternion, velocity);
   }
 };
 
 /// "grain 17 (soybean) left the container at t = 0.51 s: position …"
 std::string describe(const Leak& leak);
 
-/// Watches all grains of a world in all steps.
+/// Monitors all grains of a world in all steps.
 class LeakWatch {
  public:
   LeakWatch(const World& world, const Scene& scene);

@@ -1,4 +1,4 @@
-// What a scene can measure of its grains.
+// The interface of measurements.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,14 @@
 
 namespace falling_particles {
 
-/// A moment of a run.
+/// A run at one time.
 struct Sample {
   double time;  ///< s
   const World& world;
-  const std::vector<PairContact>& contacts;  ///< of the step that led to this moment; empty for kinds that do not need them
+  const std::vector<PairContact>& contacts;  ///< of the last step; empty for kinds that do not need them
 };
 
-/// Writes lines about a moment. It keeps nothing from sample to sample: what a resumed run needs of it is MeasurementState.
+/// Writes lines about a run at one time. It has no state from sample to sample: a resumed run needs only MeasurementState.
 class Measurement {
  public:
   Measurement() = default;
@@ -37,25 +37,25 @@ class Measurement {
 
 struct MeasurementParameter {
   std::string key;
-  std::string text;  ///< unit, range, what it is without
+  std::string text;  ///< unit, range and default
 };
 
-/// A kind that a scene can name: [[measurement]] kind = "name".
+/// A kind of measurement that a scene can name: [[measurement]] kind = "name".
 struct MeasurementKind {
   std::string name;
-  std::string measures;  ///< what it tells
+  std::string measures;  ///< the measured quantity
   std::vector<MeasurementParameter> parameters;
   std::string columns;  ///< in words
-  std::string source;   ///< of the definition
-  bool needs_contacts;  ///< of the steps that it samples, whose joints then tell their forces
-  /// Checks the section's parameters against the scene, of which the container, the grains and the time have been read. Throws
+  std::string source;   ///< reference of the definition
+  bool needs_contacts;  ///< whether it needs the contacts of the sampled steps, with their forces
+  /// Checks the section's parameters against the scene. The scene's container, grains and time must have been read. Throws
   /// InputError.
   MeasurementMaker (*read)(const TomlTable& table, const Scene& scene);
-  std::vector<std::string> plotted = {};  ///< columns that are worth a plot over time, all of one unit
+  std::vector<std::string> plotted = {};  ///< columns to plot over time, all of one unit
   std::string plot_label = {};            ///< of the plot's axis
 };
 
-/// All kinds, in the order in which they are listed for users.
+/// All kinds, in the order of the list for users.
 const std::vector<MeasurementKind>& measurement_kinds();
 
 /// Null if there is no such kind.

@@ -1,4 +1,4 @@
-// The measurements of a run as it goes.
+// The measurements of a run.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace falling_particles {
 
-/// The folder of the tables within that of the run.
+/// The folder of the tables, within the folder of the run.
 inline constexpr const char* kMeasurementFolder = "measurements";
 
-/// All that a measurement accumulates, besides the bytes of its table: what a resumed run has to restore.
+/// The state of a measurement besides the bytes of its table. A resumed run restores it.
 struct MeasurementState {
   unsigned long long samples = 0;
-  unsigned long long lines = 0;  ///< of the table, its head not counted
+  unsigned long long lines = 0;  ///< of the table, without its head
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -30,7 +30,7 @@ struct MeasurementState {
   }
 };
 
-/// All that the measurements of a run accumulate.
+/// The state of all measurements of a run.
 struct MeasuringState {
   struct OfTable {
     FileState file;
@@ -43,7 +43,7 @@ struct MeasuringState {
     }
   };
   std::vector<OfTable> tables;  ///< in the order of the scene
-  Stopwatch gathering;          ///< time in which contacts were gathered
+  Stopwatch gathering;          ///< time to gather contacts
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -51,7 +51,7 @@ struct MeasuringState {
   }
 };
 
-/// What a measurement took.
+/// The cost of a measurement.
 struct MeasurementCost {
   std::string name;
   std::string kind;
@@ -59,23 +59,23 @@ struct MeasurementCost {
   double seconds;  ///< wall-clock time of its samples
 };
 
-/// Writes the tables that a scene asks for.
+/// Takes the samples of a scene's measurements and writes their tables.
 class Measuring {
  public:
-  /// Creates the folder and the tables, if there are any. `world` has not started, and outlives this object.
+  /// Creates the folder and the tables, if there are any. `world` must not have made a step, and must outlive this object.
   Measuring(const Scene& scene, const World& world, const OutputFolder& folder);
-  /// Goes on with tables that are there.
+  /// Resumes with existing tables.
   Measuring(const Scene& scene, const World& world, const OutputFolder& folder, const MeasuringState& saved);
 
   /// Whether a sample after this step needs the forces of its contacts.
   bool wants_forces(int step) const;
-  /// `contacts`: those of the step if wants_forces(step).
+  /// `contacts`: of the step, if wants_forces(step).
   void after_step(int step, double time, const std::deque<MeasuredContact>& contacts);
   void close_tables();
 
-  /// Goes on in another world of the same scene.
+  /// Continues with another world of the same scene.
   void go_on_in(const World& world);
-  /// What there is so far, in tables that survive a power cut.
+  /// The state so far. The tables up to it survive a power cut.
   MeasuringState save();
 
   std::vector<MeasurementCost> costs() const;

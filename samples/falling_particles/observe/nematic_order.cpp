@@ -1,4 +1,4 @@
-// How far the axes of a kind of grains are aligned.
+// The measurement nematic_order: the alignment of an axis of one kind of grains.
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-Vector3 axis_in_world(const Body& body, std::size_t axis) {
-  const auto [w, x, y, z] = body.quaternion();
+Vector3 axis_in_world(const Grain& grain, std::size_t axis) {
+  const auto [w, x, y, z] = grain.quaternion();
   return Eigen::Quaterniond(w, x, y, z).toRotationMatrix().col(static_cast<Eigen::Index>(axis));
 }
 
@@ -27,9 +27,9 @@ class NematicOrder final : public Measurement {
     const Bounds bounds = region_.bounds(sample.world);
     Matrix3d sum = Matrix3d::Zero();
     std::size_t grains = 0;
-    for (const Body& body : sample.world.present()) {
-      if (body.grain->name != grain_ || !bounds.contains(place_of(body, sample.world))) continue;
-      const Vector3 axis = axis_in_world(body, axis_);
+    for (const Grain& grain : sample.world.present()) {
+      if (grain.kind->name != grain_ || !bounds.contains(place_of(grain, sample.world))) continue;
+      const Vector3 axis = axis_in_world(grain, axis_);
       sum += axis * axis.transpose();
       ++grains;
     }
@@ -41,7 +41,7 @@ class NematicOrder final : public Measurement {
     }
     const Matrix3d Q = 1.5 * sum / static_cast<double>(grains) - 0.5 * Matrix3d::Identity();
     const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(Q);
-    const Vector3& values = solver.eigenvalues();  // rising
+    const Vector3& values = solver.eigenvalues();  // in increasing order
     table.add(values[2]).add(Vector3(solver.eigenvectors().col(2))).add(values[1] - values[0]).end_line();
   }
 
@@ -51,10 +51,10 @@ class NematicOrder final : public Measurement {
   std::size_t axis_;
 };
 
-/// The half-axis of the grain that is longer, or shorter, than both others.
+/// The index of the half-axis that is longer, or shorter, than both others.
 std::size_t find_axis(const TomlTable& table, const Scene& scene, const std::string& name, const std::string& which) {
-  const auto kind = std::ranges::find(scene.grains, name, [](const GrainCount& count) { return count.grain.name; });
-  const std::array<double, 3>& axes = kind->grain.half_axes;
+  const auto kind = std::ranges::find(scene.kinds, name, [](const GrainCount& count) { return count.kind.name; });
+  const std::array<double, 3>& axes = kind->kind.half_axes;
   const auto [least, most] = std::ranges::minmax_element(axes);
   const auto found = which == "longest" ? most : least;
   if (std::ranges::count(axes, *found) > 1) {

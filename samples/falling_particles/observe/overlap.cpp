@@ -18,8 +18,8 @@ using Pairs = std::vector<std::pair<dGeomID, dGeomID>>;
 void append(void* pairs, dGeomID g1, dGeomID g2) { static_cast<Pairs*>(pairs)->emplace_back(g1, g2); }
 
 double smallest_half_axis(dGeomID geom) {
-  const Body* body = body_of(geom);
-  return body == nullptr ? INFINITY : body->smallest_half_axis();
+  const Grain* grain = grain_of(geom);
+  return grain == nullptr ? INFINITY : grain->smallest_half_axis();
 }
 
 std::array<dReal, 4> middle_of(const snProximity& proximity) {
@@ -39,7 +39,7 @@ Overlap measure_overlap(const World& world) {
     snProximity proximity;
     if (snGeomProximity(g1, g2, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
     if (!(proximity.gap < 0)) continue;
-    if (cell != nullptr && !cell->contains(middle_of(proximity).data())) continue;  // another of its images is in the cell
+    if (cell != nullptr && !cell->contains(middle_of(proximity).data())) continue;  // another image of this overlap is in the cell
     const double depth = -proximity.gap;
     ++overlap.pairs;
     overlap.depth = std::max(overlap.depth, depth);
@@ -50,8 +50,8 @@ Overlap measure_overlap(const World& world) {
 
 std::size_t count_outside(const World& world, const Scene& scene) {
   std::size_t count = 0;
-  for (const Body& body : world.present()) {
-    if (!is_inside(scene, body.position())) ++count;
+  for (const Grain& grain : world.present()) {
+    if (!is_inside(scene, grain.position())) ++count;
   }
   return count;
 }

@@ -1,4 +1,4 @@
-// The overlaps of grains with one another and with walls.
+// The overlaps of grains with each other and with walls.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 namespace falling_particles {
 
 struct Overlap {
-  double depth = 0;             ///< m, of the deepest of all pairs, walls included; 0 when nothing overlaps
-  double relative_to_pair = 0;  ///< the largest of depth / smallest half-axis of the pair's grains
+  double depth = 0;             ///< m, of the deepest pair, walls included; 0 when nothing overlaps
+  double relative_to_pair = 0;  ///< largest depth / smallest half-axis of the pair's grains
   std::size_t pairs = 0;        ///< number of pairs that overlap
 };
 
-/// Measures every pair whose bounding boxes meet (others cannot overlap), by snGeomProximity.
+/// Measures every pair whose bounding boxes meet, by snGeomProximity. Other pairs cannot overlap.
 Overlap measure_overlap(const World& world);
 
-/// The number of grains whose centre is beyond a wall or the floor, or not a number, and in no sink.
+/// The number of grains outside the container and every sink (is_inside).
 std::size_t count_outside(const World& world, const Scene& scene);
 
 }  // namespace falling_particles

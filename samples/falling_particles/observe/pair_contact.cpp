@@ -10,17 +10,17 @@
 namespace falling_particles {
 namespace {
 
-/// A point of contact, with body 1 as PairContact has it.
+/// A contact point, with the same grain 1 as its PairContact.
 struct ContactPoint {
-  std::pair<std::size_t, std::size_t> order;  // of the pair
-  const Body* body1;
-  const Body* body2;
+  std::pair<std::size_t, std::size_t> order;  // sort key of the pair
+  const Grain* grain1;
+  const Grain* grain2;
   dGeomID geom2;
   Vector3 centre1, centre2, position, normal, force;
   double overlap;
 };
 
-/// Numbers walls as they are met, which is the order in which the step went through them.
+/// Numbers walls in the order in which the step processed them.
 class WallNumbers {
  public:
   std::size_t number_of(dGeomID wall) {
@@ -34,7 +34,7 @@ class WallNumbers {
   std::vector<dGeomID> walls_;
 };
 
-/// ODE moves a body by step times its new velocity: the centre before the step is behind it.
+/// The centre before the step: ODE moves a body by step times its new velocity.
 Vector3 centre_before(dGeomID geom, double step) {
   dBodyID body = dGeomGetBody(geom);
   return to_vector(dBodyGetPosition(body)) - step * to_vector(dBodyGetLinearVel(body));
@@ -43,39 +43,39 @@ Vector3 centre_before(dGeomID geom, double step) {
 ContactPoint point_of(const MeasuredContact& contact, const World& world, WallNumbers& walls, double step) {
   dGeomID geom1 = contact.geom.g1;
   dGeomID geom2 = contact.geom.g2;
-  const auto index_of = [&world](const Body* body) { return static_cast<std::size_t>(body - world.bodies().data()); };
+  const auto index_of = [&world](const Grain* grain) { return static_cast<std::size_t>(grain - world.grains().data()); };
   const bool is_swapped =
-      body_of(geom1) == nullptr || (body_of(geom2) != nullptr && index_of(body_of(geom2)) < index_of(body_of(geom1)));
+      grain_of(geom1) == nullptr || (grain_of(geom2) != nullptr && index_of(grain_of(geom2)) < index_of(grain_of(geom1)));
   if (is_swapped) std::swap(geom1, geom2);
   const double sign = is_swapped ? -1 : 1;
-  const Body* body1 = body_of(geom1);
-  const Body* body2 = body_of(geom2);
+  const Grain* grain1 = grain_of(geom1);
+  const Grain* grain2 = grain_of(geom2);
   const Point force = contact.force();
   const Vector3 position = to_vector(contact.geom.pos);
-  return {{index_of(body1), body2 != nullptr ? index_of(body2) : world.bodies().size() + walls.number_of(geom2)},
-          body1,
-          body2,
+  return {{index_of(grain1), grain2 != nullptr ? index_of(grain2) : world.grains().size() + walls.number_of(geom2)},
+          grain1,
+          grain2,
           geom2,
           centre_before(geom1, step),
-          body2 != nullptr ? centre_before(geom2, step) : position,
+          grain2 != nullptr ? centre_before(geom2, step) : position,
           position,
           sign * to_vector(contact.geom.normal),
           sign * Vector3(force[0], force[1], force[2]),
           contact.geom.depth};
 }
 
-/// Whether the same parts of the two bodies meet, in one place of the cell or in several.
+/// Whether two points belong to one contact: the same two images meet, or periodic copies of them.
 bool is_same_contact(const ContactPoint& a, const ContactPoint& b) {
   if (a.order != b.order) return false;
-  if (a.body2 == nullptr) return true;
-  constexpr double kShare = 1e-3;  // of the grain's radius; images of another meeting are a cell away
-  const double tolerance = kShare * a.body1->bounding_radius();
+  if (a.grain2 == nullptr) return true;
+  constexpr double kShare = 1e-3;  // of the grain's radius; another meeting of the same grains is a cell away
+  const double tolerance = kShare * a.grain1->bounding_radius();
   return ((a.centre1 - a.centre2) - (b.centre1 - b.centre2)).norm() < tolerance;
 }
 
 PairContact merge(const std::vector<ContactPoint>& points, std::size_t first, std::size_t end) {
   const ContactPoint& lead = points[first];
-  PairContact pair{lead.body1,      lead.body2,      lead.geom2, lead.centre1, lead.centre2, Vector3::Zero(), Vector3::Zero(), 0,
+  PairContact pair{lead.grain1,     lead.grain2,     lead.geom2, lead.centre1, lead.centre2, Vector3::Zero(), Vector3::Zero(), 0,
                    Vector3::Zero(), Vector3::Zero(), 0};
   double pushing = 0;
   for (std::size_t i = first; i < end; ++i) pushing += std::max(0.0, points[i].force.dot(points[i].normal));
@@ -94,9 +94,9 @@ PairContact merge(const std::vector<ContactPoint>& points, std::size_t first, st
   if (pair.normal.norm() > 0) {
     pair.normal.normalize();
   } else {
-    pair.normal = lead.normal;  // two walls of one mesh that face each other
+    pair.normal = lead.normal;  // opposite normals, of two walls of one mesh that face each other
   }
-  if (pair.body2 == nullptr) pair.centre2 = pair.position;
+  if (pair.grain2 == nullptr) pair.centre2 = pair.position;
   return pair;
 }
 
@@ -107,16 +107,16 @@ std::vector<PairContact> gather_contacts(const std::deque<MeasuredContact>& meas
   points.reserve(measured.size());
   WallNumbers walls;
   for (const MeasuredContact& contact : measured) points.push_back(point_of(contact, world, walls, step));
-  // Walls come last, each with its grains in their order. A stable sort keeps the points of a pair in the step's order.
-  const std::size_t bodies = world.bodies().size();
-  const auto key = [bodies](const ContactPoint& point) {
+  // Walls come last, each with its grains in order. A stable sort keeps the points of a pair in the step's order.
+  const std::size_t grains = world.grains().size();
+  const auto key = [grains](const ContactPoint& point) {
     const auto& [one, two] = point.order;
-    return two < bodies ? std::tuple(std::size_t{0}, one, two) : std::tuple(two, one, two);
+    return two < grains ? std::tuple(std::size_t{0}, one, two) : std::tuple(two, one, two);
   };
   std::ranges::stable_sort(points, [&key](const ContactPoint& a, const ContactPoint& b) { return key(a) < key(b); });
   std::vector<PairContact> pairs;
   for (std::size_t first = 0; first < points.size();) {
-    // Two bodies that meet in several places of a periodic cell (never more than a few) have their points apart.
+    // If two grains meet in several places of a periodic cell, each place is a contact. There are never more than a few.
     std::size_t end = first + 1;
     while (end < points.size() && points[end].order == points[first].order) ++end;
     while (first < end) {

@@ -1,4 +1,4 @@
-// Force and torque on walls and parts.
+// The measurement part_force: force and torque on walls.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -23,7 +23,7 @@ class PartForce final : public Measurement {
     Vector3 moment = Vector3::Zero();
     std::size_t contacts = 0;
     for (const PairContact& contact : sample.contacts) {
-      if (contact.body2 != nullptr || std::ranges::find(geoms_, contact.geom2) == geoms_.end()) continue;
+      if (contact.grain2 != nullptr || std::ranges::find(geoms_, contact.geom2) == geoms_.end()) continue;
       force -= contact.force;
       moment -= contact.moment;
       if (contact.bears_force()) ++contacts;

@@ -63,7 +63,7 @@ Bounds SamplingRegion::bounds(const World& world) const {
   if (is_cell_) return {Vector3::Zero(), periods_of(world)};
   Bounds everywhere{Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)};
   if (world.cell() == nullptr) return everywhere;
-  for (int axis = 0; axis < 3; ++axis) {  // everything is once in a cell
+  for (int axis = 0; axis < 3; ++axis) {  // each grain has one image in the cell
     const std::optional<Period>& period = world.cell()->axes()[static_cast<std::size_t>(axis)];
     if (!period) continue;
     everywhere.lower[axis] = period->lower;
@@ -82,8 +82,8 @@ Vector3 periods_of(const World& world) {
   return periods;
 }
 
-Vector3 place_of(const Body& body, const World& world) {
-  const Point place = world.place_of(body);
+Vector3 place_of(const Grain& grain, const World& world) {
+  const Point place = world.place_of(grain);
   return {place[0], place[1], place[2]};
 }
 
@@ -136,8 +136,8 @@ std::optional<std::size_t> cell_of(const Vector3& point, const Bounds& bounds, c
 
 std::vector<std::string> names_of_grains(const Scene& scene) {
   std::vector<std::string> names;
-  names.reserve(scene.grains.size());
-  for (const GrainCount& kind : scene.grains) names.push_back(kind.grain.name);
+  names.reserve(scene.kinds.size());
+  for (const GrainCount& entry : scene.kinds) names.push_back(entry.kind.name);
   return names;
 }
 

@@ -1,4 +1,4 @@
-// Where a measurement looks.
+// The region of a measurement.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 
 namespace falling_particles {
 
-/// A box along the axes, of any size.
+/// A box with sides along the axes; it may be infinite.
 struct Bounds {
-  Vector3 lower, upper;  ///< m; what is on the lower side is inside, on the upper it is not
+  Vector3 lower, upper;  ///< m; the lower sides are inside, the upper ones are not
 
   bool contains(const Vector3& p) const { return (p.array() >= lower.array()).all() && (p.array() < upper.array()).all(); }
   double volume() const { return (upper - lower).prod(); }  ///< m^3
-  /// The share of the way from a to b that is inside, in [0, 1].
+  /// The fraction of the segment from a to b that is inside, in [0, 1].
   double share_of(const Vector3& a, const Vector3& b) const;
 };
 
-/// A region of a scene file: `lower` and `upper`, or all of a periodic cell, or everywhere.
+/// A region of a scene file: `lower` and `upper`, or the whole periodic cell, or everywhere.
 class SamplingRegion {
  public:
   enum class Without { Refused, Everywhere };
-  /// Throws InputError. `without`: what a scene without the two keys gets where it is not periodic.
+  /// Throws InputError. `without`: the result if both keys are missing and the container is not periodic.
   SamplingRegion(const TomlTable& table, const Scene& scene, Without without);
 
   Bounds bounds(const World& world) const;
@@ -37,26 +37,26 @@ class SamplingRegion {
   bool is_cell_ = false;
 };
 
-/// m, after which a world repeats itself along x, y and z; 0 where it does not.
+/// m, the periods of a world along x, y and z; 0 along axes that are not periodic.
 Vector3 periods_of(const World& world);
 
-/// m, the centre of a grain; in a periodic world the one within the cell.
-Vector3 place_of(const Body& body, const World& world);
+/// m, the centre of a grain; in a periodic world, its image within the cell.
+Vector3 place_of(const Grain& grain, const World& world);
 
-/// The share of the way from a to b that is in the bounds, all images of the way in a periodic world together.
+/// The fraction of the segment from a to b, and of all its images in a periodic world together, that is in the bounds.
 double share_of_images(const Bounds& bounds, const Vector3& a, const Vector3& b, const Vector3& periods);
 
 /// 0 for "x", 1 for "y", 2 for "z".
 std::size_t read_axis(const TomlTable& table, const char* key);
 
-/// Cells of a region along x, y and z.
+/// The numbers of cells of a region along x, y and z.
 using CellCounts = std::array<std::size_t, 3>;
 CellCounts read_cells(const TomlTable& table);
-/// The cell of a point, x first, then y; nothing where it is in none.
+/// The index of a point's cell, with x fastest, then y; empty outside the bounds.
 std::optional<std::size_t> cell_of(const Vector3& point, const Bounds& bounds, const CellCounts& cells);
 inline std::size_t number_of(const CellCounts& cells) { return cells[0] * cells[1] * cells[2]; }
 
-/// The kinds of the scene's grains that `key` names.
+/// The name of a kind of the scene that `key` gives. Throws InputError.
 std::string read_grain(const TomlTable& table, const char* key, const Scene& scene);
 std::vector<std::string> names_of_grains(const Scene& scene);
 

@@ -1,4 +1,4 @@
-// How far two kinds of grains are mixed.
+// The measurement segregation: the mixing of two kinds of grains.
 
 #include <vector>
 
@@ -26,10 +26,10 @@ class Segregation final : public Measurement {
     const Bounds bounds = region_.bounds(sample.world);
     std::vector<CellCount> cells(number_of(cells_));
     CellCount all;
-    for (const Body& body : sample.world.present()) {
-      const bool is_first = body.grain->name == grains_[0];
-      if (!is_first && body.grain->name != grains_[1]) continue;
-      const auto cell = cell_of(place_of(body, sample.world), bounds, cells_);
+    for (const Grain& grain : sample.world.present()) {
+      const bool is_first = grain.kind->name == grains_[0];
+      if (!is_first && grain.kind->name != grains_[1]) continue;
+      const auto cell = cell_of(place_of(grain, sample.world), bounds, cells_);
       if (!cell) continue;
       for (CellCount* count : {&cells[*cell], &all}) {
         count->both += 1;
@@ -52,7 +52,7 @@ class Segregation final : public Measurement {
     }
     const double segregated = fraction * (1 - fraction);
     table.add(time).add(static_cast<std::size_t>(all.both)).add(static_cast<std::size_t>(occupied));
-    if (segregated == 0 || occupied >= all.both) {  // of one kind, or as many cells as grains, which are never mixed
+    if (segregated == 0 || occupied >= all.both) {  // only one kind, or as many cells as grains, for which the index is undefined
       constexpr int kOtherColumns = 5;
       table.blank(kOtherColumns).end_line();
       return;

@@ -20,7 +20,7 @@ static_assert(sizeof(snStatistics) == kCounts.size() * sizeof(snCount));
 
 }  // namespace
 
-/// The bytes, of which the world is read first, since all others are made for it.
+/// The saved bytes. The world is read first, since the other members need it.
 struct Simulation::Saved {
   explicit Saved(const std::string& bytes) : reader(bytes) { reader(world); }
   Reader reader;

@@ -1,4 +1,4 @@
-// All that changes while a scene is simulated.
+// The state of a simulation.
 #pragma once
 
 #include <supernormal/supernormal.h>
@@ -16,17 +16,17 @@
 
 namespace falling_particles {
 
-/// A scene on its way, from its start or from where another object has saved it. The two go on alike only if both are loaded from
-/// what was saved: what a world remembers beyond its state (World::save) is new in both. There can be one at a time in a thread,
-/// since ODE's random numbers and Supernormal's counts are the thread's or the process'.
+/// The simulation of a scene, from its start or from a saved state. Two simulations continue alike only if both start from the same
+/// saved state, because World::save does not save everything. A thread can have only one simulation at a time, since ODE's random
+/// numbers and Supernormal's counts are global to the thread or the process.
 class Simulation {
  public:
-  /// Looks for contacts on `threads` (0: as many as the machine has). The scene must outlive this object.
+  /// Finds contacts on `threads` (0: as many as the machine has). The scene must outlive this object.
   Simulation(const Scene& scene, int threads);
-  /// Goes on with the same scene from what save() has returned.
+  /// Resumes the same scene from the result of save().
   Simulation(const Scene& scene, int threads, const std::string& saved);
 
-  /// Between two steps.
+  /// Call it between two steps.
   std::string save() const;
 
   /// Of all steps since the start.
@@ -43,7 +43,7 @@ class Simulation {
   struct Saved;
   Simulation(const Scene& scene, int threads, Saved&& saved);
 
-  // Counts up to where the run was saved.
+  // Counts up to the saved state.
   snStatistics statistics_before_{};
   std::vector<supernormal::effects::Cost> effect_costs_before_;
 };

@@ -11,7 +11,7 @@ struct SizeAndMass {
   double size, mass;
 };
 
-/// m, the size of the grain, in rising order, with which the mass passes a share of all.
+/// m, the size of the grain, in increasing order, at which the mass passes a fraction of the whole.
 double size_below(const std::vector<SizeAndMass>& grains, double share, double mass) {
   double passed = 0;
   for (const SizeAndMass& grain : grains) {
@@ -43,13 +43,13 @@ DrawnSizes sizes_of(std::string name, std::vector<SizeAndMass> grains) {
 
 std::vector<DrawnSizes> measure_sizes(const World& world, const Scene& scene) {
   std::vector<DrawnSizes> all;
-  for (const GrainCount& kind : scene.grains) {
-    if (!kind.size) continue;
+  for (const GrainCount& entry : scene.kinds) {
+    if (!entry.size) continue;
     std::vector<SizeAndMass> grains;
-    for (const Body& body : world.bodies()) {
-      if (body.grain == &kind.grain) grains.push_back({body.scale * kind.grain.sieve_size(), body.mass.mass});
+    for (const Grain& grain : world.grains()) {
+      if (grain.kind == &entry.kind) grains.push_back({grain.scale * entry.kind.sieve_size(), grain.mass.mass});
     }
-    if (!grains.empty()) all.push_back(sizes_of(kind.grain.name, std::move(grains)));
+    if (!grains.empty()) all.push_back(sizes_of(entry.kind.name, std::move(grains)));
   }
   return all;
 }

@@ -1,4 +1,4 @@
-// The sizes of a scene's grains.
+// The size statistics of a scene's grains.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@
 
 namespace falling_particles {
 
-/// The sieve sizes (Grain::sieve_size) of the grains of one kind, as they were drawn.
+/// The sieve sizes (GrainKind::sieve_size) of all grains of one kind so far.
 struct DrawnSizes {
-  std::string grain;
+  std::string kind;
   std::size_t number = 0;
   double mass = 0;                  ///< kg, of all
   double mean = 0;                  ///< m, by number
@@ -19,10 +19,10 @@ struct DrawnSizes {
   double smallest = 0;              ///< m
   double largest = 0;               ///< m
   double median = 0;                ///< m, by number
-  std::array<double, 3> by_mass{};  ///< m: d10, d50 and d90, below which a tenth, half and nine tenths of the mass are
+  std::array<double, 3> by_mass{};  ///< m: d10, d50 and d90, below which 10, 50 and 90 % of the mass are
 };
 
-/// Of the kinds that have a distribution of sizes.
+/// The sizes of the kinds that have a distribution.
 std::vector<DrawnSizes> measure_sizes(const World& world, const Scene& scene);
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-// Stress of a box or of slices.
+// The measurement stress: the stress of a box or of slices.
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// What is in a slice.
+/// Sums over a slice.
 struct SliceSums {
   Matrix3d contacts = Matrix3d::Zero();  // N m
   Matrix3d momentum = Matrix3d::Zero();  // kg m^2/s^2, sum of m v v^T
@@ -31,22 +31,23 @@ Bounds slice_of(const Bounds& all, std::size_t axis, std::size_t index, std::siz
   return slice;
 }
 
-/// The force of a contact goes through grain 1 from its centre to the contact, and through grain 2 on to its centre.
+/// Adds a contact's force to a slice. It acts along the branch: through grain 1 from its centre to the contact, and through grain 2
+/// to its centre.
 void add_contact(SliceSums& sums, const Bounds& slice, const PairContact& contact, const Vector3& periods) {
   const Vector3 way1 = contact.centre1 - contact.position;
   const Vector3 way2 = contact.position - contact.centre2;
   const double share1 = share_of_images(slice, contact.centre1, contact.position, periods);
-  const double share2 = contact.body2 == nullptr ? 0 : share_of_images(slice, contact.position, contact.centre2, periods);
+  const double share2 = contact.grain2 == nullptr ? 0 : share_of_images(slice, contact.position, contact.centre2, periods);
   if (share1 == 0 && share2 == 0) return;
   sums.contacts += contact.force * (share1 * way1 + share2 * way2).transpose();
 }
 
-void add_grain(SliceSums& sums, const Body& body) {
-  const dReal* v = dBodyGetLinearVel(body.body);
+void add_grain(SliceSums& sums, const Grain& grain) {
+  const dReal* v = dBodyGetLinearVel(grain.body);
   const Vector3 velocity(v[0], v[1], v[2]);
-  sums.mass += body.mass.mass;
-  sums.velocity += body.mass.mass * velocity;
-  sums.momentum += body.mass.mass * velocity * velocity.transpose();
+  sums.mass += grain.mass.mass;
+  sums.velocity += grain.mass.mass * velocity;
+  sums.momentum += grain.mass.mass * velocity * velocity.transpose();
   ++sums.grains;
 }
 
@@ -72,8 +73,8 @@ class Stress final : public Measurement {
       const Bounds slice = slice_of(all, axis_, index, slices_);
       SliceSums sums;
       for (const PairContact& contact : sample.contacts) add_contact(sums, slice, contact, periods);
-      for (const Body& body : sample.world.present()) {
-        if (slice.contains(place_of(body, sample.world))) add_grain(sums, body);
+      for (const Grain& grain : sample.world.present()) {
+        if (slice.contains(place_of(grain, sample.world))) add_grain(sums, grain);
       }
       table.add(sample.time).add(index).add(slice.lower[axis]).add(slice.upper[axis]).add(sums.grains);
       write(sums, slice.volume(), table);

@@ -1,4 +1,4 @@
-// The free surface of a bed and its slope.
+// The measurement surface: the free surface of a bed and its slope.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ struct Settings {
   std::size_t along;    // axis of the profile, x or y
   std::size_t columns;  // along it
   std::size_t rays;     // across it, in each column
-  double middle;        // share of the width to which the line is fitted
+  double middle;        // fraction of the width to which the line is fitted
 };
 
 struct Top {
@@ -26,7 +26,7 @@ struct Top {
   std::array<dReal, 6> aabb;
 };
 
-/// m, the highest point of a grain on a vertical within the heights of the bounds.
+/// m, the highest point of the grains on a vertical line, if it is above `least`.
 std::optional<double> height_at(const std::vector<Top>& tops, dGeomID ray, double x, double y, double least) {
   std::optional<double> height;
   for (const Top& top : tops) {
@@ -46,7 +46,7 @@ struct Slope {
   double standard_error;  // degrees
 };
 
-/// A straight line through points by least squares; from three on.
+/// Fits a straight line to at least three points by least squares.
 std::optional<Slope> fit(const std::vector<std::array<double, 2>>& points) {
   if (points.size() < 3) return std::nullopt;
   const auto n = static_cast<double>(points.size());

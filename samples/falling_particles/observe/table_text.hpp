@@ -10,7 +10,7 @@
 
 namespace falling_particles {
 
-/// Collects lines. Numbers are the shortest text that reads back exactly.
+/// Builds the lines of a table. Numbers are written as the shortest text that reads back exactly.
 class TableText {
  public:
   TableText& add(double value) { return add(std::string_view(shortest(value))); }
@@ -22,7 +22,7 @@ class TableText {
     is_start_ = false;
     return *this;
   }
-  /// Empty fields, where there is nothing to tell.
+  /// Adds empty fields for missing values.
   TableText& blank(int count = 1) {
     for (int i = 0; i < count; ++i) add(std::string_view());
     return *this;

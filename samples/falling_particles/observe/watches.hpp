@@ -1,4 +1,4 @@
-// What a run looks at after every step.
+// The monitors of a run.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace falling_particles {
 
-/// The watches that run after every step. Their arguments must outlive them.
+/// The monitors that run after every step. Their arguments must outlive them.
 struct Watches {
   Watches(World& world, const Scene& scene, Random& random);
   void after_step(double time, const Stepper& stepper) {
@@ -24,7 +24,7 @@ struct Watches {
     if (compressor) compressor->after_step(time, stepper.contact_geoms());
   }
 
-  /// The compressor remembers nothing from step to step.
+  /// The compressor has no state from step to step.
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(leaks, energy);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "part_mesh.hpp"
+#include "wall_mesh.hpp"
 #include "world/stepper.hpp"
 #include "world/world.hpp"
 
@@ -13,30 +13,30 @@ namespace {
 Point to_point(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 int index_of(dGeomID geom, const World& world) {
-  const Body* body = body_of(geom);
-  return body == nullptr ? kWall : static_cast<int>(body - world.bodies().data());
+  const Grain* grain = grain_of(geom);
+  return grain == nullptr ? kWall : static_cast<int>(grain - world.grains().data());
 }
 
-/// The factor by which a part of the container is scaled.
-double scale_of(const ContainerPart& part, const World& world) {
-  switch (part.role) {
-    case ContainerPart::Role::Lid:
-      return world.walls().has_lid() ? 1 : 0;
-    case ContainerPart::Role::Cell:
+/// The factor by which the mesh of a wall is scaled.
+double scale_of(const WallPicture& wall, const World& world) {
+  switch (wall.role) {
+    case WallPicture::Role::Lid:
+      return world.container_geoms().has_lid() ? 1 : 0;
+    case WallPicture::Role::Cell:
       return world.cell()->side();
-    case ContainerPart::Role::Still:
-    case ContainerPart::Role::Moving:
+    case WallPicture::Role::Still:
+    case WallPicture::Role::Moving:
       break;
   }
   return 1;
 }
 
-PartPlace place_of(const PartPose& pose) {
+WallPlace place_of(const WallPose& pose) {
   const auto& [p, q] = pose;
   return {{p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}, 1};
 }
 
-/// m, wide enough for the grains of the scene to stay above a plane of that width.
+/// m, a width of planes such that the grains of the scene stay above them.
 double width_of_planes(const Scene& scene) {
   const Rectangle plan = plan_of(scene.container);
   return 2 * std::max(plan.width[0], plan.width[1]);
@@ -47,7 +47,7 @@ ContactState state_of(const dContactGeom& contact, const World& world) {
           index_of(contact.g1, world), index_of(contact.g2, world), {}};
 }
 
-/// Where forces are measured, the contacts are those that effects have left to the joints.
+/// Adds the contacts of the last step. If forces are measured, these are the contacts that the effects have kept.
 void add_contacts(Frame& frame, const World& world, const Stepper& stepper) {
   for (const MeasuredContact& contact : stepper.measured_contacts()) {
     frame.contacts.push_back(state_of(contact.geom, world));
@@ -60,21 +60,21 @@ void add_contacts(Frame& frame, const World& world, const Stepper& stepper) {
 
 }  // namespace
 
-Point PartPlace::operator()(const std::array<float, 3>& vertex) const {
+Point WallPlace::operator()(const std::array<float, 3>& vertex) const {
   const auto& [w, x, y, z] = quaternion;
   const Vector3 turned = Eigen::Quaterniond(w, x, y, z) * (scale * Vector3(vertex[0], vertex[1], vertex[2]));
   return {position[0] + turned.x(), position[1] + turned.y(), position[2] + turned.z()};
 }
 
 Extent extent_of(const Frame& frame, double radius) {
-  if (std::ranges::none_of(frame.bodies, &BodyState::is_present)) return {{-radius, -radius, -radius}, {radius, radius, radius}};
+  if (std::ranges::none_of(frame.grains, &GrainState::is_present)) return {{-radius, -radius, -radius}, {radius, radius, radius}};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Extent extent{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (const BodyState& body : frame.bodies) {
-    if (!body.is_present) continue;
+  for (const GrainState& grain : frame.grains) {
+    if (!grain.is_present) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      extent.least[axis] = std::min(extent.least[axis], body.position[axis] - radius);
-      extent.most[axis] = std::max(extent.most[axis], body.position[axis] + radius);
+      extent.least[axis] = std::min(extent.least[axis], grain.position[axis] - radius);
+      extent.most[axis] = std::max(extent.most[axis], grain.position[axis] + radius);
     }
   }
   return extent;
@@ -82,7 +82,7 @@ Extent extent_of(const Frame& frame, double radius) {
 
 double top_of(const World& world, const Scene& scene) {
   double top = 0;
-  for (const Body& body : world.present()) top = std::max(top, body.position()[2] + body.bounding_radius());
+  for (const Grain& grain : world.present()) top = std::max(top, grain.position()[2] + grain.bounding_radius());
   for (const Feeder& feeder : scene.feeders) top = std::max(top, feeder.region.corner[2] + feeder.region.size[2]);
   return top;
 }
@@ -91,17 +91,17 @@ Contents contents_of(const World& world, const Scene& scene) { return contents_o
 
 Contents contents_of(const World& world, const Scene& scene, double top) {
   Contents contents{&scene, {}, {}};
-  add_new_bodies(contents, world);
-  contents.parts = parts_of(scene.container, top, scene.periodic);
-  for (const Part& part : scene.parts) contents.parts.push_back(picture_of(part, width_of_planes(scene)));
+  add_new_grains(contents, world);
+  contents.walls = pictures_of(scene.container, top, scene.periodic);
+  for (const Wall& wall : scene.walls) contents.walls.push_back(picture_of(wall, width_of_planes(scene)));
   return contents;
 }
 
-void add_new_bodies(Contents& contents, const World& world) {
-  contents.kind_of_body.reserve(world.bodies().capacity());
-  for (std::size_t i = contents.kind_of_body.size(); i < world.bodies().size(); ++i) {
-    contents.kind_of_body.push_back(contents.scene->kind_of(*world.bodies()[i].grain));
-    if (contents.scene->has_sizes()) contents.scale_of_body.push_back(world.bodies()[i].scale);
+void add_new_grains(Contents& contents, const World& world) {
+  contents.kind_of_grain.reserve(world.grains().capacity());
+  for (std::size_t i = contents.kind_of_grain.size(); i < world.grains().size(); ++i) {
+    contents.kind_of_grain.push_back(contents.scene->kind_of(*world.grains()[i].kind));
+    if (contents.scene->has_sizes()) contents.scale_of_grain.push_back(world.grains()[i].scale);
   }
 }
 
@@ -109,20 +109,20 @@ Frame frame_of(double time, const Energy& energy, const Contents& contents, cons
   Frame frame;
   frame.time = time;
   frame.energy = energy;
-  const std::size_t of_container = contents.parts.size() - contents.scene->parts.size();
-  for (std::size_t i = 0; i < contents.parts.size(); ++i) {
-    const ContainerPart& part = contents.parts[i];
-    frame.part_places.push_back(part.role == ContainerPart::Role::Moving ? place_of(world.parts()->state(i - of_container).pose)
-                                                                         : PartPlace{.scale = scale_of(part, world)});
+  const std::size_t of_container = contents.walls.size() - contents.scene->walls.size();
+  for (std::size_t i = 0; i < contents.walls.size(); ++i) {
+    const WallPicture& wall = contents.walls[i];
+    frame.wall_places.push_back(wall.role == WallPicture::Role::Moving ? place_of(world.walls()->state(i - of_container).pose)
+                                                                       : WallPlace{.scale = scale_of(wall, world)});
   }
-  frame.bodies.reserve(world.bodies().size());
-  for (const Body& body : world.bodies()) {
-    if (!body.is_present()) {
-      frame.bodies.push_back({{}, {1, 0, 0, 0}, {}, {}, false});
+  frame.grains.reserve(world.grains().size());
+  for (const Grain& grain : world.grains()) {
+    if (!grain.is_present()) {
+      frame.grains.push_back({{}, {1, 0, 0, 0}, {}, {}, false});
       continue;
     }
-    frame.bodies.push_back(
-        {body.position(), body.quaternion(), to_point(dBodyGetLinearVel(body.body)), to_point(dBodyGetAngularVel(body.body))});
+    frame.grains.push_back(
+        {grain.position(), grain.quaternion(), to_point(dBodyGetLinearVel(grain.body)), to_point(dBodyGetAngularVel(grain.body))});
   }
   if (stepper != nullptr) add_contacts(frame, world, *stepper);
   return frame;

@@ -1,4 +1,4 @@
-// What a picture shows of a run.
+// The data of a run that pictures show.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ namespace falling_particles {
 class Stepper;
 class World;
 
-/// A body at one time, in the world's frame.
-struct BodyState {
+/// A grain at one time, in the world's frame.
+struct GrainState {
   Point position;                    ///< m, of the centre
-  std::array<double, 4> quaternion;  ///< w, x, y, z; unit: from the body's frame to the world's
+  std::array<double, 4> quaternion;  ///< w, x, y, z; unit: from the grain's frame to the world's
   Point velocity;                    ///< m/s
   Point angular_velocity;            ///< rad/s
-  bool is_present = true;            ///< false for a grain that is gone, whose other numbers are 0
+  bool is_present = true;            ///< false for a removed grain, whose other numbers are 0
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -33,28 +33,28 @@ struct BodyState {
 /// A contact of the last step, in the world's frame.
 struct ContactState {
   Point position;  ///< m
-  Point normal;    ///< unit, towards body 1, as in dContactGeom
+  Point normal;    ///< unit, towards grain 1, as in dContactGeom
   double depth;    ///< m
-  int body1;       ///< index of the body; kWall for a wall
-  int body2;
-  std::optional<Point> force = {};  ///< N, on body 1; where the scene asks for forces
+  int grain1;      ///< index of the grain; kWall for a wall
+  int grain2;
+  std::optional<Point> force = {};  ///< N, on grain 1, if the scene requests forces
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(position, normal, depth, body1, body2, force);
+    archive(position, normal, depth, grain1, grain2, force);
   }
 };
 
 inline constexpr int kWall = -1;
 
-/// Where a part of the container is: its mesh is scaled, turned and moved.
-struct PartPlace {
+/// The pose and scale of a wall's mesh: it is scaled, rotated and moved.
+struct WallPlace {
   Point position = {};                              ///< m
   std::array<double, 4> quaternion = {1, 0, 0, 0};  ///< w, x, y, z; unit
-  double scale = 1;                                 ///< 0: the part is gone
+  double scale = 1;                                 ///< 0: the wall was removed
 
   Point operator()(const std::array<float, 3>& vertex) const;
-  bool operator==(const PartPlace&) const = default;
+  bool operator==(const WallPlace&) const = default;
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -62,50 +62,50 @@ struct PartPlace {
   }
 };
 
-/// One moment of a run. The bodies are all that there have been so far, by their indices, those that are gone included.
+/// A run at one time. The grains are all grains so far, by index, removed ones included.
 struct Frame {
   double time = 0;  ///< s
   Energy energy{};
-  std::vector<BodyState> bodies;
-  std::vector<ContactState> contacts;  ///< of the step that led to this moment; none at the start. Those of a pair are consecutive
-  std::vector<PartPlace> part_places;  ///< of the container's parts
+  std::vector<GrainState> grains;
+  std::vector<ContactState> contacts;  ///< of the last step; none at the start. The contacts of a pair are consecutive
+  std::vector<WallPlace> wall_places;  ///< of Contents::walls
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(time, energy, bodies, contacts, part_places);
+    archive(time, energy, grains, contacts, wall_places);
   }
 };
 
-/// A box along the axes.
+/// A box with sides along the axes.
 struct Extent {
   Point least, most;  ///< m
 };
 
-/// The least box around spheres of that radius (m) about the bodies that are there; about the origin when none is.
+/// The smallest box around spheres of `radius` (m) about the present grains; about the origin if there are none.
 Extent extent_of(const Frame& frame, double radius);
 
-/// What a run shows, which does not change from frame to frame but for the grains that come. The scene must outlive it.
+/// The data of a run that do not change from frame to frame, except that inserted grains are appended. The scene must outlive it.
 struct Contents {
   const Scene* scene;
-  std::vector<std::size_t> kind_of_body;   ///< index into scene->grains, of all that there have been so far
-  std::vector<ContainerPart> parts = {};   ///< of the container, then those of the scene
-  std::vector<double> scale_of_body = {};  ///< of the grain's lengths; none where all are 1
+  std::vector<std::size_t> kind_of_grain;   ///< index into scene->kinds, for all grains so far
+  std::vector<WallPicture> walls = {};      ///< of the container's geoms, then of Scene::walls
+  std::vector<double> scale_of_grain = {};  ///< factors on the grains' lengths; empty if all are 1
 
-  const Grain& grain(std::size_t body) const { return scene->grains[kind_of_body[body]].grain; }
-  double scale(std::size_t body) const { return scale_of_body.empty() ? 1 : scale_of_body[body]; }
+  const GrainKind& kind(std::size_t grain) const { return scene->kinds[kind_of_grain[grain]].kind; }
+  double scale(std::size_t grain) const { return scale_of_grain.empty() ? 1 : scale_of_grain[grain]; }
 };
 
-/// m, above all grains of a run that has not started, and above its feeders: up to there walls without end are shown.
+/// m, above all grains of a run that has not started, and above its feeders. Walls of infinite height are shown up to it.
 double top_of(const World& world, const Scene& scene);
 
 Contents contents_of(const World& world, const Scene& scene, double top);
 /// Of a run that has not started.
 Contents contents_of(const World& world, const Scene& scene);
 
-/// Appends the grains that have come since.
-void add_new_bodies(Contents& contents, const World& world);
+/// Appends the grains that were inserted since the last call.
+void add_new_grains(Contents& contents, const World& world);
 
-/// `stepper`: null at the start, before the first step.
+/// `stepper`: null before the first step.
 Frame frame_of(double time, const Energy& energy, const Contents& contents, const World& world, const Stepper* stepper);
 
 }  // namespace falling_particles

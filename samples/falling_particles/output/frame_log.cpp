@@ -11,7 +11,7 @@
 namespace falling_particles {
 namespace {
 
-/// What stands before the bytes of a frame.
+/// The header of a frame.
 struct Head {
   std::uint64_t bytes = 0;
   Hash hash{};

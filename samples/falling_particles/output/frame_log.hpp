@@ -1,4 +1,4 @@
-// The frames of a run in a file.
+// A log of the frames of a run.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace falling_particles {
 
-/// A file to which frames are appended, all their numbers bit for bit: pictures, which keep what they have seen in memory, come
-/// back when they see the same frames again.
+/// A file of frames with exact numbers. Pictures keep what they have seen in memory; a resumed run shows them the logged frames
+/// again.
 class FrameLog {
  public:
-  /// Begins a file, or goes on after the bytes of `kept`, with which one that is there begins.
+  /// Creates a file, or continues after the bytes of `kept`, with which an existing file begins.
   explicit FrameLog(const std::filesystem::path& path, const FileState& kept = {}) : file_(path, kept) {}
   void add(const Frame& frame);
   FileState state() const { return file_.state(); }
@@ -24,7 +24,7 @@ class FrameLog {
   OutputFile file_;
 };
 
-/// Visits the frames in the first `size` bytes of a log. Throws InputError where they are not what was written.
+/// Visits the frames in the first `size` bytes of a log. Throws InputError when the bytes were changed.
 void replay_frames(const std::filesystem::path& path, std::uint64_t size, const std::function<void(const Frame&)>& visit);
 
 }  // namespace falling_particles

@@ -4,12 +4,12 @@
 
 namespace falling_particles {
 
-supernormal::Tessellation mesh_of(const Grain& grain, double chord_error) {
+supernormal::Tessellation mesh_of(const GrainKind& kind, double chord_error) {
   supernormal::Tessellation mesh;
-  for (const GrainPart& part : grain.all_parts()) {
-    supernormal::Tessellation body = tessellate(*shape_of(part.body), chord_error * part.body.smallest_half_axis());
-    if (grain.parts.empty()) return body;
-    const supernormal::Pose pose = pose_of(part);
+  for (const Component& component : kind.all_components()) {
+    supernormal::Tessellation body = tessellate(*shape_of(component.body), chord_error * component.body.smallest_half_axis());
+    if (kind.components.empty()) return body;
+    const supernormal::Pose pose = pose_of(component);
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
     for (const auto& point : body.points) mesh.points.emplace_back(pose.rotation * point + pose.position);
     for (const auto& normal : body.normals) mesh.normals.emplace_back(pose.rotation * normal);

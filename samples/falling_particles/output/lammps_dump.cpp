@@ -5,12 +5,12 @@
 #include <string>
 
 #include "base/interval.hpp"
-#include "shown_parts.hpp"
+#include "shown_components.hpp"
 
 namespace falling_particles {
 namespace {
 
-/// The sides of the box that a dump needs.
+/// The bounds of the box that a dump needs.
 std::string bounds_of(const Extent& extent) {
   std::string lines;
   for (std::size_t axis = 0; axis < 3; ++axis) lines += shortest(extent.least[axis]) + ' ' + shortest(extent.most[axis]) + '\n';
@@ -26,22 +26,22 @@ void append(std::string& line, std::initializer_list<double> numbers) {
 LammpsDump::LammpsDump(const std::filesystem::path& path, const Contents& contents) : contents_(contents), file_(path) {}
 
 void LammpsDump::add(const Frame& frame) {
-  const std::vector<ShownPart> parts = shown_parts(frame, contents_);
+  const std::vector<ShownComponent> components = shown_components(frame, contents_);
   const bool has_compounds = contents_.scene->has_compounds();
   std::string text = "ITEM: TIMESTEP\n" + std::to_string(frames_++) + "\nITEM: TIME\n" + shortest(frame.time) +
-                     "\nITEM: NUMBER OF ATOMS\n" + std::to_string(parts.size()) + "\nITEM: BOX BOUNDS ff ff ff\n" +
+                     "\nITEM: NUMBER OF ATOMS\n" + std::to_string(components.size()) + "\nITEM: BOX BOUNDS ff ff ff\n" +
                      bounds_of(extent_of(frame, contents_.scene->largest_bounding_radius())) +
                      "ITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz quati quatj quatk quatw shapex shapey shapez "
                      "roundness_phi roundness_theta" +
                      (has_compounds ? " mol\n" : "\n");
-  for (const ShownPart& part : parts) {
-    const auto& [a, b, c] = part.body.half_axes;
-    const auto& [w, x, y, z] = part.quaternion;
-    text += std::to_string(part.index + 1) + ' ' + std::to_string(contents_.kind_of_body[part.grain] + 1);
-    for (const Point* vector : {&part.position, &part.velocity, &part.angular_velocity})
+  for (const ShownComponent& component : components) {
+    const auto& [a, b, c] = component.body.half_axes;
+    const auto& [w, x, y, z] = component.quaternion;
+    text += std::to_string(component.index + 1) + ' ' + std::to_string(contents_.kind_of_grain[component.grain] + 1);
+    for (const Point* vector : {&component.position, &component.velocity, &component.angular_velocity})
       append(text, {(*vector)[0], (*vector)[1], (*vector)[2]});
-    append(text, {x, y, z, w, 2 * a, 2 * b, 2 * c, 2 / part.body.delta, 2 / part.body.epsilon});
-    if (has_compounds) text += ' ' + std::to_string(part.grain + 1);
+    append(text, {x, y, z, w, 2 * a, 2 * b, 2 * c, 2 / component.body.delta, 2 / component.body.epsilon});
+    if (has_compounds) text += ' ' + std::to_string(component.grain + 1);
     text += '\n';
   }
   file_.write(text);

@@ -1,4 +1,4 @@
-// A run as particle programs read it.
+// A run as a LAMMPS dump.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace falling_particles {
 
-/// grains.lammpstrj: a LAMMPS text dump for OVITO, and whatever else reads these. An atom per grain, its type that of its kind in
-/// the order of the scene file, from 1 on. As LAMMPS has written them since July 2020, shapex, shapey, shapez are diameters (m),
-/// which OVITO halves; quati, quatj, quatk, quatw are the attitude. roundness_phi = 2/delta and roundness_theta = 2/epsilon are
-/// what OVITO calls Superquadric Roundness. The rounding of a grain's edges and the taper have no column, and a capsule is the
-/// ellipsoid of its size. A compound has an atom per part; in scenes with compounds, mol is the number of the grain.
+/// grains.lammpstrj: a LAMMPS text dump for OVITO and other programs. Each grain is an atom. The type is the index of its kind in
+/// the scene file, from 1. As in LAMMPS since July 2020, shapex, shapey, shapez are diameters (m), which OVITO halves; quati,
+/// quatj, quatk, quatw are the orientation. roundness_phi = 2/delta and roundness_theta = 2/epsilon are OVITO's Superquadric
+/// Roundness. The rounding of edges and the taper have no column, and a capsule is the ellipsoid of its size. A compound has an
+/// atom per component. In scenes with compounds, mol is the number of the grain.
 class LammpsDump final : public Picture {
  public:
   LammpsDump(const std::filesystem::path& path, const Contents& contents);

@@ -12,7 +12,7 @@
 #include "base/input_error.hpp"
 #include "base/random.hpp"
 #include "base/write_file.hpp"
-#include "model/container_parts.hpp"
+#include "model/container_walls.hpp"
 #include "world/placement.hpp"
 
 namespace falling_particles {
@@ -23,22 +23,21 @@ namespace fx = supernormal::effects;
 constexpr double kOverlap = 0.01;  // of the smallest half-axis, in the fastest impact
 constexpr double kStepsPerImpact = 50;
 constexpr double kRigidRestitution = 0.1;   // of contacts that do not bounce
-constexpr double kLeastRestitution = 0.05;  // that pair_style supernormal takes
-constexpr double kHertzImpact =
-    2.9432675;  // duration of an impact of two balls, in largest depths over speeds (Johnson 1985, 11.24)
+constexpr double kLeastRestitution = 0.05;  // the least that pair_style supernormal accepts
+constexpr double kHertzImpact = 2.9432675;  // duration of an impact of two balls, in largest depth / speed (Johnson 1985, 11.24)
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what) {
   throw InputError(scene.name + ": " + what + " has no counterpart in LAMMPS' input: leave it out");
 }
 
-/// The contact of all surfaces, collected from the effects.
+/// The contact law of all surfaces, collected from the effects.
 struct Law {
   double friction = 0, rolling = 0, restitution = kRigidRestitution;
   const fx::Hertz* hertz = nullptr;
   const fx::Compliance* compliance = nullptr;
 };
 
-/// Reads one effect after the other. Those that only serve ODE's solver are left out.
+/// Reads the effects one after the other. Effects that only serve ODE's solver are left out.
 struct LawReader {
   const Scene& scene;
   Law law = {};
@@ -82,12 +81,12 @@ struct LawReader {
   void operator()(const fx::Damping& /*effect*/) { refuse(scene, "damping"); }
 };
 
-double volume_of(const Grain& grain) {
-  const supernormal::Vector3 axes(grain.half_axes[0], grain.half_axes[1], grain.half_axes[2]);
-  return supernormal::Superellipsoid(axes, grain.delta, grain.epsilon).mass_properties().volume;
+double volume_of(const GrainKind& kind) {
+  const supernormal::Vector3 axes(kind.half_axes[0], kind.half_axes[1], kind.half_axes[2]);
+  return supernormal::Superellipsoid(axes, kind.delta, kind.epsilon).mass_properties().volume;
 }
 
-/// What springs and steps depend on.
+/// The quantities on which springs and steps depend.
 struct Extremes {
   double lightest = INFINITY, heaviest = 0;  // kg
   double smallest = INFINITY;                // m; half-axis
@@ -97,7 +96,7 @@ struct Extremes {
 Extremes find_extremes(const Scene& scene, const std::vector<Placement>& grains) {
   Extremes found;
   for (const Placement& grain : grains) {
-    const Grain& kind = scene.grains[grain.kind].grain;
+    const GrainKind& kind = scene.kinds[grain.kind].kind;
     const double mass = kind.density * volume_of(kind) * std::pow(grain.scale, 3);
     found.lightest = std::min(found.lightest, mass);
     found.heaviest = std::max(found.heaviest, mass);
@@ -107,7 +106,7 @@ Extremes find_extremes(const Scene& scene, const std::vector<Placement>& grains)
   return found;
 }
 
-/// The words of a contact, and the step that it takes.
+/// The words of a contact law, and the step that it needs.
 struct Contacts {
   std::string words;
   double step;  // s
@@ -144,7 +143,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
   out << scene.name << "\n\n"
       << grains.size() << " atoms\n"
       << grains.size() << " ellipsoids\n"
-      << scene.grains.size() << " atom types\n\n";
+      << scene.kinds.size() << " atom types\n\n";
   std::array<std::array<double, 2>, 3> bounds = walls.bounds;
   for (const Placement& grain : grains) bounds[2][1] = std::max(bounds[2][1], grain.position[2]);
   const double margin = 2 * scene.largest_bounding_radius();
@@ -154,7 +153,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
   }
   out << "\nAtoms # ellipsoid\n\n";
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Grain& kind = scene.grains[grains[i].kind].grain;
+    const GrainKind& kind = scene.kinds[grains[i].kind].kind;
     // LAMMPS multiplies the density by the volume of the ellipsoid.
     const double ellipsoid = 4.0 / 3 * std::numbers::pi * kind.half_axes[0] * kind.half_axes[1] * kind.half_axes[2];
     out << i + 1 << ' ' << grains[i].kind + 1 << " 1 " << kind.density * volume_of(kind) / ellipsoid;
@@ -164,7 +163,7 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
   out << "\nEllipsoids\n\n";
   for (std::size_t i = 0; i < grains.size(); ++i) {
     out << i + 1;
-    for (const double half_axis : scene.grains[grains[i].kind].grain.half_axes) out << ' ' << 2 * grains[i].scale * half_axis;
+    for (const double half_axis : scene.kinds[grains[i].kind].kind.half_axes) out << ' ' << 2 * grains[i].scale * half_axis;
     for (const double component : grains[i].quaternion) out << ' ' << component;
     out << '\n';
   }
@@ -172,12 +171,12 @@ std::string write_data(const Scene& scene, const std::vector<Placement>& grains,
 }
 
 void refuse_what_has_no_counterpart(const Scene& scene) {
-  if (scene.parts.size() > parts_in(scene.container).size()) refuse(scene, "[[part]]");
+  if (scene.walls.size() > walls_in(scene.container).size()) refuse(scene, "[[part]]");
   if (scene.query) refuse(scene, "[query]");
   if (scene.changes_population()) refuse(scene, "a feeder or a sink");
   if (is_any(scene.periodic)) refuse(scene, "periodic");
-  for (const GrainCount& kind : scene.grains) {
-    if (!kind.grain.parts.empty() || kind.grain.is_capsule) refuse(scene, kind.grain.name + ", a compound or capsule,");
+  for (const GrainCount& entry : scene.kinds) {
+    if (!entry.kind.components.empty() || entry.kind.is_capsule) refuse(scene, entry.kind.name + ", a compound or capsule,");
   }
 }
 
@@ -201,9 +200,9 @@ LammpsInput lammps_input(const Scene& scene) {
       << "; it holds at every velocity; flat faces\n# rest on one point; grains are not rounded; nothing sleeps.\n"
       << "units si\natom_style ellipsoid\ncomm_modify vel yes\nboundary f f m\nread_data " << scene.name << ".data\n"
       << "pair_style supernormal\npair_coeff * * " << contacts.words << '\n';
-  for (std::size_t k = 0; k < scene.grains.size(); ++k) {
-    const Grain& grain = scene.grains[k].grain;
-    out << "pair_coeff " << k + 1 << ' ' << k + 1 << " exponents " << grain.delta << ' ' << grain.epsilon << "  # " << grain.name
+  for (std::size_t k = 0; k < scene.kinds.size(); ++k) {
+    const GrainKind& kind = scene.kinds[k].kind;
+    out << "pair_coeff " << k + 1 << ' ' << k + 1 << " exponents " << kind.delta << ' ' << kind.epsilon << "  # " << kind.name
         << '\n';
   }
   out << "neighbor " << 0.5 * extremes.smallest << " bin\nneigh_modify delay 0 every 1 check yes\ntimestep " << contacts.step

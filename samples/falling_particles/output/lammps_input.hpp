@@ -13,14 +13,14 @@ namespace falling_particles {
 /// The files of an input.
 struct LammpsInput {
   std::string commands;                ///< NAME.in
-  std::string data;                    ///< NAME.data: the grains, where the run of this seed starts them
-  std::vector<LammpsFile> files = {};  ///< of walls that are meshes
+  std::string data;                    ///< NAME.data: the grains at the start of a run with this seed
+  std::vector<LammpsFile> files = {};  ///< of mesh walls
 };
 
-/// The scene with contacts that are springs: its own of [hertz] or [compliance], or springs so stiff that the fastest grain sinks
-/// in by a hundredth of the smallest half-axis; and a step of a fiftieth of the shortest impact. The commands begin with what
-/// differs. A scene with what has no counterpart is refused by InputError: containers but box, drum and hopper, parts that are
-/// driven or solid, forces in a fluid, materials.
+/// Converts a scene to contacts with springs. These are the springs of [hertz] or [compliance], or stiff springs with which the
+/// fastest grain sinks in by a hundredth of the smallest half-axis. A step is a fiftieth of the shortest impact. The commands begin
+/// with a list of the differences. Throws InputError if the scene has anything without a counterpart: containers but box, drum and
+/// hopper, [[part]], [query], feeders, sinks, [periodic], compounds, capsules, forces in a fluid, materials.
 LammpsInput lammps_input(const Scene& scene);
 
 /// Writes FOLDER/NAME.in, FOLDER/NAME.data and the meshes.

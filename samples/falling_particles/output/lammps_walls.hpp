@@ -16,21 +16,21 @@ struct LammpsFile {
   std::string text;
 };
 
-/// What a run changes of the walls while it goes.
+/// A change of the walls during a run.
 struct LammpsChange {
   double time;           ///< s
   std::string commands;  ///< between two runs
 };
 
 struct LammpsWalls {
-  std::array<std::array<double, 2>, 3> bounds;  ///< m; along x, y, z: of the space that the walls leave to grains, open upwards
+  std::array<std::array<double, 2>, 3> bounds;  ///< m; along x, y, z: of the space between the walls, open upwards
   std::string commands;
   std::optional<LammpsChange> change = {};  ///< the outlet of a hopper opens
   std::vector<LammpsFile> files = {};       ///< meshes, as OBJ
 };
 
-/// `law`: of all walls, in the words of the fix. Throws InputError, which names the container, when it has no counterpart: boxes,
-/// drums and hoppers have.
+/// `law`: the contact law of all walls, in the words of the fix. Throws InputError, which names the container, unless it is a box,
+/// a drum or a hopper.
 LammpsWalls lammps_walls(const Scene& scene, const std::string& law);
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-// The tables of runs, for users and for programs that read them.
+// The list of the tables of runs, for users and for programs that read them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace falling_particles {
 
-/// The list for users, as text: what each table has a line of, and its columns.
+/// The list for users, as text: the lines and columns of each table.
 std::string list_tables();
 
 /// The tables that a run of the scene writes, as TOML: "energies.csv" = ["time_s", …]. Nothing is run.

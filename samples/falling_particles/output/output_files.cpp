@@ -37,7 +37,7 @@ const std::vector<TableFormat>& table_formats() {
        "a frame after the start", "compressions", [](const Scene& scene) { return scene.compression.has_value(); }},
       {kPartsFile, "time_s,part,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s",
        "a frame and part that moves", "scenes with parts that move",
-       [](const Scene& scene) { return std::ranges::any_of(scene.parts, &Part::moves); }},
+       [](const Scene& scene) { return std::ranges::any_of(scene.walls, &Wall::moves); }},
       {kGrainsFile, "body,grain,scale,sieve_size_m,mass_kg", "a grain", "scenes with grains of many sizes",
        [](const Scene& scene) { return scene.has_sizes(); }},
       {kFeedersFile, "time_s,feeder,grain,grains,kg", "a frame, feeder and kind that it feeds", "scenes with feeders",
@@ -57,10 +57,10 @@ Trajectory::Trajectory(const std::filesystem::path& path, const FileState& kept)
 void Trajectory::write(double time, const World& world) {
   const std::string start = shortest(time) + ',';
   std::string frame;
-  for (const Body& body : world.present()) {
-    const dReal* position = dBodyGetPosition(body.body);
-    const dReal* quaternion = dBodyGetQuaternion(body.body);
-    frame += start + std::to_string(world.index_of(body)) + ',' + body.grain->name;
+  for (const Grain& grain : world.present()) {
+    const dReal* position = dBodyGetPosition(grain.body);
+    const dReal* quaternion = dBodyGetQuaternion(grain.body);
+    frame += start + std::to_string(world.index_of(grain)) + ',' + grain.kind->name;
     for (int i = 0; i < 3; ++i) frame += ',' + shortest(position[i]);
     for (int i = 0; i < 4; ++i) frame += ',' + shortest(quaternion[i]);
     frame += '\n';
@@ -104,7 +104,7 @@ void FeedersFile::write(double time, const Population& population) {
     const Feeder& feeder = feeding.feeder();
     for (std::size_t i = 0; i < feeder.mixture.size(); ++i) {
       const Amount& fed = feeding.state().fed[i];
-      frame += line_of({shortest(time), feeder.name, feeding.grain(i).name, std::to_string(fed.grains), shortest(fed.mass)});
+      frame += line_of({shortest(time), feeder.name, feeding.kind(i).name, std::to_string(fed.grains), shortest(fed.mass)});
     }
   }
   append(frame);
@@ -115,24 +115,24 @@ SinksFile::SinksFile(const std::filesystem::path& path, const FileState& kept) :
 void SinksFile::write(double time, const Population& population, const Scene& scene) {
   std::string frame;
   for (std::size_t sink = 0; sink < scene.sinks.size(); ++sink) {
-    for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) {
+    for (std::size_t kind = 0; kind < scene.kinds.size(); ++kind) {
       const Amount& taken = population.taken(sink)[kind];
-      frame += line_of({shortest(time), scene.sinks[sink].name, scene.grains[kind].grain.name, std::to_string(taken.grains),
+      frame += line_of({shortest(time), scene.sinks[sink].name, scene.kinds[kind].kind.name, std::to_string(taken.grains),
                         shortest(taken.mass)});
     }
   }
   append(frame);
 }
 
-PartsFile::PartsFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kPartsFile, kept) {}
+WallsFile::WallsFile(const std::filesystem::path& path, const FileState& kept) : Table(path, kPartsFile, kept) {}
 
-void PartsFile::write(double time, const PartBodies& parts) {
+void WallsFile::write(double time, const WallBodies& walls) {
   std::string frame;
-  for (std::size_t i = 0; i < parts.count(); ++i) {
-    if (!parts.part(i).moves()) continue;
-    const auto& [pose, velocity] = parts.state(i);
+  for (std::size_t i = 0; i < walls.count(); ++i) {
+    if (!walls.wall(i).moves()) continue;
+    const auto& [pose, velocity] = walls.state(i);
     const Eigen::Quaterniond& q = pose.rotation;
-    frame += shortest(time) + ',' + parts.part(i).name;
+    frame += shortest(time) + ',' + walls.wall(i).name;
     for (const double number : pose.position) frame += ',' + shortest(number);
     for (const double number : {q.w(), q.x(), q.y(), q.z()}) frame += ',' + shortest(number);
     for (const double number : velocity.linear) frame += ',' + shortest(number);
@@ -147,10 +147,10 @@ GrainsFile::GrainsFile(const std::filesystem::path& path, const FileState& kept,
 
 void GrainsFile::write(const World& world) {
   std::string lines;
-  for (; written_ < world.bodies().size(); ++written_) {
-    const Body& body = world.bodies()[written_];
-    lines += line_of({std::to_string(written_), body.grain->name, shortest(body.scale),
-                      shortest(body.scale * body.grain->sieve_size()), shortest(body.mass.mass)});
+  for (; written_ < world.grains().size(); ++written_) {
+    const Grain& grain = world.grains()[written_];
+    lines += line_of({std::to_string(written_), grain.kind->name, shortest(grain.scale),
+                      shortest(grain.scale * grain.kind->sieve_size()), shortest(grain.mass.mass)});
   }
   append(lines);
 }

@@ -29,16 +29,16 @@ inline constexpr std::string_view kSinksFile = "sinks.csv";
 inline constexpr std::array kOutputFiles = {kTrajectoryFile, kEnergiesFile,  kStateFile,       kSummaryFile, kFeedersFile,
                                             kSinksFile,      kDischargeFile, kCompressionFile, kPartsFile,   kGrainsFile};
 
-/// A table of a run but for those of its measurements.
+/// The format of a table of a run. Measurements have other tables.
 struct TableFormat {
   std::string_view name;     ///< of its file
   std::string_view columns;  ///< its first line
-  std::string_view lines;    ///< what there is a line of
-  std::string_view of;       ///< the scenes that have it
+  std::string_view lines;    ///< what each line is about
+  std::string_view of;       ///< the scenes that have the table
   bool (*is_written)(const Scene& scene);
 };
 
-/// All of them, in the order in which they are listed for users.
+/// All formats, in the order of the list for users.
 const std::vector<TableFormat>& table_formats();
 
 /// A table that grows line by line.
@@ -49,7 +49,7 @@ class Table {
   void sync() { file_.sync(); }
 
  protected:
-  /// Begins with the columns of the table `name`, or goes on after the bytes of `kept`, with which a table that is there begins.
+  /// Writes the columns of the table `name`, or continues after the bytes of `kept`, with which an existing table begins.
   Table(const std::filesystem::path& path, std::string_view name, const FileState& kept);
   ~Table() = default;
   void append(std::string_view lines) { file_.write(lines); }
@@ -58,9 +58,9 @@ class Table {
   OutputFile file_;
 };
 
-/// trajectory.csv has a line per frame and body that is there; a body keeps its index for the whole run, and no other gets it.
-/// Numbers are the shortest text that reads back exactly. All files are handed over to the system frame by frame: a run that is
-/// killed leaves whole frames. What cannot be written ends the run (write_file.hpp).
+/// trajectory.csv has a line per frame and present grain. An index is never reused. Numbers are the shortest text that reads back
+/// exactly. Each frame goes to the operating system at once, so that a killed run leaves whole frames. A write error ends the run
+/// (write_file.hpp).
 class Trajectory : public Table {
  public:
   explicit Trajectory(const std::filesystem::path& path, const FileState& kept = {});
@@ -74,14 +74,14 @@ class Energies : public Table {
   void write(double time, const Energy& energy, std::size_t contacts);
 };
 
-/// What the end of the summary says of a run, at any time of it.
+/// The end state of the summary, at any time of a run.
 struct State {
   double deepest_contact;                ///< m, of the last step
-  double deepest_contact_of_all_steps;   ///< m, of those so far
-  std::optional<double> kinetic_height;  ///< m, to which the kinetic energy would lift all grains; with gravity
-  double largest_kinetic_energy;         ///< J, of the grain that has most
-  double energy_lost;                    ///< J, from the start to the least of the steps so far
-  double energy_gained;                  ///< J, largest rise over any step before
+  double deepest_contact_of_all_steps;   ///< m, of all steps so far
+  std::optional<double> kinetic_height;  ///< m, to which the kinetic energy would lift all grains; empty without gravity
+  double largest_kinetic_energy;         ///< J, of the grain with the largest kinetic energy
+  double energy_lost;                    ///< J, from the start to the least energy so far
+  double energy_gained;                  ///< J, the largest increase from the energy after an earlier step
   std::size_t leaked;                    ///< grains that have been outside
 };
 
@@ -106,34 +106,34 @@ class CompressionFile : public Table {
   void write(double time, const Packing& packing);
 };
 
-/// feeders.csv has a line per frame, feeder and kind that it feeds: what it has fed so far.
+/// feeders.csv has a line per frame, feeder and kind: the amount fed so far.
 class FeedersFile : public Table {
  public:
   explicit FeedersFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const Population& population);
 };
 
-/// sinks.csv has a line per frame, sink and kind of the scene: what it has taken so far.
+/// sinks.csv has a line per frame, sink and kind of the scene: the amount removed so far.
 class SinksFile : public Table {
  public:
   explicit SinksFile(const std::filesystem::path& path, const FileState& kept = {});
   void write(double time, const Population& population, const Scene& scene);
 };
 
-/// parts.csv, of a scene with parts that move, has a line per frame and such part: where it is, and its mean velocity in the step
-/// before, without that of a conveyor's surface.
-class PartsFile : public Table {
+/// parts.csv, of a scene with moving walls, has a line per frame and moving wall: its pose, and its mean velocity in the last step,
+/// without the motion of a conveyor's surface.
+class WallsFile : public Table {
  public:
-  explicit PartsFile(const std::filesystem::path& path, const FileState& kept = {});
-  void write(double time, const PartBodies& parts);
+  explicit WallsFile(const std::filesystem::path& path, const FileState& kept = {});
+  void write(double time, const WallBodies& walls);
 };
 
 /// grains.csv, of a scene with sizes, has a line per grain: the factor on the lengths of its kind, its sieve size and its mass.
 class GrainsFile : public Table {
  public:
-  /// `written`: the number of grains that it has already.
+  /// `written`: the number of grains that the table has already.
   explicit GrainsFile(const std::filesystem::path& path, const FileState& kept = {}, std::size_t written = 0);
-  /// Writes the grains that have come since the last call.
+  /// Writes the grains that were inserted since the last call.
   void write(const World& world);
   std::size_t written() const { return written_; }
 

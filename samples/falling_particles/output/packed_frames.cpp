@@ -15,7 +15,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kWhole = 32767;  // what 1 is in two bytes
+constexpr double kWhole = 32767;  // the two-byte integer for 1
 
 std::uint32_t bits_of(double number) { return std::bit_cast<std::uint32_t>(static_cast<float>(number)); }
 
@@ -56,18 +56,18 @@ std::vector<std::uint32_t> list_of(const Items& items, const Number& number) {
   return numbers;
 }
 
-/// The point of contact from the centre of its body, m.
-Point from_body(const Frame& frame, const ContactState& contact) {
-  const int body = contact.body1 == kWall ? contact.body2 : contact.body1;
-  const Point& centre = frame.bodies[static_cast<std::size_t>(body)].position;
+/// m, the contact point relative to the centre of its first grain.
+Point from_grain(const Frame& frame, const ContactState& contact) {
+  const int grain = contact.grain1 == kWall ? contact.grain2 : contact.grain1;
+  const Point& centre = frame.grains[static_cast<std::size_t>(grain)].position;
   return {contact.position[0] - centre[0], contact.position[1] - centre[1], contact.position[2] - centre[2]};
 }
 
-/// Of all points of contact; 1 when there are none or all are at the centres.
+/// The largest coordinate (m) of all contact points; 1 if there are none or all are at the centres.
 double largest_coordinate(const Frame& frame) {
   double largest = 0;
   for (const ContactState& contact : frame.contacts) {
-    for (const double coordinate : from_body(frame, contact)) largest = std::max(largest, std::abs(coordinate));
+    for (const double coordinate : from_grain(frame, contact)) largest = std::max(largest, std::abs(coordinate));
   }
   return largest > 0 ? largest : 1;
 }
@@ -95,31 +95,32 @@ void Packer::append(const std::vector<std::uint32_t>& differences, unsigned widt
 
 std::string Packer::text() const { return to_base64(deflated(bytes_)); }
 
-void PackedBodies::add(const Frame& frame) {
-  for (std::vector<std::uint32_t>& numbers : before_) numbers.resize(frame.bodies.size());
-  attitudes_.resize(4 * frame.bodies.size());
-  // Of the two quaternions of an attitude, the one on the side of the last: players interpolate between them.
-  for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
-    const auto& [w, x, y, z] = frame.bodies[k].quaternion;
+void PackedGrains::add(const Frame& frame) {
+  for (std::vector<std::uint32_t>& numbers : before_) numbers.resize(frame.grains.size());
+  orientations_.resize(4 * frame.grains.size());
+  // Of the two quaternions of an orientation, takes the one nearer to the last: players interpolate between them.
+  for (std::size_t k = 0; k < frame.grains.size(); ++k) {
+    const auto& [w, x, y, z] = frame.grains[k].quaternion;
     const std::array now = {x, y, z, w};
     double along = 0;
-    for (std::size_t i = 0; i < 4; ++i) along += now[i] * attitudes_[4 * k + i];
-    for (std::size_t i = 0; i < 4; ++i) attitudes_[4 * k + i] = static_cast<float>(along < 0 ? -now[i] : now[i]);
+    for (std::size_t i = 0; i < 4; ++i) along += now[i] * orientations_[4 * k + i];
+    for (std::size_t i = 0; i < 4; ++i) orientations_[4 * k + i] = static_cast<float>(along < 0 ? -now[i] : now[i]);
   }
   Packer packer;
   std::size_t number = 0;
-  const auto add = [&](unsigned width, const auto& of_body) {
-    packer.add(list_of(frame.bodies, of_body), before_[number++], width);
+  const auto add = [&](unsigned width, const auto& of_grain) {
+    packer.add(list_of(frame.grains, of_grain), before_[number++], width);
   };
   for (std::size_t i = 0; i < 3; ++i) {
-    add(4, [i](const BodyState& body) { return bits_of(body.is_present ? body.position[i] : NAN); });
+    add(4, [i](const GrainState& grain) { return bits_of(grain.is_present ? grain.position[i] : NAN); });
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    add(2,
-        [&](const BodyState& body) { return fraction(attitudes_[4 * static_cast<std::size_t>(&body - frame.bodies.data()) + i]); });
+    add(2, [&](const GrainState& grain) {
+      return fraction(orientations_[4 * static_cast<std::size_t>(&grain - frame.grains.data()) + i]);
+    });
   }
-  for (std::size_t i = 0; i < 3; ++i) add(2, [i](const BodyState& body) { return upper_half(body.velocity[i]); });
-  for (std::size_t i = 0; i < 3; ++i) add(2, [i](const BodyState& body) { return upper_half(body.angular_velocity[i]); });
+  for (std::size_t i = 0; i < 3; ++i) add(2, [i](const GrainState& grain) { return upper_half(grain.velocity[i]); });
+  for (std::size_t i = 0; i < 3; ++i) add(2, [i](const GrainState& grain) { return upper_half(grain.angular_velocity[i]); });
   texts_.push_back(packer.text());
 }
 
@@ -146,10 +147,10 @@ PackedContacts::Packed PackedContacts::pack(const Frame& frame, std::size_t inde
   const double length = largest_coordinate(frame);
   Packer packer;
   const auto add = [&](unsigned width, const auto& number) { packer.add_list(list_of(frame.contacts, number), width); };
-  add(4, [](const ContactState& contact) { return static_cast<std::uint32_t>(contact.body1); });
-  add(4, [](const ContactState& contact) { return static_cast<std::uint32_t>(contact.body2); });
+  add(4, [](const ContactState& contact) { return static_cast<std::uint32_t>(contact.grain1); });
+  add(4, [](const ContactState& contact) { return static_cast<std::uint32_t>(contact.grain2); });
   for (std::size_t i = 0; i < 3; ++i) {
-    add(2, [&, i](const ContactState& contact) { return fraction(from_body(frame, contact)[i] / length); });
+    add(2, [&, i](const ContactState& contact) { return fraction(from_grain(frame, contact)[i] / length); });
   }
   for (std::size_t i = 0; i < 3; ++i) add(2, [i](const ContactState& contact) { return fraction(contact.normal[i]); });
   add(2, [](const ContactState& contact) { return upper_half(contact.depth); });

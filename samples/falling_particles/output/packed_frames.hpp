@@ -1,4 +1,4 @@
-// Frames as short text, for pages.
+// Frames as compact text for pages.
 #pragma once
 
 #include <array>
@@ -11,16 +11,17 @@
 
 namespace falling_particles {
 
-/// Numbers, packed: of each, the difference to its predecessor in a zigzag (0, -1, 1, -2 … are 0, 1, 2, 3 …), so that small changes
-/// are small numbers; of all numbers the first bytes, then the second ones …, least significant first, so that like bytes stand
-/// together; the whole compressed by zlib. A number with 2 bytes wraps around at 2^16, one with 4 at 2^32.
+/// Packs numbers into text. Each number is replaced by the difference to its predecessor in a zigzag (0, -1, 1, -2 … are 0, 1, 2, 3
+/// …), so that small changes are small numbers. The first bytes of all numbers come first, then the second bytes …, least
+/// significant first, so that similar bytes are adjacent. zlib compresses the result. A number with 2 bytes wraps around at 2^16,
+/// one with 4 at 2^32.
 class Packer {
  public:
   /// Appends as many numbers as `before` has, of `width` (2 or 4) bytes; `before` becomes `numbers`.
   void add(const std::vector<std::uint32_t>& numbers, std::vector<std::uint32_t>& before, unsigned width);
-  /// Appends a list whose numbers each follow the one before.
+  /// Appends a list. The predecessor of a number is the one before it in the list.
   void add_list(const std::vector<std::uint32_t>& numbers, unsigned width);
-  /// What was added, compressed, in base 64.
+  /// The added numbers, compressed, in base 64.
   std::string text() const;
 
  private:
@@ -29,11 +30,10 @@ class Packer {
   std::string bytes_;
 };
 
-/// The states of all bodies that there have been so far, frame by frame, with no number for x of those that are gone. One text a
-/// frame, of the differences to the frame before (to zeros at first), each of all bodies: x, y, z of the centre (m, bits of a
-/// float, 4 bytes); x, y, z, w of the quaternion, times 32767 (2 bytes); velocity (m/s) and angular velocity (rad/s), the upper
-/// halves of a float's bits (2 bytes: 0.4 %).
-class PackedBodies {
+/// The states of all grains so far, frame by frame; x is NaN for removed grains. Each frame is one text of the differences to the
+/// frame before, at first to zeros. For all grains it has: x, y, z of the centre (m, bits of a float, 4 bytes); x, y, z, w of the
+/// quaternion, times 32767 (2 bytes); velocity (m/s) and angular velocity (rad/s), upper halves of a float's bits (2 bytes: 0.4 %).
+class PackedGrains {
  public:
   void add(const Frame& frame);
   const std::vector<std::string>& texts() const { return texts_; }
@@ -41,18 +41,18 @@ class PackedBodies {
  private:
   static constexpr std::size_t kFloats = 3, kHalves = 10;
 
-  std::array<std::vector<std::uint32_t>, kFloats + kHalves> before_;  // of each number of a body
-  std::vector<float> attitudes_;                                      // of the frame before: x, y, z, w of each body
+  std::array<std::vector<std::uint32_t>, kFloats + kHalves> before_;  // of each number of a grain
+  std::vector<float> orientations_;                                   // of the frame before: x, y, z, w of each grain
   std::vector<std::string> texts_;
 };
 
-/// The contacts, of as many frames as fit: of every frame, of every second, of every fourth …, and of the last one. One text a
-/// frame, of all contacts: body 1 and 2, -1 for a wall (4 bytes); point, from the centre of body 1 (of body 2 if that is a wall),
-/// in `length` / 32767, and normal, times 32767 (2 bytes); depth (m) and, where it was measured, the force (N), upper halves of a
-/// float's bits. But for the last, numbers are differences to those of the contact before.
+/// The contacts of as many frames as fit: of every frame, every second, every fourth …, and of the last one. Each frame is one
+/// text. For all contacts it has: grains 1 and 2, -1 for a wall (4 bytes); the point, from the centre of grain 1 (of grain 2 if the
+/// first is a wall), in `length` / 32767, and the normal, times 32767 (2 bytes); depth (m) and the measured force (N), if any, as
+/// upper halves of a float's bits. Numbers are differences to the contact before.
 class PackedContacts {
  public:
-  /// `budget`: bytes of all texts, but for the last.
+  /// `budget`: bytes of all texts except the last.
   explicit PackedContacts(std::size_t budget) : budget_(budget) {}
   void add(const Frame& frame);
 
@@ -62,7 +62,7 @@ class PackedContacts {
     double length;  ///< m, the largest coordinate of a point; the unit of the points
     std::string text;
   };
-  /// In the order of the frames.
+  /// The packed frames in their order.
   std::vector<Packed> texts() const;
 
  private:
@@ -70,7 +70,7 @@ class PackedContacts {
 
   std::size_t budget_;
   std::size_t frames_ = 0;  // added
-  std::size_t stride_ = 1;  // of the frames that are kept
+  std::size_t stride_ = 1;  // of the kept frames
   std::size_t size_ = 0;    // bytes of kept_
   std::vector<Packed> kept_;
   Packed last_{};

@@ -1,4 +1,4 @@
-// Colours of kinds of grains.
+// The colours of kinds of grains.
 #pragma once
 
 #include <array>
@@ -6,11 +6,11 @@
 
 namespace falling_particles {
 
-/// Red, green and blue in [0, 1], as a screen takes them (sRGB).
+/// Red, green and blue in [0, 1] for a screen (sRGB).
 using Colour = std::array<double, 3>;
 
-/// The colour of a kind: Okabe and Ito's palette, which people with any colour vision can tell apart, then the same darker, then
-/// lighter, over and over.
+/// The colour of a kind: from Okabe and Ito's palette, which people with any colour vision can distinguish; then the same colours
+/// darker, then lighter, repeatedly.
 inline Colour colour_of_kind(std::size_t kind) {
   constexpr std::array<Colour, 7> kPalette = {{{0.90, 0.62, 0.00},
                                                {0.34, 0.71, 0.91},

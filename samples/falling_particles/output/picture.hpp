@@ -1,4 +1,4 @@
-// The formats in which a run can be looked at.
+// The formats of pictures of a run.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace falling_particles {
 
-/// Writes a run in one format. A picture is told every frame as the run goes, and then that it has ended. The contents must outlive
-/// it; before a frame they have the grains that have come.
+/// Writes a run in one format. Call add() for each frame, then finish(). The contents must outlive it. Before add() they must
+/// contain the inserted grains.
 class Picture {
  public:
   Picture() = default;
@@ -22,14 +22,13 @@ class Picture {
   Picture& operator=(const Picture&) = delete;
 
   virtual void add(const Frame& frame) = 0;
-  /// Writes what is left to write; throws std::runtime_error when anything could not be written. `summary`: the text of
-  /// summary.toml.
+  /// Writes the rest. Throws std::runtime_error when anything could not be written. `summary`: the text of summary.toml.
   virtual void finish(const std::string& summary) = 0;
-  /// What other programs are to make of the files when the results of the run are in place.
+  /// The pictures that other programs make from the files after the run.
   virtual std::vector<Rendering> renderings() const { return {}; }
 };
 
-/// A format that a scene can ask for: [output] pictures = ["name", …].
+/// A format that a scene can request: [output] pictures = ["name", …].
 struct PictureFormat {
   std::string_view name;
   std::vector<std::string_view> files;  ///< names of the files and folders that it writes into the output folder
@@ -37,7 +36,7 @@ struct PictureFormat {
   std::vector<std::string_view> rendered = {};  ///< names of the files that other programs make
 };
 
-/// All formats, in the order in which they are listed for users.
+/// All formats, in the order of the list for users.
 const std::vector<PictureFormat>& picture_formats();
 
 /// Null if there is no such format.

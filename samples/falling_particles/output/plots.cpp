@@ -15,7 +15,7 @@ Rendering plot(const std::string& table, const char* script) {
   return {table + ".svg", {"gnuplot", "-c", "/dev/stdin", table + ".csv"}, script, "gnuplot-nox"};
 }
 
-/// A plot of a measurement's table, where its kind has one.
+/// Adds a plot of a measurement's table, if its kind has one.
 void add_plot(std::vector<Rendering>& plots, const MeasurementRequest& request) {
   const MeasurementKind& kind = *find_measurement_kind(request.kind);
   if (kind.plotted.empty()) return;

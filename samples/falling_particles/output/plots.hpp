@@ -5,8 +5,8 @@
 
 namespace falling_particles {
 
-/// A plot beside every table of numbers over time, energies.svg beside energies.csv, by gnuplot and the scripts of plots/, which
-/// the program holds.
+/// Makes a plot beside every table of numbers over time, energies.svg beside energies.csv. gnuplot draws it by the scripts of
+/// plots/, which the program contains.
 class Plots final : public Picture {
  public:
   explicit Plots(const Contents& contents) : contents_(contents) {}

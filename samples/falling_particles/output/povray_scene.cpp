@@ -18,11 +18,11 @@ namespace {
 
 using supernormal::Vector3;
 
-// Of the smallest half-axis: finer than a pixel of a picture of a bed.
+// Relative to the smallest half-axis: finer than a pixel of a picture of a bed.
 constexpr double kStillChordError = 0.005;
 
-// The smallest half-axis in POV-Ray's units. A shadow that is cast from nearer than 0.001 of them is left out: in metres, grains of
-// millimetres would have bright spots beside what they touch.
+// The smallest half-axis in POV-Ray's units. POV-Ray leaves out shadows that are cast from nearer than 0.001 units. In metres,
+// grains of millimetres would have bright spots beside their contacts.
 constexpr double kUnits = 10;
 
 template <typename Numbers>
@@ -35,12 +35,12 @@ std::string vector(const Numbers& numbers) {
 std::string vector(const Vector3& v) { return vector(std::array{v.x(), v.y(), v.z()}); }
 
 /// POV-Ray's superellipsoid has half-axes 1 and the exponents 2/e of its xy-section and 2/n along z.
-std::string superellipsoid(const GrainBody& grain) {
-  return "superellipsoid { " + vector(std::array{2 / grain.delta, 2 / grain.epsilon}) + " scale " + vector(grain.half_axes) + " }";
+std::string superellipsoid(const ConvexBody& body) {
+  return "superellipsoid { " + vector(std::array{2 / body.delta, 2 / body.epsilon}) + " scale " + vector(body.half_axes) + " }";
 }
 
-/// A capsule along z, exact.
-std::string capsule(const GrainBody& body) {
+/// An exact capsule along z.
+std::string capsule(const ConvexBody& body) {
   const double radius = body.half_axes[0];
   const std::string top = vector(std::array{0.0, 0.0, body.half_axes[2] - radius});
   const std::string bottom = vector(std::array{0.0, 0.0, radius - body.half_axes[2]});
@@ -52,8 +52,8 @@ std::string capsule(const GrainBody& body) {
   return text + " }";
 }
 
-std::string mesh(const Grain& grain) {
-  const supernormal::Tessellation body = mesh_of(grain, kStillChordError);
+std::string mesh(const GrainKind& kind) {
+  const supernormal::Tessellation body = mesh_of(kind, kStillChordError);
   const auto list = [](const char* name, const auto& items, const auto& text_of) {
     std::string text = std::string("  ") + name + " { " + std::to_string(items.size());
     for (const auto& item : items) text += ",\n    " + text_of(item);
@@ -65,43 +65,42 @@ std::string mesh(const Grain& grain) {
          list("face_indices", body.triangles, of_triangle) + "}";
 }
 
-std::string shape(const Grain& grain) {
-  if (!grain.parts.empty() || grain.rounding > 0) return mesh(grain);
-  const GrainBody body = grain.all_parts().front().body;
-  return grain.is_capsule ? capsule(body) : superellipsoid(body);
+std::string shape(const GrainKind& kind) {
+  if (!kind.components.empty() || kind.rounding > 0) return mesh(kind);
+  const ConvexBody body = kind.all_components().front().body;
+  return kind.is_capsule ? capsule(body) : superellipsoid(body);
 }
 
 Vector3 vector_of(const Point& point) { return {point[0], point[1], point[2]}; }
 
-/// Where the vertices of a part are. Walls without upper end are shown up to `top` (m).
-std::vector<Vector3> vertices_of(const ContainerPart& part, const PartPlace& place, double top) {
+/// The positions of the vertices of a wall. Walls of infinite height are shown up to `top` (m).
+std::vector<Vector3> vertices_of(const WallPicture& wall, const WallPlace& place, double top) {
   std::vector<Vector3> vertices;
-  vertices.reserve(part.mesh.vertices.size());
-  for (const auto& vertex : part.mesh.vertices) {
+  vertices.reserve(wall.mesh.vertices.size());
+  for (const auto& vertex : wall.mesh.vertices) {
     vertices.push_back(vector_of(place(vertex)));
-    if (part.name == "walls") vertices.back().z() = std::min(vertices.back().z(), top);
+    if (wall.name == "walls") vertices.back().z() = std::min(vertices.back().z(), top);
   }
   return vertices;
 }
 
 struct Camera {
   Vector3 eye;
-  double line;       // m, half of the width of a line, which is some two pixels wide
-  std::string text;  // with the lights
+  double line;       // m, half the width of a line, which is about two pixels wide
+  std::string text;  // camera and lights
 };
 
-/// A part of the container: what carries grains is solid, and one sees through what surrounds them, of which a still of the last
-/// frame shows edges. Of a wall between the eye and the grains there are the edges alone: grains that lie on it stick through it by
-/// their overlap, and would show as spots.
-std::string container(const ContainerPart& part, const std::vector<Vector3>& vertices, const Camera& camera) {
-  const bool is_solid = part.edges.empty() || part.name == "floor" || part.name == "dish";
+/// A wall. The floor, the dish and walls without drawn edges are solid; other walls are transparent and have edges. Walls between
+/// the eye and the grains have edges only: grains on them protrude by their overlap, and would show as spots.
+std::string container(const WallPicture& wall, const std::vector<Vector3>& vertices, const Camera& camera) {
+  const bool is_solid = wall.edges.empty() || wall.name == "floor" || wall.name == "dish";
   const auto is_shown = [&](const std::array<unsigned int, 3>& corners) {
     const auto& [a, b, c] = corners;
     const Vector3 normal = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
-    return is_solid || part.two_sided || normal.dot(camera.eye - vertices[a]) > 0;
+    return is_solid || wall.two_sided || normal.dot(camera.eye - vertices[a]) > 0;
   };
-  std::string text = "\n// " + part.name + "\n", triangles;
-  for (const auto& corners : part.mesh.triangles) {
+  std::string text = "\n// " + wall.name + "\n", triangles;
+  for (const auto& corners : wall.mesh.triangles) {
     const auto& [a, b, c] = corners;
     if (!is_shown(corners)) continue;
     triangles += "  triangle { " + vector(vertices[a]) + ", " + vector(vertices[b]) + ", " + vector(vertices[c]) + " }\n";
@@ -112,7 +111,7 @@ std::string container(const ContainerPart& part, const std::vector<Vector3>& ver
                       : "  pigment { rgbt <0.75, 0.8, 0.86, 0.85> }\n  finish { ambient 0.1 diffuse 0.5 }\n  no_shadow\n") +
             "  scale Unit\n}\n";
   }
-  for (const auto& [a, b] : part.edges) {
+  for (const auto& [a, b] : wall.edges) {
     if (is_solid) break;
     text += "cylinder { " + vector(vertices[a]) + ", " + vector(vertices[b]) + ", " + shortest(camera.line) +
             " pigment { rgb 0.55 } no_shadow scale Unit }\n";
@@ -120,7 +119,7 @@ std::string container(const ContainerPart& part, const std::vector<Vector3>& ver
   return text;
 }
 
-/// A camera to the side and above, from which all grains and the points of `held` just fit into the picture, however wide it is.
+/// A camera to the side and above. All grains and the points of `held` just fit into the picture, whatever its aspect ratio.
 Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& held) {
   const Extent extent = extent_of(frame, radius);
   const Vector3 least = vector_of(extent.least), most = vector_of(extent.most), centre = 0.5 * (least + most);
@@ -128,7 +127,7 @@ Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& 
   const Vector3 back = Vector3(0.45, -0.75, 0.48).normalized();
   const Vector3 right = Vector3::UnitZ().cross(back).normalized(), up = back.cross(right);
   const Vector3 eye = centre + 2 * size * back;
-  // Half of the width and the height of the picture at a distance of 1.
+  // Half the width and the height of the picture at a distance of 1.
   double width = 0, height = 0;
   const auto hold = [&](const Vector3& point, double around) {
     const Vector3 from_eye = point - eye;
@@ -136,8 +135,8 @@ Camera camera_on(const Frame& frame, double radius, const std::vector<Vector3>& 
     width = std::max(width, (std::abs(from_eye.dot(right)) + around) / distance);
     height = std::max(height, (std::abs(from_eye.dot(up)) + around) / distance);
   };
-  for (const BodyState& body : frame.bodies) {
-    if (body.is_present) hold(vector_of(body.position), radius);
+  for (const GrainState& grain : frame.grains) {
+    if (grain.is_present) hold(vector_of(grain.position), radius);
   }
   for (const Vector3& point : held) hold(point, 0);
   const Vector3 light = centre + 4 * size * Vector3(0.1, -0.5, 0.85).normalized();
@@ -160,48 +159,48 @@ PovrayScene::PovrayScene(const std::filesystem::path& path, const Contents& cont
 void PovrayScene::finish(const std::string& /*summary*/) {
   const double radius = contents_.scene->largest_bounding_radius();
   const double top = extent_of(last_, radius).most[2];
-  std::vector<std::vector<Vector3>> vertices;  // of the parts
+  std::vector<std::vector<Vector3>> vertices;  // of each wall
   std::vector<Vector3> held;
-  for (std::size_t i = 0; i < contents_.parts.size(); ++i) {
-    const ContainerPart& part = contents_.parts[i];
-    const std::vector<Vector3>& last = vertices.emplace_back(vertices_of(part, last_.part_places[i], top));
-    const bool is_box = part.name == "walls" && std::holds_alternative<Box>(contents_.scene->container);
-    if (is_box || part.role == ContainerPart::Role::Cell) held.insert(held.end(), last.begin(), last.end());
+  for (std::size_t i = 0; i < contents_.walls.size(); ++i) {
+    const WallPicture& wall = contents_.walls[i];
+    const std::vector<Vector3>& last = vertices.emplace_back(vertices_of(wall, last_.wall_places[i], top));
+    const bool is_box = wall.name == "walls" && std::holds_alternative<Box>(contents_.scene->container);
+    if (is_box || wall.role == WallPicture::Role::Cell) held.insert(held.end(), last.begin(), last.end());
   }
   const Camera camera = camera_on(last_, radius, held);
-  // A ray goes through more walls than the five that POV-Ray follows by itself: behind them all is black.
+  // A ray passes more walls than POV-Ray's default of five; beyond them the picture would be black.
   std::string text = "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 50 }\n#declare Unit = " +
                      shortest(kUnits / contents_.scene->smallest_half_axis()) + "; // of POV-Ray, in a metre\n" + camera.text;
-  for (std::size_t i = 0; i < contents_.parts.size(); ++i) {
-    if (last_.part_places[i].scale == 0) continue;  // it is gone
-    text += container(contents_.parts[i], vertices[i], camera);
+  for (std::size_t i = 0; i < contents_.walls.size(); ++i) {
+    if (last_.wall_places[i].scale == 0) continue;  // the wall was removed
+    text += container(contents_.walls[i], vertices[i], camera);
   }
-  for (std::size_t kind = 0; kind < contents_.scene->grains.size(); ++kind) {
-    const Grain& grain = contents_.scene->grains[kind].grain;
-    text += "\n// " + grain.name + "\n#declare Kind" + std::to_string(kind) + " = object {\n" + shape(grain) +
-            "\n  pigment { srgb " + vector(colour_of_kind(kind)) +
+  for (std::size_t index = 0; index < contents_.scene->kinds.size(); ++index) {
+    const GrainKind& kind = contents_.scene->kinds[index].kind;
+    text += "\n// " + kind.name + "\n#declare Kind" + std::to_string(index) + " = object {\n" + shape(kind) +
+            "\n  pigment { srgb " + vector(colour_of_kind(index)) +
             " }\n  finish { ambient 0.1 diffuse 0.8 specular 0.15 roughness 0.03 }\n}\n";
   }
   text += '\n';
-  for (std::size_t k = 0; k < last_.bodies.size(); ++k) {
-    const BodyState& body = last_.bodies[k];
-    if (!body.is_present) continue;
-    const auto& [w, x, y, z] = body.quaternion;
+  for (std::size_t k = 0; k < last_.grains.size(); ++k) {
+    const GrainState& grain = last_.grains[k];
+    if (!grain.is_present) continue;
+    const auto& [w, x, y, z] = grain.quaternion;
     const supernormal::Matrix3 R = Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
-    std::vector<double> rows;  // of POV-Ray's matrix: where the axes go, then the origin
+    std::vector<double> rows;  // of POV-Ray's matrix: the images of the axes, then of the origin
     for (const int axis : {0, 1, 2}) {
       const Vector3 column = contents_.scale(k) * R.col(axis);
       rows.insert(rows.end(), column.begin(), column.end());
     }
-    rows.insert(rows.end(), body.position.begin(), body.position.end());
-    text += "object { Kind" + std::to_string(contents_.kind_of_body[k]) + " matrix " + vector(rows) + " scale Unit }\n";
+    rows.insert(rows.end(), grain.position.begin(), grain.position.end());
+    text += "object { Kind" + std::to_string(contents_.kind_of_grain[k]) + " matrix " + vector(rows) + " scale Unit }\n";
   }
   write_file(path_, text);
 }
 
 std::vector<Rendering> PovrayScene::renderings() const {
   const std::string scene = path_.filename().string();
-  // One thread: with more of them the pixels depend on which thread came first.
+  // One thread: with several threads the pixels depend on their order.
   return {{"still.png", {"povray", "+I" + scene, "+O-", "+FN", "+W900", "+H560", "+A0.2", "-D", "+WT1"}, "", "povray"}};
 }
 

@@ -1,4 +1,4 @@
-// The end of a run as a still.
+// The last frame of a run as a POV-Ray scene.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,8 @@
 
 namespace falling_particles {
 
-/// still.pov: the last frame for POV-Ray, whose superellipsoids are exact; a grain with rounded edges is a mesh; and
-/// still.png, if there is a povray. Each kind has a colour (palette.hpp); of containers only the floor of a box is drawn, since
-/// walls would hide the grains.
+/// still.pov: the last frame for POV-Ray, and still.png, if povray is installed. Superellipsoids are exact; a grain with rounded
+/// edges is a mesh. Each kind has a colour (palette.hpp). Walls are transparent, except the floor and the dish.
 class PovrayScene final : public Picture {
  public:
   PovrayScene(const std::filesystem::path& path, const Contents& contents);

@@ -50,7 +50,7 @@ Recorder::Recorder(const OutputFolder& folder, const Scene& scene, const Simulat
   add(discharge_, kDischargeFile);
   add(compression_, kCompressionFile);
   add(grains_, kGrainsFile, kept_.grains_written);
-  add(parts_, kPartsFile);
+  add(walls_, kPartsFile);
   add(feeders_, kFeedersFile);
   add(sinks_, kSinksFile);
   for (const std::string& name : scene.pictures) {
@@ -77,11 +77,11 @@ void Recorder::record(double time, const Simulation& simulation, bool has_steppe
   if (discharge_) discharge_->write(time, simulation.watches.discharge->mass(), simulation.watches.discharge->count());
   if (compression_ && has_stepped) compression_->write(time, simulation.watches.compressor->packing());
   if (grains_) grains_->write(world);
-  if (parts_) parts_->write(time, *world.parts());
+  if (walls_) walls_->write(time, *world.walls());
   if (feeders_) feeders_->write(time, simulation.population);
   if (sinks_) sinks_->write(time, simulation.population, scene_);
   if (pictures_.empty()) return;
-  add_new_bodies(contents_, world);
+  add_new_grains(contents_, world);
   const Frame frame = frame_of(time, energy, contents_, world, has_stepped ? &simulation.stepper : nullptr);
   for (const std::unique_ptr<Picture>& picture : pictures_) picture->add(frame);
   if (log_) log_->add(frame);

@@ -13,7 +13,7 @@ namespace {
 
 void append(std::string& list, const std::string& name) { list += (list.empty() ? "" : ", ") + name; }
 
-/// The line of a program's messages that says what is wrong: the last one about an error, else the last one.
+/// The decisive line of a program's messages: the last line about an error, otherwise the last line.
 std::string complaint_of(const std::string& messages) {
   std::istringstream stream(messages);
   std::string last, last_error;
@@ -25,11 +25,11 @@ std::string complaint_of(const std::string& messages) {
   return last_error.empty() ? last : last_error;
 }
 
-/// A PNG without the chunks that tell when and by which program it was made, so that the same picture is the same bytes; what is no
-/// PNG, or is torn, as it is.
+/// Removes the chunks of a PNG with date and program, so that equal pictures have equal bytes. Other or truncated files are
+/// returned unchanged.
 std::string without_date(const std::string& file) {
   constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  constexpr std::size_t kFrame = 12;  // bytes of a chunk besides its content: its length, its name, its checksum
+  constexpr std::size_t kFrame = 12;  // bytes of a chunk besides its content: length, name, checksum
   if (!file.starts_with(kSignature)) return file;
   std::string kept(kSignature);
   for (std::size_t at = kSignature.size(); at < file.size();) {

@@ -1,4 +1,4 @@
-// Pictures that other programs make of the files of a run.
+// The pictures that other programs make from the files of a run.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@ struct Rendering {
   std::string file;                  ///< name of the picture, which the program writes to its stdout
   std::vector<std::string> command;  ///< program and arguments; it runs in the folder of the results
   std::string input;                 ///< its stdin
-  std::string_view package;          ///< of Debian, that has the program
+  std::string_view package;          ///< the Debian package of the program
 };
 
-/// Makes the pictures in `folder`. What could not be made, because its program is not installed or fails, and what is left after
-/// Ctrl-C, is told on stderr. Throws std::runtime_error when a picture could not be written.
+/// Makes the pictures in `folder`. If a program is missing or fails, or after Ctrl-C, it reports the missing pictures on stderr and
+/// still succeeds. Throws std::runtime_error when a picture could not be written.
 void render(const std::vector<Rendering>& renderings, const std::filesystem::path& folder, bool quiet);
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-// What runs may leave in the folder of their results.
+// The names of all results of runs.
 #pragma once
 
 #include "base/output_folder.hpp"

@@ -17,18 +17,18 @@
 namespace falling_particles {
 namespace {
 
-// Of the smallest half-axis of a grain: a few hundred triangles for most, and no corners to be seen.
+// Relative to the smallest half-axis of a grain: most grains have a few hundred triangles and no visible edges.
 constexpr double kAnimationChordError = 0.02;
 
-/// The buffer of a file and what is in it.
+/// Builds the glTF model.
 class Builder {
  public:
   explicit Builder(const Contents& contents) {
     model_.asset.version = "2.0";
     model_.asset.generator = "falling_particles";
     model_.buffers.resize(1);
-    for (std::size_t kind = 0; kind < contents.scene->grains.size(); ++kind) add_kind(contents.scene->grains[kind].grain, kind);
-    for (const ContainerPart& part : contents.parts) add_part(part);
+    for (std::size_t index = 0; index < contents.scene->kinds.size(); ++index) add_kind(contents.scene->kinds[index].kind, index);
+    for (const WallPicture& wall : contents.walls) add_wall(wall);
     add_nodes(contents);
   }
 
@@ -40,13 +40,13 @@ class Builder {
     model_.accessors[static_cast<std::size_t>(input_)].maxValues = {times.back()};
   }
 
-  /// The tracks of a node, whose numbers are those of all times; what does not move has none.
+  /// Adds the tracks of a node with the numbers of all times. Constant tracks are left out.
   void move(std::size_t node, const std::vector<float>& translations, const std::vector<float>& rotations) {
     animate(node, "translation", add_moving(translations, 3), "LINEAR");
     animate(node, "rotation", add_moving(rotations, 4), "LINEAR");
   }
 
-  /// A body or a lid is there or not, a cell shrinks from frame to frame.
+  /// Animates the scale. A grain or a lid appears or vanishes at once; a cell shrinks continuously.
   void resize(std::size_t node, const std::vector<float>& scales) {
     const bool vanishes = std::ranges::find(scales, 0) != scales.end();
     animate(node, "scale", add_moving(scales, 3), vanishes ? "STEP" : "LINEAR");
@@ -70,7 +70,7 @@ class Builder {
   }
 
  private:
-  /// A part of the buffer, which its accessors fill one after the other.
+  /// A section of the buffer, which its accessors fill one after the other.
   std::size_t add_view(int target) {
     tinygltf::BufferView view;
     view.buffer = 0;
@@ -97,7 +97,7 @@ class Builder {
     return static_cast<int>(model_.accessors.size() - 1);
   }
 
-  /// -1 where the numbers of the first frame hold for all.
+  /// -1 if all frames have the numbers of the first one.
   int add_moving(const std::vector<float>& numbers, std::size_t components) {
     const auto repeats = [&](std::size_t k) { return numbers[k] == numbers[k % components]; };
     bool is_still = true;
@@ -130,21 +130,21 @@ class Builder {
     return add_accessor(view, numbers, TINYGLTF_TYPE_VEC3);
   }
 
-  void add_kind(const Grain& grain, std::size_t kind) {
-    const supernormal::Tessellation body = mesh_of(grain, kAnimationChordError);
+  void add_kind(const GrainKind& kind, std::size_t index) {
+    const supernormal::Tessellation body = mesh_of(kind, kAnimationChordError);
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = static_cast<int>(kind);
+    primitive.material = static_cast<int>(index);
     const int positions = add_vectors(body.points);
     bound(model_.accessors[static_cast<std::size_t>(positions)], body);
     primitive.attributes["POSITION"] = positions;
     primitive.attributes["NORMAL"] = add_vectors(body.normals);
     primitive.indices = add_indices(body.triangles);
     tinygltf::Mesh mesh;
-    mesh.name = grain.name;
+    mesh.name = kind.name;
     mesh.primitives.push_back(std::move(primitive));
     model_.meshes.push_back(std::move(mesh));
-    add_material(grain, kind);
+    add_material(kind, index);
   }
 
   static void bound(tinygltf::Accessor& positions, const supernormal::Tessellation& body) {
@@ -163,14 +163,14 @@ class Builder {
     return add_accessor(add_view(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER), corners, TINYGLTF_TYPE_SCALAR);
   }
 
-  /// Triangles through which one sees, and edges as lines; viewers give triangles without normals their flat ones.
-  void add_part(const ContainerPart& part) {
+  /// Adds a wall: transparent triangles, and edges as lines. Viewers compute flat normals for triangles without normals.
+  void add_wall(const WallPicture& wall) {
     supernormal::Tessellation points;
-    for (const auto& [x, y, z] : part.mesh.vertices) points.points.emplace_back(x, y, z);
+    for (const auto& [x, y, z] : wall.mesh.vertices) points.points.emplace_back(x, y, z);
     const int positions = add_vectors(points.points);
     bound(model_.accessors[static_cast<std::size_t>(positions)], points);
     tinygltf::Mesh mesh;
-    mesh.name = part.name;
+    mesh.name = wall.name;
     const auto add = [&](const auto& tuples, int mode) {
       if (tuples.empty()) return;
       tinygltf::Primitive primitive;
@@ -180,11 +180,11 @@ class Builder {
       primitive.indices = add_indices(tuples);
       mesh.primitives.push_back(std::move(primitive));
     };
-    add(part.mesh.triangles, TINYGLTF_MODE_TRIANGLES);
-    add(part.edges, TINYGLTF_MODE_LINE);
+    add(wall.mesh.triangles, TINYGLTF_MODE_TRIANGLES);
+    add(wall.edges, TINYGLTF_MODE_LINE);
     model_.meshes.push_back(std::move(mesh));
     tinygltf::Material material;
-    material.name = part.name;
+    material.name = wall.name;
     material.pbrMetallicRoughness.baseColorFactor = {0.25, 0.3, 0.37, 0.16};
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 1;
@@ -192,34 +192,34 @@ class Builder {
     model_.materials.push_back(std::move(material));
   }
 
-  void add_material(const Grain& grain, std::size_t kind) {
-    const Colour colour = colour_of_kind(kind);
+  void add_material(const GrainKind& kind, std::size_t index) {
+    const Colour colour = colour_of_kind(index);
     tinygltf::Material material;
-    material.name = grain.name;
-    // glTF takes linear light.
+    material.name = kind.name;
+    // glTF colours are linear.
     for (std::size_t i = 0; i < 3; ++i) material.pbrMetallicRoughness.baseColorFactor[i] = std::pow(colour[i], 2.2);
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     model_.materials.push_back(std::move(material));
   }
 
-  /// A node per body, then one per part of the container, then the root above them.
+  /// Adds a node per grain, then a node per wall, then the root above them.
   void add_nodes(const Contents& contents) {
     tinygltf::Node root;
     root.name = contents.scene->name;
-    root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // glTF has y upwards
-    for (std::size_t body = 0; body < contents.kind_of_body.size(); ++body) {
+    root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // in glTF y points upwards
+    for (std::size_t grain = 0; grain < contents.kind_of_grain.size(); ++grain) {
       tinygltf::Node node;
-      node.name = contents.grain(body).name + " " + std::to_string(body);
-      node.mesh = static_cast<int>(contents.kind_of_body[body]);
-      if (const double scale = contents.scale(body); scale != 1) node.scale.assign(3, scale);
+      node.name = contents.kind(grain).name + " " + std::to_string(grain);
+      node.mesh = static_cast<int>(contents.kind_of_grain[grain]);
+      if (const double scale = contents.scale(grain); scale != 1) node.scale.assign(3, scale);
       model_.nodes.push_back(std::move(node));
-      root.children.push_back(static_cast<int>(body));
+      root.children.push_back(static_cast<int>(grain));
     }
-    for (std::size_t part = 0; part < contents.parts.size(); ++part) {
+    for (std::size_t wall = 0; wall < contents.walls.size(); ++wall) {
       tinygltf::Node node;
-      node.name = contents.parts[part].name;
-      node.mesh = static_cast<int>(contents.scene->grains.size() + part);
+      node.name = contents.walls[wall].name;
+      node.mesh = static_cast<int>(contents.scene->kinds.size() + wall);
       root.children.push_back(static_cast<int>(model_.nodes.size()));
       model_.nodes.push_back(std::move(node));
     }
@@ -234,14 +234,15 @@ class Builder {
   tinygltf::Model model_;
   tinygltf::Animation animation_;
   std::size_t view_ = 0;  // of the animation
-  int input_ = 0;         // its times
+  int input_ = 0;         // the times of the animation
 };
 
 }  // namespace
 
 void SceneGlb::Track::add(const Point& position, const std::array<double, 4>& quaternion, double scale) {
   for (const double x : position) translations.push_back(static_cast<float>(x));
-  // w, x, y, z there; and of the two quaternions of an attitude the one on the side of the last, between which players interpolate.
+  // Quaternions are w, x, y, z there. Of the two quaternions of an orientation, takes the one nearer to the last: players
+  // interpolate between them.
   const auto& [w, x, y, z] = quaternion;
   const std::array<double, 4> now = {x, y, z, w};
   double along = 0;
@@ -270,24 +271,24 @@ void SceneGlb::Track::precede(std::size_t frames) {
 }
 
 SceneGlb::SceneGlb(const std::filesystem::path& path, const Contents& contents)
-    : path_(path), contents_(contents), parts_(contents.parts.size()) {}
+    : path_(path), contents_(contents), walls_(contents.walls.size()) {}
 
 void SceneGlb::add(const Frame& frame) {
   times_.push_back(static_cast<float>(frame.time));
-  for (std::size_t body = 0; body < frame.bodies.size(); ++body) add_body(body, frame.bodies[body]);
-  for (std::size_t part = 0; part < parts_.size(); ++part) {
-    const PartPlace& place = frame.part_places[part];
-    parts_[part].add(place.position, place.quaternion, place.scale);
+  for (std::size_t grain = 0; grain < frame.grains.size(); ++grain) add_grain(grain, frame.grains[grain]);
+  for (std::size_t wall = 0; wall < walls_.size(); ++wall) {
+    const WallPlace& place = frame.wall_places[wall];
+    walls_[wall].add(place.position, place.quaternion, place.scale);
   }
 }
 
-void SceneGlb::add_body(std::size_t body, const BodyState& state) {
-  const double scale = contents_.scale(body);
-  if (body < bodies_.size()) {
-    if (state.is_present) return bodies_[body].add(state.position, state.quaternion, scale);
-    return bodies_[body].repeat_last(0);
+void SceneGlb::add_grain(std::size_t grain, const GrainState& state) {
+  const double scale = contents_.scale(grain);
+  if (grain < grains_.size()) {
+    if (state.is_present) return grains_[grain].add(state.position, state.quaternion, scale);
+    return grains_[grain].repeat_last(0);
   }
-  Track& track = bodies_.emplace_back();
+  Track& track = grains_.emplace_back();
   track.add(state.position, state.quaternion, state.is_present ? scale : 0);
   track.precede(times_.size() - 1);
 }
@@ -295,25 +296,25 @@ void SceneGlb::add_body(std::size_t body, const BodyState& state) {
 void SceneGlb::finish(const std::string& /*summary*/) {
   Builder builder(contents_);
   std::size_t node = 0;
-  for (const std::vector<Track>* tracks : {&bodies_, &parts_}) {
+  for (const std::vector<Track>* tracks : {&grains_, &walls_}) {
     for (const Track& track : *tracks) {
       builder.place(node++, std::span(track.translations).first(3), std::span(track.rotations).first(4));
     }
   }
-  for (std::size_t part = 0; part < parts_.size(); ++part) {
-    builder.scale(bodies_.size() + part, std::span(parts_[part].scales).first(3));
+  for (std::size_t wall = 0; wall < walls_.size(); ++wall) {
+    builder.scale(grains_.size() + wall, std::span(walls_[wall].scales).first(3));
   }
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    if (bodies_[body].scales.front() == 0) builder.scale(body, std::span(bodies_[body].scales).first(3));
+  for (std::size_t grain = 0; grain < grains_.size(); ++grain) {
+    if (grains_[grain].scales.front() == 0) builder.scale(grain, std::span(grains_[grain].scales).first(3));
   }
   if (times_.size() > 1) {
     builder.start_animation(times_);
     node = 0;
-    for (const std::vector<Track>* tracks : {&bodies_, &parts_}) {
+    for (const std::vector<Track>* tracks : {&grains_, &walls_}) {
       for (const Track& track : *tracks) builder.move(node++, track.translations, track.rotations);
     }
-    for (std::size_t part = 0; part < parts_.size(); ++part) builder.resize(bodies_.size() + part, parts_[part].scales);
-    for (std::size_t body = 0; body < bodies_.size(); ++body) builder.resize(body, bodies_[body].scales);
+    for (std::size_t wall = 0; wall < walls_.size(); ++wall) builder.resize(grains_.size() + wall, walls_[wall].scales);
+    for (std::size_t grain = 0; grain < grains_.size(); ++grain) builder.resize(grain, grains_[grain].scales);
     builder.end_animation();
   }
   builder.write(path_);

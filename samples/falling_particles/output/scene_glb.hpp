@@ -9,10 +9,10 @@
 
 namespace falling_particles {
 
-/// scene.glb: glTF 2.0, binary. A mesh per kind of grain, through its normals, shared by its bodies; a node per body, by its index,
-/// scaled to its size, whose translation and rotation are animated where the body moves, and which is scaled to nothing while it is
-/// not there; a node per part of the container, which is scaled where it changes; a root that turns z upwards. Lengths are in m.
-/// Written at the end of a run; until then a body and frame take 28 bytes.
+/// scene.glb: glTF 2.0, binary. It has a mesh per kind of grain with smooth normals. Each grain is a node, in the order of the
+/// indices, with the mesh of its kind and a scale for its size. The translations and rotations of moving grains are animated;
+/// absent grains have scale 0. Each wall is a node, which is scaled when it changes. A root node rotates the z-axis upwards.
+/// Lengths are in m. The file is written at the end of a run; until then a grain needs 28 bytes per frame.
 class SceneGlb final : public Picture {
  public:
   SceneGlb(const std::filesystem::path& path, const Contents& contents);
@@ -28,16 +28,16 @@ class SceneGlb final : public Picture {
 
     void add(const Point& position, const std::array<double, 4>& quaternion, double scale);
     void repeat_last(double scale);
-    /// Puts `frames` before the first one, in which the node is not there.
+    /// Inserts `frames` frames before the first one; in these the node is absent.
     void precede(std::size_t frames);
   };
-  void add_body(std::size_t body, const BodyState& state);
+  void add_grain(std::size_t grain, const GrainState& state);
 
   std::filesystem::path path_;
   const Contents& contents_;
   std::vector<float> times_;
-  std::vector<Track> bodies_;
-  std::vector<Track> parts_;  // of the container
+  std::vector<Track> grains_;
+  std::vector<Track> walls_;  // of the walls
 };
 
 }  // namespace falling_particles

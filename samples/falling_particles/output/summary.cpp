@@ -11,7 +11,7 @@
 namespace falling_particles {
 namespace {
 
-/// Lines of the form key = value, with the values of all lines in one column and the comments in another.
+/// Lines of the form key = value, with aligned values and aligned comments.
 class Lines {
  public:
   explicit Lines(Times times) : times_(times) {}
@@ -25,10 +25,10 @@ class Lines {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", value);
     std::string number = buffer;
-    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float needs one, whatever the value
+    if (number.find_first_of(".en") == std::string::npos) number += ".0";  // a TOML float needs one of them
     add(key, number, comment);
   }
-  /// Seconds, or a share of them.
+  /// Adds seconds, or a fraction of seconds.
   void add_time(const char* key, double value, const char* comment = "") {
     if (times_ == Times::Told) add(key, value, comment);
   }
@@ -59,9 +59,9 @@ void add_run(Lines& lines, const Summary& s) {
   if (!s.scene.overrides.empty()) lines.add("set", array_of(s.scene.overrides), "in place of the scene's values");
   lines.add("seed", static_cast<unsigned long long>(s.scene.seed));
   lines.add("container", toml_string(kind_of(s.scene.container)));
-  lines.add("bodies", static_cast<unsigned long long>(s.scene.bodies()), s.population == nullptr ? "" : "at the start");
-  for (const GrainCount& kind : s.scene.grains) {
-    lines.add(("bodies_of." + kind.grain.name).c_str(), static_cast<unsigned long long>(kind.count));
+  lines.add("bodies", static_cast<unsigned long long>(s.scene.grains_at_start()), s.population == nullptr ? "" : "at the start");
+  for (const GrainCount& entry : s.scene.kinds) {
+    lines.add(("bodies_of." + entry.kind.name).c_str(), static_cast<unsigned long long>(entry.count));
   }
   lines.add("steps", static_cast<unsigned long long>(s.steps));
   lines.add("simulated", s.simulated_seconds, "s");
@@ -73,7 +73,7 @@ void add_sizes(Lines& lines, const std::vector<DrawnSizes>& all) {
   lines.section("sizes");
   for (const DrawnSizes& sizes : all) {
     const auto add = [&](const char* key, auto value, const char* comment = "") {
-      lines.add((sizes.grain + '.' + key).c_str(), value, comment);
+      lines.add((sizes.kind + '.' + key).c_str(), value, comment);
     };
     add("number", static_cast<unsigned long long>(sizes.number));
     add("mass", sizes.mass, "kg, of all");
@@ -147,7 +147,7 @@ void add_end_state(Lines& lines, const Summary& s) {
   if (s.bed) add_bed(lines, *s.bed, "m, twice the mean height of the grains' volume");
 }
 
-/// Adds the mass flow beside that of Beverloo's law. Keys without a value (nothing discharged, say) are left out.
+/// Adds the mass flow and the mass flow of Beverloo's law. Keys without a value, as before any discharge, are left out.
 void add_mass_flow(Lines& lines, const Scene& scene, const Hopper& hopper, const Discharge& discharge) {
   const Charge& charge = *discharge.charge();
   const std::optional<double> flow = discharge.mass_flow();
@@ -192,13 +192,13 @@ void add_population(Lines& lines, const Summary& s) {
   add_amount(lines, "present", population.present(), "at the end: at_start + fed - taken");
   for (const Feeding& feeding : population.feeders()) {
     for (std::size_t i = 0; i < feeding.feeder().mixture.size(); ++i) {
-      add_amount(lines, "fed_by." + feeding.feeder().name + '.' + feeding.grain(i).name, feeding.state().fed[i]);
+      add_amount(lines, "fed_by." + feeding.feeder().name + '.' + feeding.kind(i).name, feeding.state().fed[i]);
     }
   }
   for (std::size_t sink = 0; sink < s.scene.sinks.size(); ++sink) {
-    for (std::size_t kind = 0; kind < s.scene.grains.size(); ++kind) {
+    for (std::size_t kind = 0; kind < s.scene.kinds.size(); ++kind) {
       const Amount& taken = population.taken(sink)[kind];
-      add_amount(lines, "taken_by." + s.scene.sinks[sink].name + '.' + s.scene.grains[kind].grain.name, taken);
+      add_amount(lines, "taken_by." + s.scene.sinks[sink].name + '.' + s.scene.kinds[kind].kind.name, taken);
     }
   }
 }
@@ -245,8 +245,8 @@ void add_costs(Lines& lines, const Summary& s) {
   lines.add_time("seconds_per_pair", c.pairs_tested == 0 ? 0 : narrow / static_cast<double>(c.pairs_tested), "s, of narrow phase");
 }
 
-/// Adds the cost of each effect that the scene names; rigid contact itself comes first. Seconds are those of its own passes and,
-/// by rows, its share of the solver's.
+/// Adds the cost of each effect that the scene names, rigid contact first. The seconds are the time of its own passes and, by rows,
+/// its share of the solver's time.
 void add_effect_costs(Lines& lines, const Summary& s) {
   unsigned long long rows = 0;
   for (const supernormal::effects::Cost& cost : s.effects) rows += cost.rows;

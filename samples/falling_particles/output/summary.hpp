@@ -22,12 +22,12 @@
 
 namespace falling_particles {
 
-/// The bed counts as settled when its kinetic energy would lift it by less than this share of the smallest half-axis.
+/// A bed is settled if its kinetic energy would lift it by less than this fraction of the smallest half-axis.
 constexpr double kSettledHeight = 1e-3;
 
 struct CheckpointCost {
   unsigned long long number = 0;
-  Stopwatch watch = {};  ///< to write them, and to go on from them
+  Stopwatch watch = {};  ///< to write them and to resume from them
 };
 
 /// The work and the results of a run.
@@ -36,7 +36,7 @@ struct Summary {
   bool interrupted;
   int steps;
   double simulated_seconds;
-  double real_seconds;  ///< for the steps and their output; not for the measurements at the end
+  double real_seconds;  ///< s, of the steps and their output, without the measurements at the end
   const StepCosts& costs;
   snStatistics statistics;  ///< counts of the steps
   Axis sweep_axis;
@@ -56,11 +56,11 @@ struct Summary {
   std::vector<MeasurementCost> measurements = {};
   double seconds_of_contacts = 0;  ///< s, to gather contacts for the measurements
   std::vector<DrawnSizes> sizes = {};
-  const Population* population = nullptr;  ///< where grains come or go
+  const Population* population = nullptr;  ///< null unless grains are inserted or removed
   CheckpointCost checkpoints = {};
 };
 
-/// What the run took, which depends on the machine and on when it was stopped: the only part of a summary that does.
+/// Whether the summary has the times of the run. Only these depend on the machine and on when the run was stopped.
 enum class Times { Told, LeftOut };
 
 /// Writes TOML with units and definitions in comments.

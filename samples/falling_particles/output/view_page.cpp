@@ -13,7 +13,7 @@
 #include "grain_mesh.hpp"
 #include "palette.hpp"
 
-// The page as `npm run build` leaves it in page/ (view_page_html.S).
+// The page that `npm run build` makes in page/ (view_page_html.S).
 extern "C" const char kViewPageHtml[], kViewPageHtmlEnd[];
 
 namespace falling_particles {
@@ -21,14 +21,14 @@ namespace {
 
 using nlohmann::json;
 
-// What the page says where the run goes.
+// The placeholder of the run in the page.
 constexpr std::string_view kPlace = "<!-- the run -->";
 
-// Bytes: with them the page of 1000 bodies and 150 frames stays below 8 MB.
+// Bytes: with this budget the page of 1000 grains and 150 frames is smaller than 8 MB.
 constexpr std::size_t kContactBudget = 2'500'000;
 
-// Of the smallest half-axis of a grain. The first one shows no corners; the page takes coarser ones while it moves, where the finer
-// ones are too slow.
+// Relative to the smallest half-axis of a grain. The first mesh shows no edges. While the page moves, it uses the coarser meshes if
+// the finer ones are too slow.
 constexpr std::array kChordErrors = {0.02, 0.1, 0.4};
 
 template <typename Number>
@@ -53,10 +53,10 @@ std::vector<std::uint32_t> indices(const std::vector<std::array<Item, N>>& tuple
   return numbers;
 }
 
-json meshes_of(const Grain& grain) {
+json meshes_of(const GrainKind& kind) {
   json meshes;
   for (const double chord_error : kChordErrors) {
-    const supernormal::Tessellation body = mesh_of(grain, chord_error);
+    const supernormal::Tessellation body = mesh_of(kind, chord_error);
     meshes.push_back({{"points", packed(coordinates(body.points))},
                       {"normals", packed(coordinates(body.normals))},
                       {"triangles", packed(indices(body.triangles))}});
@@ -64,36 +64,36 @@ json meshes_of(const Grain& grain) {
   return meshes;
 }
 
-const char* shape_name(const Grain& grain) {
-  if (!grain.parts.empty()) return "compound";
-  return grain.is_capsule ? "capsule" : "superellipsoid";
+const char* shape_name(const GrainKind& kind) {
+  if (!kind.components.empty()) return "compound";
+  return kind.is_capsule ? "capsule" : "superellipsoid";
 }
 
-json describe(const Grain& grain, std::size_t index) {
-  return {{"shape", shape_name(grain)},
-          {"parts", grain.all_parts().size()},
-          {"name", grain.name},
-          {"halfAxes", grain.half_axes},
-          {"exponents", {grain.delta, grain.epsilon}},
-          {"rounding", grain.rounding},
-          {"radius", grain.bounding_radius()},
-          {"density", grain.density},
-          {"source", grain.source},
+json describe(const GrainKind& kind, std::size_t index) {
+  return {{"shape", shape_name(kind)},
+          {"parts", kind.all_components().size()},
+          {"name", kind.name},
+          {"halfAxes", kind.half_axes},
+          {"exponents", {kind.delta, kind.epsilon}},
+          {"rounding", kind.rounding},
+          {"radius", kind.bounding_radius()},
+          {"density", kind.density},
+          {"source", kind.source},
           {"colour", colour_of_kind(index)},
-          {"meshes", meshes_of(grain)}};
+          {"meshes", meshes_of(kind)}};
 }
 
-json describe(const ContainerPart& part) {
+json describe(const WallPicture& wall) {
   std::vector<float> points;
-  for (const auto& vertex : part.mesh.vertices) points.insert(points.end(), vertex.begin(), vertex.end());
-  return {{"name", part.name},
+  for (const auto& vertex : wall.mesh.vertices) points.insert(points.end(), vertex.begin(), vertex.end());
+  return {{"name", wall.name},
           {"points", packed(points)},
-          {"triangles", packed(indices(part.mesh.triangles))},
-          {"edges", packed(indices(part.edges))},
-          {"moves", part.role == ContainerPart::Role::Moving}};
+          {"triangles", packed(indices(wall.mesh.triangles))},
+          {"edges", packed(indices(wall.edges))},
+          {"moves", wall.role == WallPicture::Role::Moving}};
 }
 
-/// A script that holds text for another one. In JSON a '<', which might end the script, can be written otherwise.
+/// A script element with data for another script. In JSON a '<', which might end the element, is escaped.
 void write_json(std::ostream& stream, const json& value) {
   std::string text = value.dump();
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
@@ -116,18 +116,18 @@ void ViewPage::add(const Frame& frame) {
   times_.push_back(frame.time);
   kinetic_.push_back(frame.energy.kinetic);
   potential_.push_back(frame.energy.potential);
-  std::vector<double>& scales = part_scales_.emplace_back();
-  std::vector<double>& poses = part_poses_.emplace_back();
-  for (std::size_t i = 0; i < contents_.parts.size(); ++i) {
-    const PartPlace& place = frame.part_places[i];
+  std::vector<double>& scales = wall_scales_.emplace_back();
+  std::vector<double>& poses = wall_poses_.emplace_back();
+  for (std::size_t i = 0; i < contents_.walls.size(); ++i) {
+    const WallPlace& place = frame.wall_places[i];
     scales.push_back(place.scale);
-    if (contents_.parts[i].role != ContainerPart::Role::Moving) continue;
+    if (contents_.walls[i].role != WallPicture::Role::Moving) continue;
     const auto& [w, x, y, z] = place.quaternion;
     poses.insert(poses.end(), place.position.begin(), place.position.end());
     poses.insert(poses.end(), {x, y, z, w});
   }
-  bodies_.add(frame);
-  body_counts_.push_back(frame.bodies.size());
+  grains_.add(frame);
+  grain_counts_.push_back(frame.grains.size());
   contacts_.add(frame);
 }
 
@@ -135,19 +135,19 @@ void ViewPage::finish(const std::string& summary) {
   const Scene& scene = *contents_.scene;
   json run = {{"scene", scene.name},      {"container", kind_of(scene.container)},
               {"times", times_},          {"kinetic", kinetic_},
-              {"potential", potential_},  {"partScales", part_scales_},
-              {"partPoses", part_poses_}, {"forces", scene.forces},
+              {"potential", potential_},  {"partScales", wall_scales_},
+              {"partPoses", wall_poses_}, {"forces", scene.forces},
               {"summary", summary}};
   if (is_any(scene.periodic)) {
     for (const std::optional<Period>& period : scene.periodic) run["periods"].push_back(period ? period->length : 0);
   }
-  if (scene.changes_population()) run["bodyCounts"] = body_counts_;
-  for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) run["kinds"].push_back(describe(scene.grains[kind].grain, kind));
-  run["kindOfBody"] = packed(std::vector<std::uint16_t>(contents_.kind_of_body.begin(), contents_.kind_of_body.end()));
-  if (!contents_.scale_of_body.empty()) {
-    run["scales"] = packed(std::vector<float>(contents_.scale_of_body.begin(), contents_.scale_of_body.end()));
+  if (scene.changes_population()) run["bodyCounts"] = grain_counts_;
+  for (std::size_t kind = 0; kind < scene.kinds.size(); ++kind) run["kinds"].push_back(describe(scene.kinds[kind].kind, kind));
+  run["kindOfBody"] = packed(std::vector<std::uint16_t>(contents_.kind_of_grain.begin(), contents_.kind_of_grain.end()));
+  if (!contents_.scale_of_grain.empty()) {
+    run["scales"] = packed(std::vector<float>(contents_.scale_of_grain.begin(), contents_.scale_of_grain.end()));
   }
-  for (const ContainerPart& part : contents_.parts) run["parts"].push_back(describe(part));
+  for (const WallPicture& wall : contents_.walls) run["parts"].push_back(describe(wall));
   std::vector<std::string> contacts;
   for (PackedContacts::Packed& packed : contacts_.texts()) {
     run["contacts"].push_back({{"frame", packed.frame}, {"count", packed.count}, {"length", packed.length}});
@@ -159,7 +159,7 @@ void ViewPage::finish(const std::string& summary) {
   std::ofstream stream(path_, std::ios::binary);
   stream << page.substr(0, place);
   write_json(stream, run);
-  write_lines(stream, "bodies", bodies_.texts());
+  write_lines(stream, "bodies", grains_.texts());
   write_lines(stream, "contacts", contacts);
   stream << page.substr(place + kPlace.size());
   close_or_throw(stream, path_);

@@ -10,8 +10,8 @@
 
 namespace falling_particles {
 
-/// view.html: the page of `page/`, which needs nothing beside it, with the run in it. Written at the end of a run; until then a
-/// body and frame take up to 45 bytes.
+/// view.html: the page of `page/` with the run in it, without other files. It is written at the end of a run; until then a grain
+/// needs up to 45 bytes per frame.
 class ViewPage final : public Picture {
  public:
   ViewPage(const std::filesystem::path& path, const Contents& contents);
@@ -22,10 +22,10 @@ class ViewPage final : public Picture {
   std::filesystem::path path_;
   const Contents& contents_;
   std::vector<double> times_, kinetic_, potential_;
-  std::vector<std::vector<double>> part_scales_;  // of each frame
-  std::vector<std::vector<double>> part_poses_;   // of each frame: x, y, z of the position, x, y, z, w of each part that moves
-  PackedBodies bodies_;
-  std::vector<std::size_t> body_counts_;  // of each frame
+  std::vector<std::vector<double>> wall_scales_;  // of each frame
+  std::vector<std::vector<double>> wall_poses_;   // of each frame: x, y, z of the position and x, y, z, w of each moving wall
+  PackedGrains grains_;
+  std::vector<std::size_t> grain_counts_;  // of each frame
   PackedContacts contacts_;
 };
 

@@ -8,12 +8,12 @@
 
 #include "base/interval.hpp"
 #include "base/write_file.hpp"
-#include "shown_parts.hpp"
+#include "shown_components.hpp"
 
 namespace falling_particles {
 namespace {
 
-/// An array with a value for each of `count` points, which numbers(k) gives as a std::array.
+/// An array with the value numbers(k), a std::array, for each of `count` points.
 template <typename Numbers>
 std::string array(std::string_view name, std::string_view type, std::size_t count, const Numbers& numbers) {
   constexpr std::size_t kComponents = std::tuple_size_v<std::remove_cvref_t<decltype(numbers(0))>>;
@@ -26,7 +26,7 @@ std::string array(std::string_view name, std::string_view type, std::size_t coun
   return text + "</DataArray>\n";
 }
 
-/// Cells of one kind, each with as many corners.
+/// Cells of one kind, each with N vertices.
 template <std::size_t N>
 std::string cells(std::string_view kind, const std::vector<std::array<unsigned int, N>>& corners) {
   const std::string tag(kind);
@@ -48,7 +48,7 @@ std::string poly_data(std::size_t points, CellCounts counts, const std::string& 
          "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-/// Points with data, each a cell of its own, so that filters for cells see them, too.
+/// Points with data. Each is a cell of its own, so that filters for cells also work.
 std::string cloud(std::size_t count, const std::string& points, const std::string& data) {
   std::vector<std::array<unsigned int, 1>> corners(count);
   for (std::size_t k = 0; k < count; ++k) corners[k] = {static_cast<unsigned int>(k)};
@@ -56,17 +56,17 @@ std::string cloud(std::size_t count, const std::string& points, const std::strin
                    "<PointData>\n" + data + "</PointData>\n<Points>\n" + points + "</Points>\n" + cells("Verts", corners));
 }
 
-/// The parts of a container that are there, in one piece.
-std::string container_of(const std::vector<ContainerPart>& parts, const std::vector<PartPlace>& places) {
+/// The present walls, as one piece.
+std::string container_of(const std::vector<WallPicture>& walls, const std::vector<WallPlace>& places) {
   std::vector<Point> points;
   std::vector<std::array<unsigned int, 2>> edges;
   std::vector<std::array<unsigned int, 3>> triangles;
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    if (places[part].scale == 0) continue;
+  for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+    if (places[wall].scale == 0) continue;
     const auto first = static_cast<unsigned int>(points.size());
-    for (const auto& vertex : parts[part].mesh.vertices) points.push_back(places[part](vertex));
-    for (const auto& [a, b] : parts[part].edges) edges.push_back({first + a, first + b});
-    for (const auto& [a, b, c] : parts[part].mesh.triangles) triangles.push_back({first + a, first + b, first + c});
+    for (const auto& vertex : walls[wall].mesh.vertices) points.push_back(places[wall](vertex));
+    for (const auto& [a, b] : walls[wall].edges) edges.push_back({first + a, first + b});
+    for (const auto& [a, b, c] : walls[wall].mesh.triangles) triangles.push_back({first + a, first + b, first + c});
   }
   return poly_data(points.size(), {0, edges.size(), triangles.size()},
                    "<Points>\n" + array("position", "Float64", points.size(), [&](std::size_t k) { return points[k]; }) +
@@ -77,7 +77,7 @@ std::string contacts_of(const Frame& frame, bool has_forces) {
   const std::size_t count = frame.contacts.size();
   const auto& contacts = frame.contacts;
   const auto bodies = [&](std::size_t k) {
-    return std::array{static_cast<double>(contacts[k].body1), static_cast<double>(contacts[k].body2)};
+    return std::array{static_cast<double>(contacts[k].grain1), static_cast<double>(contacts[k].grain2)};
   };
   const auto force = [&](std::size_t k) { return contacts[k].force.value_or(Point{}); };
   return cloud(count, array("position", "Float64", count, [&](std::size_t k) { return contacts[k].position; }),
@@ -105,10 +105,10 @@ VtkSeries::VtkSeries(const OutputFolder& folder, const Contents& contents)
 void VtkSeries::add(const Frame& frame) {
   list(grains_, frame.time, write("grains", grains_of(frame)));
   list(contacts_, frame.time, write("contacts", contacts_of(frame, contents_.scene->forces)));
-  if (frames_ == 0 || frame.part_places != part_places_) {
-    container_ = write("container", container_of(contents_.parts, frame.part_places));
+  if (frames_ == 0 || frame.wall_places != wall_places_) {
+    container_ = write("container", container_of(contents_.walls, frame.wall_places));
   }
-  part_places_ = frame.part_places;
+  wall_places_ = frame.wall_places;
   list(containers_, frame.time, container_);
   ++frames_;
 }
@@ -132,21 +132,21 @@ void VtkSeries::list(std::string& entries, double time, const std::string& name)
 }
 
 std::string VtkSeries::grains_of(const Frame& frame) const {
-  const std::vector<ShownPart> parts = shown_parts(frame, contents_);
-  const std::size_t count = parts.size();
-  const auto body = [&](std::size_t k) -> const GrainBody& { return parts[k].body; };
-  const auto kind = [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_body[parts[k].grain])}; };
-  const auto grain = [&](std::size_t k) { return std::array{static_cast<double>(parts[k].grain)}; };
+  const std::vector<ShownComponent> components = shown_components(frame, contents_);
+  const std::size_t count = components.size();
+  const auto body = [&](std::size_t k) -> const ConvexBody& { return components[k].body; };
+  const auto kind = [&](std::size_t k) { return std::array{static_cast<double>(contents_.kind_of_grain[components[k].grain])}; };
+  const auto grain = [&](std::size_t k) { return std::array{static_cast<double>(components[k].grain)}; };
   const auto exponents = [&](std::size_t k) { return std::array{body(k).delta, body(k).epsilon}; };
   const auto numbers = [&](std::string_view name, const auto& of) { return array(name, "Float64", count, of); };
   const bool needs_index = contents_.scene->changes_population() || contents_.scene->has_compounds();
-  return cloud(count, numbers("position", [&](std::size_t k) { return parts[k].position; }),
+  return cloud(count, numbers("position", [&](std::size_t k) { return components[k].position; }),
                array("kind", "Int32", count, kind) + (needs_index ? array("grain", "Int32", count, grain) : "") +
-                   numbers("quaternion", [&](std::size_t k) { return parts[k].quaternion; }) +
+                   numbers("quaternion", [&](std::size_t k) { return components[k].quaternion; }) +
                    numbers("half_axes", [&](std::size_t k) { return body(k).half_axes; }) + numbers("exponents", exponents) +
                    numbers("rounding", [&](std::size_t k) { return std::array{body(k).rounding}; }) +
-                   numbers("velocity", [&](std::size_t k) { return parts[k].velocity; }) +
-                   numbers("angular_velocity", [&](std::size_t k) { return parts[k].angular_velocity; }));
+                   numbers("velocity", [&](std::size_t k) { return components[k].velocity; }) +
+                   numbers("angular_velocity", [&](std::size_t k) { return components[k].angular_velocity; }));
 }
 
 }  // namespace falling_particles

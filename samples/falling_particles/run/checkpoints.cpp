@@ -15,8 +15,9 @@
 namespace falling_particles {
 namespace {
 
-/// ODE's record of how fast a body has been cannot be saved, so that it starts anew at each checkpoint.
-void refuse_insomnia(const Scene& scene, int every) {
+/// Throws InputError if bodies cannot fall asleep between two checkpoints. ODE's auto-disable history cannot be saved, so that it
+/// starts anew at each checkpoint.
+void require_time_to_sleep(const Scene& scene, int every) {
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const auto* const sleep = std::get_if<supernormal::effects::AutoDisable>(&effect);
     if (sleep == nullptr) continue;
@@ -39,7 +40,7 @@ Checkpoints::Checkpoints(OutputFolder& folder, const Scene& scene, int every) : 
     origin_.every = checkpoint.origin.every;
     last_ = std::move(checkpoint.state);
   }
-  refuse_insomnia(scene, origin_.every);
+  require_time_to_sleep(scene, origin_.every);
 }
 
 std::filesystem::path Checkpoints::file() const { return folder_.file(std::string(kCheckpointFile)); }

@@ -12,7 +12,7 @@ namespace {
 
 class Lines {
  public:
-  /// The name of the first of several lines in a row is enough.
+  /// Adds a line. Of successive lines with the same name, only the first shows it.
   void add(const std::string& name, const std::string& text) {
     constexpr std::size_t kWidth = 14;
     std::string start = name == last_ ? "" : name;
@@ -45,9 +45,9 @@ std::string in_time(double seconds) {
 
 std::string kinds_of(const Scene& scene) {
   std::string text;
-  for (const GrainCount& kind : scene.grains) {
-    text += (text.empty() ? "" : ", ") + (kind.count > 0 ? std::to_string(kind.count) + ' ' : "") + kind.grain.name +
-            (kind.size ? " of many sizes" : "");
+  for (const GrainCount& entry : scene.kinds) {
+    text += (text.empty() ? "" : ", ") + (entry.count > 0 ? std::to_string(entry.count) + ' ' : "") + entry.kind.name +
+            (entry.size ? " of many sizes" : "");
   }
   return text;
 }
@@ -63,17 +63,17 @@ std::string describe(const Feeder& feeder) {
          from_until(feeder.from, feeder.until);
 }
 
-std::string shape_of(const Part& part) {
+std::string shape_of(const Wall& wall) {
   constexpr std::array kNames = {"plane", "box", "cylinder", "smooth body", "mesh"};
-  return kNames[part.shape.index()];
+  return kNames[wall.shape.index()];
 }
 
-std::string describe(const Part& part) {
+std::string describe(const Wall& wall) {
   constexpr std::array kMotions = {"moves", "turns", "vibrates", "has a surface that moves"};
-  std::string text = part.name + ": " + shape_of(part);
-  for (const PartMotion& motion : part.motions)
+  std::string text = wall.name + ": " + shape_of(wall);
+  for (const WallMotion& motion : wall.motions)
     text += std::string(", ") + kMotions[motion.kind.index()] + from_until(motion.from, motion.until);
-  if (part.drive) text += ", driven by " + shortest(part.drive->force) + " N" + from_until(part.drive->from, part.drive->until);
+  if (wall.drive) text += ", driven by " + shortest(wall.drive->force) + " N" + from_until(wall.drive->from, wall.drive->until);
   return text;
 }
 
@@ -88,7 +88,7 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   if (const std::optional<double> longest = step_for_look_ahead(scene)) {
     lines.add("steps", "up to " + rounded(*longest) + " s each leave overlaps of about 1e-3 of a half-axis in a bed at rest");
   }
-  std::string grains = std::to_string(scene.bodies()) + " at the start: " + kinds_of(scene);
+  std::string grains = std::to_string(scene.grains_at_start()) + " at the start: " + kinds_of(scene);
   if (!scene.feeders.empty()) grains += "; up to " + std::to_string(forecast.most_grains) + " with those of the feeders";
   lines.add("grains", grains);
   if (const std::optional<Fall> fall = fall_from_start(scene)) {
@@ -103,7 +103,7 @@ void add_scene(Lines& lines, const Scene& scene, const Forecast& forecast) {
   }
   for (const Feeder& feeder : scene.feeders) lines.add("feeders", describe(feeder));
   for (const Sink& sink : scene.sinks) lines.add("sinks", sink.name);
-  for (const Part& part : scene.parts) lines.add("parts", describe(part));
+  for (const Wall& wall : scene.walls) lines.add("parts", describe(wall));
   for (const supernormal::effects::Effect& effect : scene.effects) {
     const supernormal::effects::Description& description = supernormal::effects::descriptions()[effect.index()];
     lines.add("effects",

@@ -13,7 +13,7 @@
 #include "model/grain_shape.hpp"
 #include "model/lattice.hpp"
 #include "origins.hpp"
-#include "output/part_mesh.hpp"
+#include "output/wall_mesh.hpp"
 #include "world/world.hpp"
 
 namespace falling_particles {
@@ -24,12 +24,12 @@ struct SurfacePoint {
   Vector3 normal;
 };
 
-/// The corners of the triangles that show a part, where it starts.
-std::vector<SurfacePoint> surface_of(const Part& part, double extent) {
-  const Mesh mesh = picture_of(part, extent).mesh;
+/// The vertices of the triangles of a wall at its start, with the normals of the triangles.
+std::vector<SurfacePoint> surface_of(const Wall& wall, double extent) {
+  const Mesh mesh = picture_of(wall, extent).mesh;
   const auto corner = [&](unsigned int index) {
     const auto& [x, y, z] = mesh.vertices[index];
-    return part.moves() ? part.start(Vector3(x, y, z)) : Vector3(x, y, z);
+    return wall.moves() ? wall.start(Vector3(x, y, z)) : Vector3(x, y, z);
   };
   std::vector<SurfacePoint> points;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -39,8 +39,9 @@ std::vector<SurfacePoint> surface_of(const Part& part, double extent) {
   return points;
 }
 
-/// m/s, largest at any time.
-double normal_speed(const PartMotion& motion, const SurfacePoint& point, bool turns) {
+/// m/s, the largest normal velocity at any time. If `turns`, the wall also rotates, and the direction of a velocity relative to the
+/// wall changes.
+double normal_speed(const WallMotion& motion, const SurfacePoint& point, bool turns) {
   const auto along = [&](const Vector3& velocity) { return turns ? velocity.norm() : std::abs(point.normal.dot(velocity)); };
   if (const auto* translation = std::get_if<Translation>(&motion.kind)) return along(translation->velocity);
   if (const auto* vibration = std::get_if<Vibration>(&motion.kind)) {
@@ -53,7 +54,7 @@ double normal_speed(const PartMotion& motion, const SurfacePoint& point, bool tu
   return 0;  // a conveyor stands
 }
 
-/// m, the way of a driven part in its first step, from rest and against nothing.
+/// m, the displacement of a driven wall in its first step, from rest without resistance.
 double first_way_of(const Drive& drive, double step) {
   return step * step * std::abs(drive.force) / (drive.mass + step * drive.damping);
 }
@@ -66,7 +67,8 @@ std::string moves_too_far(const std::string& who, double way, const Scene& scene
   return who + " " + rounded(way) + " m in a step, " + in_half_axes(way, scene) + ": it may pass through what is in its way; ";
 }
 
-// What grains that look ahead fall onto, they meet in time.
+// Adds a doubt about the height of the start. Grains that look ahead are exempt, since they do not pass through what they fall
+// onto.
 void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
   if (scene.looks_ahead()) return;
   const std::optional<Fall> fall = fall_from_start(scene);
@@ -77,15 +79,15 @@ void add_fall(const Scene& scene, std::vector<std::string>& doubts) {
                    rounded(scene.smallest_half_axis() / fall->speed) + " s would do");
 }
 
-/// m, by which a grain under its own weight sinks into what carries it; infinite where overlaps are never corrected.
-double rest_depth_of(const GrainCount& kind, const Scene& scene) {
+/// m, the depth to which a grain sinks into its support under its own weight; infinite if overlaps are never corrected.
+double rest_depth_of(const GrainCount& entry, const Scene& scene) {
   const auto* const gravity = scene.gravity();
   const double weight =
-      std::pow(kind.smallest_scale(), 3) * mass_of(kind.grain) * (gravity == nullptr ? 0 : gravity->acceleration.norm());
+      std::pow(entry.smallest_scale(), 3) * mass_of(entry.kind) * (gravity == nullptr ? 0 : gravity->acceleration.norm());
   return scene.solver.erp == 0 ? INFINITY : scene.solver.cfm * weight * scene.time.step / scene.solver.erp;
 }
 
-/// Contacts that a scene names as soft have a stiffness of their own.
+/// Whether the scene has contacts with a stiffness of their own.
 bool has_soft_contacts(const Scene& scene) {
   return std::ranges::any_of(scene.effects, [](const supernormal::effects::Effect& effect) {
     return std::holds_alternative<supernormal::effects::Compliance>(effect) ||
@@ -96,10 +98,10 @@ bool has_soft_contacts(const Scene& scene) {
 void add_solver(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kSunk = 0.1;  // of the smallest half-axis
   if (has_soft_contacts(scene) || scene.compression) return;
-  for (const GrainCount& kind : scene.grains) {
-    const double share = rest_depth_of(kind, scene) / (kind.smallest_scale() * kind.grain.smallest_half_axis());
+  for (const GrainCount& entry : scene.kinds) {
+    const double share = rest_depth_of(entry, scene) / (entry.smallest_scale() * entry.kind.smallest_half_axis());
     if (!(share > kSunk)) continue;
-    doubts.push_back(std::isfinite(share) ? "grain \"" + kind.grain.name + "\" sinks by " + rounded(share) +
+    doubts.push_back(std::isfinite(share) ? "grain \"" + entry.kind.name + "\" sinks by " + rounded(share) +
                                                 " of its smallest half-axis under its own weight: solver.cfm up to " +
                                                 rounded(scene.solver.cfm * kSunk / share) + " s/kg would do"
                                           : "solver.erp is 0: overlaps are never corrected, and grains sink; 0.2 would do");
@@ -117,44 +119,44 @@ void add_layer(const Scene& scene, std::vector<std::string>& doubts) {
   }
 }
 
-/// What moves or is driven from the end of the run on stands.
-void add_late(const Scene& scene, const Part& part, std::vector<std::string>& doubts) {
+/// Adds a doubt about a motion or drive that starts at the end of the run or later.
+void add_late(const Scene& scene, const Wall& wall, std::vector<std::string>& doubts) {
   const auto is_late = [&](double from) { return from >= scene.time.duration; };
-  if (std::ranges::none_of(part.motions, [&](const PartMotion& motion) { return is_late(motion.from); }) &&
-      !(part.drive && is_late(part.drive->from))) {
+  if (std::ranges::none_of(wall.motions, [&](const WallMotion& motion) { return is_late(motion.from); }) &&
+      !(wall.drive && is_late(wall.drive->from))) {
     return;
   }
-  doubts.push_back("part \"" + part.name + "\" has a motion or a drive that starts at the end of the run, after " +
+  doubts.push_back("part \"" + wall.name + "\" has a motion or a drive that starts at the end of the run, after " +
                    shortest(scene.time.duration) + " s, or later");
 }
 
-/// m, the least of the lengths that describe a solid; infinite for the others.
-double thinnest(const PartShape& shape) {
+/// m, the least length of a solid; infinite for planes and meshes.
+double thinnest(const WallShape& shape) {
   if (const auto* box = std::get_if<BoxShape>(&shape)) return box->size.minCoeff();
   if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return std::min(cylinder->radius, cylinder->length);
   if (const auto* body = std::get_if<SmoothShape>(&shape)) return body->half_axes.minCoeff();
   return INFINITY;
 }
 
-void add_parts(const Scene& scene, std::vector<std::string>& doubts) {
+void add_walls(const Scene& scene, std::vector<std::string>& doubts) {
   constexpr double kThin = 1e-6;  // of the smallest half-axis: thinner than the overlap of a contact at rest
   const double size = scene.smallest_half_axis();
-  for (const Part& part : scene.parts) {
-    add_late(scene, part, doubts);
-    if (const double least = thinnest(part.shape); least < kThin * size) {
-      doubts.push_back("part \"" + part.name + "\" is " + rounded(least) + " m thin, " + in_half_axes(least, scene) +
+  for (const Wall& wall : scene.walls) {
+    add_late(scene, wall, doubts);
+    if (const double least = thinnest(wall.shape); least < kThin * size) {
+      doubts.push_back("part \"" + wall.name + "\" is " + rounded(least) + " m thin, " + in_half_axes(least, scene) +
                        ": is it in another unit?");
     }
-    const double way = normal_way_of(part, scene);
+    const double way = normal_way_of(wall, scene);
     if (way > size) {
-      doubts.push_back(moves_too_far("part \"" + part.name + "\" moves", way, scene) + "time.step up to " +
+      doubts.push_back(moves_too_far("part \"" + wall.name + "\" moves", way, scene) + "time.step up to " +
                        rounded(scene.time.step * size / way) + " s would do");
     }
-    if (!part.drive) continue;
-    const double first = first_way_of(*part.drive, scene.time.step);
+    if (!wall.drive) continue;
+    const double first = first_way_of(*wall.drive, scene.time.step);
     if (first > size) {
-      doubts.push_back(moves_too_far("part \"" + part.name + "\" is driven", first, scene) + "part.drive.mass from " +
-                       rounded(part.drive->mass * first / size) + " kg on would do");
+      doubts.push_back(moves_too_far("part \"" + wall.name + "\" is driven", first, scene) + "part.drive.mass from " +
+                       rounded(wall.drive->mass * first / size) + " kg on would do");
     }
   }
 }
@@ -180,7 +182,7 @@ void add_feeders(const Scene& scene, std::vector<std::string>& doubts) {
 
 std::optional<Fall> fall_from_start(const Scene& scene) {
   const auto* const gravity = scene.gravity();
-  if (gravity == nullptr || scene.bodies() == 0 || std::holds_alternative<Periodic>(scene.container)) return std::nullopt;
+  if (gravity == nullptr || scene.grains_at_start() == 0 || std::holds_alternative<Periodic>(scene.container)) return std::nullopt;
   const double height = filled_lattice(scene).top() - lowest_start(scene.container);
   const double speed = std::sqrt(2 * gravity->acceleration.norm() * height);
   return Fall{height, speed, speed * scene.time.step};
@@ -189,31 +191,31 @@ std::optional<Fall> fall_from_start(const Scene& scene) {
 // README.md, "Contacts before overlap", has the measurement.
 std::optional<double> step_for_look_ahead(const Scene& scene) {
   constexpr double kFlat = 4;         // least exponent of grains that lie on faces
-  constexpr double kStep = 1.0 / 10;  // of the time in which a grain would fall by half of its smallest half-axis
+  constexpr double kStep = 1.0 / 10;  // of the time in which a grain falls by half its smallest half-axis
   constexpr double kStepOfFlat = 1.0 / 25;
   const auto* const gravity = scene.gravity();
   if (!scene.looks_ahead() || has_soft_contacts(scene) || gravity == nullptr) return std::nullopt;
   const double acceleration = gravity->acceleration.norm();
   if (!(acceleration > 0)) return std::nullopt;
   double least = INFINITY;
-  for (const GrainCount& kind : scene.grains) {
-    for (const GrainPart& part : kind.grain.all_parts()) {
-      const double fall = std::sqrt(kind.smallest_scale() * part.body.smallest_half_axis() / acceleration);
-      least = std::min(least, fall * (std::max(part.body.delta, part.body.epsilon) < kFlat ? kStep : kStepOfFlat));
+  for (const GrainCount& entry : scene.kinds) {
+    for (const Component& component : entry.kind.all_components()) {
+      const double fall = std::sqrt(entry.smallest_scale() * component.body.smallest_half_axis() / acceleration);
+      least = std::min(least, fall * (std::max(component.body.delta, component.body.epsilon) < kFlat ? kStep : kStepOfFlat));
     }
   }
   return least;
 }
 
-double normal_way_of(const Part& part, const Scene& scene) {
-  const auto turns = [](const PartMotion& motion) { return std::holds_alternative<Rotation>(motion.kind); };
-  if (part.motions.empty()) return 0;
-  const bool any_turns = std::ranges::any_of(part.motions, turns);
+double normal_way_of(const Wall& wall, const Scene& scene) {
+  const auto turns = [](const WallMotion& motion) { return std::holds_alternative<Rotation>(motion.kind); };
+  if (wall.motions.empty()) return 0;
+  const bool any_turns = std::ranges::any_of(wall.motions, turns);
   const Rectangle plan = plan_of(scene.container);
   double farthest = 0;
-  for (const SurfacePoint& point : surface_of(part, std::hypot(plan.width[0], plan.width[1]))) {
+  for (const SurfacePoint& point : surface_of(wall, std::hypot(plan.width[0], plan.width[1]))) {
     double speed = 0;
-    for (const PartMotion& motion : part.motions) speed += normal_speed(motion, point, any_turns);
+    for (const WallMotion& motion : wall.motions) speed += normal_speed(motion, point, any_turns);
     farthest = std::max(farthest, scene.time.step * speed);
   }
   return farthest;
@@ -224,33 +226,33 @@ std::vector<std::string> doubts_about(const Scene& scene) {
   add_fall(scene, doubts);
   add_solver(scene, doubts);
   add_layer(scene, doubts);
-  add_parts(scene, doubts);
+  add_walls(scene, doubts);
   add_feeders(scene, doubts);
   std::ranges::move(doubts_about_origins(scene), std::back_inserter(doubts));
   return doubts;
 }
 
 void refuse_overlapping_start(const Scene& scene) {
-  if (scene.parts.empty() || scene.bodies() == 0) return;
+  if (scene.walls.empty() || scene.grains_at_start() == 0) return;
   Random random(scene.seed);
   const World world(scene, place(scene, random));
   std::vector<std::pair<dGeomID, dGeomID>> pairs;
   world.name_wall_pairs(&pairs, [](void* data, dGeomID g1, dGeomID g2) {
     static_cast<std::vector<std::pair<dGeomID, dGeomID>>*>(data)->emplace_back(g1, g2);
   });
-  const std::vector<dGeomID>& parts = world.parts()->geoms();
-  for (const auto& [grain, wall] : pairs) {
-    const auto found = std::ranges::find(parts, wall);
-    if (found == parts.end()) continue;
+  const std::vector<dGeomID>& walls = world.walls()->geoms();
+  for (const auto& [geom, wall] : pairs) {
+    const auto found = std::ranges::find(walls, wall);
+    if (found == walls.end()) continue;
     snProximity proximity;
-    if (snGeomProximity(grain, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
-    const Body& body = *body_of(grain);
+    if (snGeomProximity(geom, wall, &proximity) == 0) throw std::runtime_error(std::string("snGeomProximity: ") + snLastError());
+    const Grain& grain = *grain_of(geom);
     constexpr double kRounding = 1e-6;  // of the smallest half-axis
-    if (!(proximity.gap < -kRounding * body.smallest_half_axis())) continue;
-    const auto [x, y, z] = body.position();
-    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(body)) + " (" + body.grain->name +
+    if (!(proximity.gap < -kRounding * grain.smallest_half_axis())) continue;
+    const auto [x, y, z] = grain.position();
+    throw InputError(scene.files.front().string() + ": grain " + std::to_string(world.index_of(grain)) + " (" + grain.kind->name +
                      ") starts at [" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "] m, " + rounded(-proximity.gap) +
-                     " m deep in part \"" + scene.parts[static_cast<std::size_t>(found - parts.begin())].name +
+                     " m deep in part \"" + scene.walls[static_cast<std::size_t>(found - walls.begin())].name +
                      "\"; allowed: parts that leave the start of the grains free");
   }
 }

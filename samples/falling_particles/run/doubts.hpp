@@ -1,4 +1,4 @@
-// What a scene says that its author can hardly mean.
+// Doubts: values of a scene that its author can hardly mean.
 #pragma once
 
 #include <optional>
@@ -9,28 +9,28 @@
 
 namespace falling_particles {
 
-/// The fall of the highest grain of the start to the lowest place where grains may start, without drag and contacts.
+/// The fall of the highest grain of the start to the lowest start, without drag and contacts.
 struct Fall {
   double height;  ///< m
-  double speed;   ///< m/s, at its end
-  double way;     ///< m, in a step
+  double speed;   ///< m/s, at the end of the fall
+  double way;     ///< m, in a step at the end of the fall
 };
 
-/// Empty where grains do not fall: without gravity or grains at the start, or in a periodic container.
+/// Empty if grains do not fall: without gravity, without grains at the start, or in a periodic container.
 std::optional<Fall> fall_from_start(const Scene& scene);
 
-/// s, up to which steps leave overlaps of some 1e-3 of the smallest half-axis in a bed at rest, for grains that look ahead under
-/// gravity; empty for others, and for springs, which have a time of their own.
+/// s, the longest step with overlaps of about 1e-3 of the smallest half-axis in a bed at rest, for grains that look ahead under
+/// gravity. Empty for other grains, and for springs, which have a time scale of their own.
 std::optional<double> step_for_look_ahead(const Scene& scene);
 
-/// m, the farthest way in a step that a motion of the part takes a place of its surface along the surface's normal. Motions count
-/// together, as if their largest velocities came at once.
-double normal_way_of(const Part& part, const Scene& scene);
+/// m, the largest displacement of a point of the wall's surface along its normal in a step. The largest velocities of all motions
+/// are added.
+double normal_way_of(const Wall& wall, const Scene& scene);
 
-/// A sentence for each doubt about a scene that can be run, with what would settle it.
+/// A sentence for each doubt about a valid scene, with a remedy.
 std::vector<std::string> doubts_about(const Scene& scene);
 
-/// Throws InputError when a grain of the start overlaps a part: it would be pushed out, on any side, or never.
+/// Throws InputError when a grain of the start overlaps a wall. It would be pushed out on either side, or not at all.
 void refuse_overlapping_start(const Scene& scene);
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-// What surrounds the state of a run in its checkpoint.
+// The envelope of a run's state in a checkpoint.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace falling_particles {
 
-/// What must be the same where a run goes on.
+/// The properties that a resumed run must have in common with the saved one.
 struct Origin {
   struct File {
-    std::string name;  ///< without its folder, which may be another one
+    std::string name;  ///< without its folder, which may differ
     Hash hash{};
 
     template <typename Archive>
@@ -24,10 +24,10 @@ struct Origin {
   };
   std::string program;                 ///< its version
   std::uint32_t bytes_of_a_real = 0;   ///< of dReal: ODE's precision
-  std::vector<File> files;             ///< the scene's, then those that it names
+  std::vector<File> files;             ///< the scene's file, then the files that it names
   std::vector<std::string> overrides;  ///< of the scene's values
-  std::vector<std::string> pictures;   ///< formats that the run leaves
-  std::int32_t every = 0;              ///< steps from checkpoint to checkpoint
+  std::vector<std::string> pictures;   ///< formats that the run writes
+  std::int32_t every = 0;              ///< steps between two checkpoints
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -35,24 +35,25 @@ struct Origin {
   }
 };
 
-/// Of this program with the scene. Throws std::runtime_error when a file of the scene cannot be read.
+/// The origin of this program with the scene. Throws std::runtime_error when a file of the scene cannot be read.
 Origin origin_of(const Scene& scene, int every);
 
-/// A checkpoint without its envelope.
+/// The content of a checkpoint.
 struct Checkpoint {
   Origin origin;
   std::string state;
 };
 
-/// The bytes of a checkpoint's file: a magic number, the version of the format, origin and state, and a checksum of all that.
+/// The bytes of a checkpoint's file: a magic number, the version of the format, origin and state, and a checksum of all these
+/// bytes.
 std::string seal(const Checkpoint& checkpoint);
 
-/// Takes the bytes apart. Throws InputError, which names `path`, when they are not a checkpoint, or of another format, or not
-/// whole.
+/// Reads the bytes of a checkpoint's file. Throws InputError, which names `path`, when they are no checkpoint, of another format,
+/// or incomplete.
 Checkpoint unseal(const std::string& bytes, const std::filesystem::path& path);
 
-/// Throws InputError, which names `path` and the first difference, when a checkpoint is not of this run. `here.every` may be 0,
-/// which goes with any.
+/// Throws InputError, which names `path` and the first difference, when a checkpoint belongs to another run. `here.every` = 0
+/// agrees with any value.
 void refuse_other(const Origin& saved, const Origin& here, const std::filesystem::path& path);
 
 }  // namespace falling_particles

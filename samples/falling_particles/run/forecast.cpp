@@ -11,13 +11,13 @@
 namespace falling_particles {
 namespace {
 
-// Bytes a grain and frame, as 150 frames of 1000 grains have them (samples/benchmarks/README.md, pictures).
+// Bytes per grain and frame, from 150 frames of 1000 grains (samples/benchmarks/README.md, pictures).
 constexpr double kTrajectory = 160;
 
 double bytes_of_picture(const std::string& format, double grain_frames) {
   constexpr double kMega = 1e6;
   if (format == "page")
-    return 0.7 * kMega + 25 * grain_frames + std::min(2.5 * kMega, 60 * grain_frames);  // itself; grains; contacts
+    return 0.7 * kMega + 25 * grain_frames + std::min(2.5 * kMega, 60 * grain_frames);  // the page itself; grains; contacts
   if (format == "glb") return 0.1 * kMega + 33 * grain_frames;                          // meshes; grains
   if (format == "lammps") return 307 * grain_frames;
   if (format == "vtk") return 793 * grain_frames;
@@ -33,7 +33,7 @@ std::uint64_t samples_of(const MeasurementRequest& request) {
   return static_cast<std::uint64_t>(std::max(0, up_to(request.last) - up_to(first - 1)));
 }
 
-/// A sample of the start tells the bytes of one, but for the lines of contacts.
+/// The bytes of a sample, from a sample of the start and the lines of the expected contacts.
 double bytes_of_sample(const MeasurementRequest& request, const World& world, int grains) {
   TableText table;
   request.make(world)->measure({0, world, {}}, table);
@@ -41,15 +41,15 @@ double bytes_of_sample(const MeasurementRequest& request, const World& world, in
   return static_cast<double>(table.text().size()) + kLineOfContact * contacts;
 }
 
-/// s, the mean of the first steps.
+/// s, the mean time of the first steps.
 double time_start(Simulation& simulation) {
-  constexpr double kPatience = 0.5;  // s
+  constexpr double kLongest = 0.5;  // s
   const double start = processor_time();
   int steps = 0;
   do {
     simulation.stepper.step();
     ++steps;
-  } while (steps < 20 && processor_time() - start < kPatience);
+  } while (steps < 20 && processor_time() - start < kLongest);
   return (processor_time() - start) / steps;
 }
 
@@ -57,7 +57,7 @@ double time_start(Simulation& simulation) {
 
 Forecast forecast(const Scene& scene) {
   Forecast result;
-  const double most = scene.bodies() + most_fed(scene);
+  const double most = scene.grains_at_start() + most_fed(scene);
   result.most_grains = static_cast<int>(most);
   result.steps = scene.time.steps();
   result.frames = 1 + (result.steps + scene.time.steps_per_frame() - 1) / scene.time.steps_per_frame();
@@ -74,7 +74,7 @@ Forecast forecast(const Scene& scene) {
     }
     result.start_step = time_start(simulation);
   }
-  constexpr int kEnough = 2000;  // grains: what is beyond the processor's caches
+  constexpr int kEnough = 2000;  // grains: enough to exceed the processor's caches
   result.bed = time_bed(scene, std::clamp(result.most_grains, 2, kEnough));
   return result;
 }

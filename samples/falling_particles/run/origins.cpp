@@ -19,11 +19,11 @@
 namespace falling_particles {
 namespace {
 
-/// Places from which grains of the start, or of a feeder, look around.
+/// Positions of grains of the start or of a feeder, from which rays are cast.
 struct Lookout {
   std::string name;  // of a feeder; empty for the start
   std::vector<Point> places;
-  bool falls;  // straight down, where there is gravity
+  bool falls;  // straight down, under gravity
 
   std::string grains(std::size_t count) const {
     if (!name.empty()) return "grains that feeder \"" + name + "\" brings are";
@@ -35,13 +35,13 @@ Lookout start_of(const Scene& scene) {
   Random random(scene.seed);
   Lookout origin{"", {}, true};
   for (const Placement& placement : place(scene, random)) {
-    constexpr std::size_t kEnough = 1000;  // they are in random order
+    constexpr std::size_t kEnough = 1000;  // the placements are in random order
     if (origin.places.size() < kEnough) origin.places.push_back(placement.position);
   }
   return origin;
 }
 
-/// Where grains fall, if they do: of unit length.
+/// The unit vector of gravity; empty without gravity.
 std::optional<Vector3> down_in(const Scene& scene) {
   const auto* const gravity = scene.gravity();
   if (gravity == nullptr || gravity->acceleration.isZero(0)) return std::nullopt;
@@ -51,13 +51,13 @@ std::optional<Vector3> down_in(const Scene& scene) {
 double smallest_radius(const Feeder& feeder, const Scene& scene) {
   double least = INFINITY;
   for (const FedKind& fed : feeder.mixture) {
-    const GrainCount& kind = scene.grains[fed.kind];
-    least = std::min(least, kind.smallest_scale() * kind.grain.bounding_radius());
+    const GrainCount& entry = scene.kinds[fed.kind];
+    least = std::min(least, entry.smallest_scale() * entry.kind.bounding_radius());
   }
   return least;
 }
 
-/// The outermost centres of grains in the region, and its middle.
+/// The outermost centres of grains in the feeder's region, and its middle.
 Lookout origin_of(const Feeder& feeder, const Scene& scene) {
   Lookout origin{feeder.name, {}, true};
   const double radius = smallest_radius(feeder, scene);
@@ -73,7 +73,7 @@ Lookout origin_of(const Feeder& feeder, const Scene& scene) {
   return origin;
 }
 
-/// Where a grain may be held: below and beside it; on all sides without gravity.
+/// The directions in which a wall may support a grain: below and beside it; on all sides without gravity.
 std::vector<Vector3> directions_of(const Scene& scene) {
   const std::optional<Vector3> gravity = down_in(scene);
   const Vector3 down = gravity.value_or(-Vector3::UnitZ());
@@ -84,16 +84,16 @@ std::vector<Vector3> directions_of(const Scene& scene) {
 }
 
 void add_backs(const Sight& sight, const Scene& scene, const Lookout& origin, std::vector<std::string>& doubts) {
-  std::map<std::size_t, std::size_t> counts;  // of places, by part
+  std::map<std::size_t, std::size_t> counts;  // of positions, by wall
   for (const Point& place : origin.places) {
-    std::set<std::size_t> parts;
+    std::set<std::size_t> walls;
     for (const Vector3& direction : directions_of(scene)) {
-      if (const auto seen = sight.look(place, direction); seen && seen->is_back) parts.insert(*seen->part);
+      if (const auto seen = sight.look(place, direction); seen && seen->is_back) walls.insert(*seen->wall);
     }
-    for (const std::size_t part : parts) ++counts[part];
+    for (const std::size_t wall : walls) ++counts[wall];
   }
-  for (const auto& [part, count] : counts) {
-    doubts.push_back("part \"" + scene.parts[part].name + "\": " + origin.grains(count) +
+  for (const auto& [wall, count] : counts) {
+    doubts.push_back("part \"" + scene.walls[wall].name + "\": " + origin.grains(count) +
                      " behind a triangle, which does not hold them: a triangle is solid behind, and holds what sees its corners "
                      "anticlockwise; turn its corners around, or let part.two_sided = true hold grains on both sides");
   }
@@ -121,54 +121,55 @@ void add_sunk(const Scene& scene, const Lookout& origin, std::vector<std::string
   doubts.push_back(origin.grains(origin.places.size()) + " within sinks, which take them at once");
 }
 
-/// Parts that stand outside a box, whose walls have no end. (It is not a periodic one, which has images of its parts.)
+/// Adds doubts about walls that stand outside a box, whose walls are infinitely high. (A periodic box is left out, since it has
+/// images of its walls.)
 void add_unreached(const World& world, std::vector<std::string>& doubts) {
   const Scene& scene = world.scene();
   const auto* const box = std::get_if<Box>(&scene.container);
-  if (box == nullptr || world.parts() == nullptr || is_any(scene.periodic)) return;
-  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-    if (scene.parts[i].moves()) continue;
+  if (box == nullptr || world.walls() == nullptr || is_any(scene.periodic)) return;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    if (scene.walls[i].moves()) continue;
     dReal aabb[6];
-    dGeomGetAABB(world.parts()->geoms()[i], aabb);
+    dGeomGetAABB(world.walls()->geoms()[i], aabb);
     const auto& [x, y] = box->width;
     if (aabb[1] > 0 && aabb[0] < x && aabb[3] > 0 && aabb[2] < y && aabb[5] > 0) continue;
-    doubts.push_back("part \"" + scene.parts[i].name + "\" stands outside the box of the container, where no grain meets it");
+    doubts.push_back("part \"" + scene.walls[i].name + "\" stands outside the box of the container, where no grain meets it");
   }
 }
 
 std::string name_of(dGeomID solid, const World& world) {
-  if (world.parts() == nullptr) return "the container";
-  const std::vector<dGeomID>& parts = world.parts()->geoms();
-  const auto found = std::ranges::find(parts, solid);
-  if (found == parts.end()) return "the container";
-  return "part \"" + world.parts()->part(static_cast<std::size_t>(found - parts.begin())).name + '"';
+  if (world.walls() == nullptr) return "the container";
+  const std::vector<dGeomID>& walls = world.walls()->geoms();
+  const auto found = std::ranges::find(walls, solid);
+  if (found == walls.end()) return "the container";
+  return "part \"" + world.walls()->wall(static_cast<std::size_t>(found - walls.begin())).name + '"';
 }
 
-/// The names of the solids that are in the way of the grain at every place of many; none if one is free.
+/// The names of the solids that obstruct a grain at many random places; none if one place is free.
 std::set<std::string> names_in_the_way(const Feeder& feeder, std::size_t kind, const World& world) {
-  constexpr int kTries = 512;  // a region of which a hundredth is free is found full in one of 170
-  const GrainCount& fed = world.scene().grains[kind];
-  const Candidate grain(fed.grain, fed.smallest_scale());
+  constexpr int kTries = 512;  // in a region that is free to a hundredth, all fail once in 170 cases
+  const GrainCount& fed = world.scene().kinds[kind];
+  const Candidate candidate(fed.kind, fed.smallest_scale());
   const Neighbourhood walls(world, feeder.region);
   Random random(world.scene().seed);
   std::set<std::string> found;
   for (int i = 0; i < kTries; ++i) {
-    grain.put(random_place(feeder.region, kind, grain.body().scale, grain.body().bounding_radius(), random));
+    candidate.put(random_place(feeder.region, kind, candidate.grain().scale, candidate.grain().bounding_radius(), random));
     const auto find = [&](dGeomID geom) { return walls.find_overlap(geom); };
-    const auto blocked = std::ranges::find_if(grain.geoms(), find);
-    if (blocked == grain.geoms().end()) return {};
+    const auto blocked = std::ranges::find_if(candidate.geoms(), find);
+    if (blocked == candidate.geoms().end()) return {};
     found.insert(name_of(find(*blocked), world));
   }
   return found;
 }
 
-/// Whether there is one.
+/// Adds a doubt about a feeder whose region is full at the start. Returns whether it is.
 bool add_full(const World& world, const Feeder& feeder, std::vector<std::string>& doubts) {
   for (const FedKind& fed : feeder.mixture) {
     std::string names;
     for (const std::string& name : names_in_the_way(feeder, fed.kind, world)) names += (names.empty() ? "" : ", ") + name;
     if (names.empty()) continue;
-    doubts.push_back("feeder \"" + feeder.name + "\" has no room for grain \"" + world.scene().grains[fed.kind].grain.name +
+    doubts.push_back("feeder \"" + feeder.name + "\" has no room for grain \"" + world.scene().kinds[fed.kind].kind.name +
                      "\" at the start: " + names + " is wherever it would come");
     return true;
   }

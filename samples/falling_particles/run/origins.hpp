@@ -1,4 +1,4 @@
-// Where the grains of a scene come from, and what is around them there.
+// Doubts about the positions at which the grains of a scene start.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace falling_particles {
 
-/// Sentences about grains of the start and of feeders that come behind meshes, above nothing, or where there is no room for them.
+/// Sentences about grains of the start and of feeders that start behind meshes, above nothing, or where there is no space for them.
 std::vector<std::string> doubts_about_origins(const Scene& scene);
 
 }  // namespace falling_particles

@@ -6,10 +6,10 @@
 
 namespace falling_particles {
 
-/// Progress of a run on a stream: one bar that is redrawn on a terminal, a plain line every tenth elsewhere.
+/// Shows the progress of a run on a stream: a bar that is redrawn on a terminal, otherwise a line for every tenth.
 class Progress {
  public:
-  /// `done`: the steps that were done before.
+  /// `done`: the steps of the run before it was resumed.
   Progress(std::FILE* stream, int steps, int done = 0);
   /// Ends the bar's line, whatever stops the run.
   ~Progress();

@@ -38,7 +38,7 @@ std::optional<Heap> find_heap(const World& world, const Container& container) {
   return measure_heap(world, {0, 0, hopper->dish->height}, hopper->dish->diameter / 2);
 }
 
-/// A run up to some step, as its checkpoint holds it.
+/// The state of a run in its checkpoint.
 struct SavedRun {
   std::int32_t step = 0;
   Stopwatch time;
@@ -68,7 +68,7 @@ class Run {
     measuring_->after_step(0, 0, simulation_->stepper.measured_contacts());
   }
 
-  /// Returns true when the results are complete, or the run was interrupted where it cannot be gone on with.
+  /// Returns false if the run was stopped at a checkpoint. Otherwise the results are complete, or end at an interrupt.
   bool advance();
   RunEnd finish();
   int step() const { return step_; }
@@ -76,7 +76,7 @@ class Run {
  private:
   void go_on(const SavedRun& saved);
   void save();
-  /// The steps up to step `until` or until the user interrupts, with a frame at every interval and at the end.
+  /// Advances to step `until`, or until the user interrupts, with a frame at every interval and at the end.
   void advance_to(int until, Progress* progress);
   Summary summarize();
 
@@ -101,8 +101,8 @@ void Run::go_on(const SavedRun& saved) {
   cost_ = saved.cost;
 }
 
-// The run goes on from what it has saved, as it would after it was killed: ODE's order of things and remembered normals are lost
-// in both cases alike.
+// The run continues from its saved state, as it would after it was killed. So both lose ODE's internal order and the warm-start
+// normals alike.
 void Run::save() {
   const Stopwatch::Lap lap(cost_.watch);
   ++cost_.number;
@@ -155,8 +155,8 @@ Summary Run::summarize() {
   World& world = simulation_->world;
   const Stepper& stepper = simulation_->stepper;
   const Watches& watches = simulation_->watches;
-  const snStatistics statistics = simulation_->statistics();  // taken before the measurements at the end add to them
-  if (world.cell() != nullptr) world.cell()->place_images();  // the grains have moved since the last images were placed
+  const snStatistics statistics = simulation_->statistics();  // before the measurements at the end, which add to them
+  if (world.cell() != nullptr) world.cell()->place_images();  // the grains have moved since the images were placed
   const Box* box = std::get_if<Box>(&scene_.container);
   return {scene_,
           step_ < scene_.time.steps(),
@@ -197,7 +197,7 @@ RunEnd Run::finish() {
   if (summary.interrupted) std::fprintf(stderr, "Interrupted after step %d of %d: what there is was written.\n", step_, steps);
   const LeakWatch& leaks = simulation_->watches.leaks;
   if (leaks.first()) {
-    std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", leaks.count(), simulation_->world.bodies().size(),
+    std::fprintf(stderr, "Leak: %zu of %zu grains; the first: %s\n", leaks.count(), simulation_->world.grains().size(),
                  describe(*leaks.first()).c_str());
   }
   if (!options_.quiet) std::fprintf(stderr, "Results: %s\n", folder_.path().c_str());
@@ -211,7 +211,7 @@ constexpr const char* kStopNote =
 RunEnd run_in(OutputFolder& folder, Checkpoints& checkpoints, const Scene& scene, const RunOptions& options) {
   if (checkpoints.are_on()) catch_stop_requests(kStopNote);
   Run run(scene, folder, checkpoints, options);
-  // That nothing is resumed is said to those who want to hear little, too.
+  // This message appears also with --quiet.
   if (options.resume && !folder.is_resumed()) {
     std::fprintf(stderr, "No checkpoint: starts at step %d of %d\n", run.step(), scene.time.steps());
   } else if (options.resume && !options.quiet) {
@@ -230,9 +230,9 @@ RunEnd run(const Scene& scene, const RunOptions& options) {
   try {
     return run_in(folder, checkpoints, scene, options);
   } catch (const InputError&) {
-    throw;  // what the last checkpoint needs is damaged: there is no way on
+    throw;  // the files of the last checkpoint are damaged: the run cannot be resumed
   } catch (const std::exception&) {
-    const std::filesystem::path unfinished = folder.file("");  // none where the run was whole and could not go to its place
+    const std::filesystem::path unfinished = folder.file("");  // empty if the run was complete and could not be moved to its place
     if (checkpoints.last() && !unfinished.empty()) {
       std::fprintf(stderr, "The last checkpoint is in \"%s\": --resume goes on from there.\n", unfinished.c_str());
     }

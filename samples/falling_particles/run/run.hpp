@@ -10,22 +10,23 @@
 namespace falling_particles {
 
 struct RunOptions {
-  std::filesystem::path out = "out";  ///< folder of the folder of the results
-  int threads = 0;                    ///< that look for contacts; 0: as many as the machine has
+  std::filesystem::path out = "out";  ///< parent folder of the folder of the results
+  int threads = 0;                    ///< that find contacts; 0: as many as the machine has
   bool quiet = false;                 ///< no progress on stderr
-  int checkpoint_every = 0;           ///< steps; 0: no checkpoints, or as the run that is gone on with
-  bool resume = false;                ///< goes on from the checkpoint of a run that was killed, if there is one
+  int checkpoint_every = 0;           ///< steps between two checkpoints; 0: none, or as in the resumed run
+  bool resume = false;                ///< resumes from the checkpoint of a killed run, if there is one
 };
 
 struct RunEnd {
   bool interrupted;
-  bool leaked;                        ///< whether a grain was outside the container at some time
+  bool leaked;                        ///< whether a grain was outside the container at any time
   std::filesystem::path folder;       ///< of the results
-  std::vector<Rendering> renderings;  ///< pictures that are still to be made in it
+  std::vector<Rendering> renderings;  ///< pictures that other programs must still make in it
 };
 
-/// Simulates the scene and writes `out`/<scene>/; prints the summary to stdout, warnings to stderr and, unless quiet, progress too.
-/// An interrupt (interrupt.hpp) ends it with results up to then, or with checkpoints at the next one, to go on from there.
+/// Simulates the scene and writes `out`/<scene>/. Prints the summary to stdout, and warnings and, unless quiet, progress to stderr.
+/// An interrupt (interrupt.hpp) ends the run with the results so far. With checkpoints it ends at the next one, from which it can
+/// be resumed.
 RunEnd run(const Scene& scene, const RunOptions& options);
 
 }  // namespace falling_particles

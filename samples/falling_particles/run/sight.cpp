@@ -26,8 +26,8 @@ dGeomID geom_of(const HalfSpace& below) {
 
 Sight::Sight(const World& world) : world_(world), ray_(dCreateRay(nullptr, kLargestLength), dGeomDestroy) {
   dGeomRaySetClosestHit(ray_.get(), 0);
-  if (world.parts() != nullptr) solids_ = world.parts()->geoms();
-  solids_.insert(solids_.end(), world.walls().geoms().begin(), world.walls().geoms().end());
+  if (world.walls() != nullptr) solids_ = world.walls()->geoms();
+  solids_.insert(solids_.end(), world.container_geoms().geoms().begin(), world.container_geoms().geoms().end());
   for (const Sink& sink : world.scene().sinks) {
     sinks_.emplace_back(std::visit([](const auto& region) { return geom_of(region); }, sink.region), dGeomDestroy);
     solids_.push_back(sinks_.back().get());
@@ -38,21 +38,21 @@ std::optional<Sight::Seen> Sight::look(const Point& from, const Vector3& directi
   dGeomRaySet(ray_.get(), from[0], from[1], from[2], direction.x(), direction.y(), direction.z());
   std::optional<Seen> seen;
   double nearest = INFINITY;
-  const std::size_t parts = world_.scene().parts.size();
+  const std::size_t walls = world_.scene().walls.size();
   for (std::size_t i = 0; i < solids_.size(); ++i) {
     const std::optional<dContactGeom> hit = hit_of(solids_[i]);
     if (!hit || !(hit->depth < nearest)) continue;
     nearest = hit->depth;
     seen = Seen{nearest, {}, false};
-    if (i >= parts) continue;
-    seen->part = i;
-    seen->is_back = is_back_of(world_.scene().parts[i], hit->side1, direction);
+    if (i >= walls) continue;
+    seen->wall = i;
+    seen->is_back = is_back_of(world_.scene().walls[i], hit->side1, direction);
   }
   return seen;
 }
 
-// Of the two windings of a triangle of a two-sided mesh ODE would look at one for the closest hit, and that may be the one that the
-// mesh then leaves out.
+// For the closest hit only, ODE would test one of the two windings of a triangle of a two-sided mesh, possibly the one that the
+// mesh then rejects. So all hits are collected.
 std::optional<dContactGeom> Sight::hit_of(dGeomID solid) const {
   constexpr int kMostHits = 64;
   std::array<dContactGeom, kMostHits> hits;
@@ -62,15 +62,15 @@ std::optional<dContactGeom> Sight::hit_of(dGeomID solid) const {
                            [](const dContactGeom& one, const dContactGeom& other) { return one.depth < other.depth; });
 }
 
-bool Sight::is_back_of(const Part& part, int triangle, const Vector3& direction) const {
-  const auto* const mesh = std::get_if<MeshShape>(&part.shape);
+bool Sight::is_back_of(const Wall& wall, int triangle, const Vector3& direction) const {
+  const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
   if (mesh == nullptr || mesh->two_sided || triangle < 0) return false;
   const auto& [a, b, c] = mesh->triangles[static_cast<std::size_t>(triangle)];
   const auto corner = [&](unsigned int i) {
     const auto& [x, y, z] = mesh->vertices[i];
     return Vector3(x, y, z);
   };
-  const Vector3 normal = part.start.rotation * (corner(b) - corner(a)).cross(corner(c) - corner(a));
+  const Vector3 normal = wall.start.rotation * (corner(b) - corner(a)).cross(corner(c) - corner(a));
   return normal.dot(direction) > 0;
 }
 

@@ -1,4 +1,4 @@
-// What is seen from a place in a scene before it runs.
+// Ray casts in a scene before it runs.
 #pragma once
 
 #include <ode/ode.h>
@@ -13,30 +13,30 @@
 
 namespace falling_particles {
 
-/// Looks along rays at the walls, parts and sinks of a world, where they start.
+/// Casts rays against the container's geoms, the walls and the sinks of a world, where they start.
 class Sight {
  public:
   struct Seen {
     double distance = 0;              ///< m
-    std::optional<std::size_t> part;  ///< its index; none for a wall or a sink
-    bool is_back = false;             ///< whether it is a triangle that grains meet from its other side alone
+    std::optional<std::size_t> wall;  ///< index into Scene::walls; empty for a geom of the container or a sink
+    bool is_back = false;             ///< whether the ray hits the back of a single-sided triangle
   };
 
   /// The world must outlive this object.
   explicit Sight(const World& world);
 
-  /// The first that a ray meets; empty where there is nothing. `direction` is of unit length.
+  /// The first hit of a ray; empty if there is none. `direction` must have unit length.
   std::optional<Seen> look(const Point& from, const Vector3& direction) const;
 
  private:
   using Geom = std::unique_ptr<dxGeom, decltype(&dGeomDestroy)>;
 
   std::optional<dContactGeom> hit_of(dGeomID solid) const;
-  bool is_back_of(const Part& part, int triangle, const Vector3& direction) const;
+  bool is_back_of(const Wall& wall, int triangle, const Vector3& direction) const;
 
   const World& world_;
   std::vector<Geom> sinks_;
-  std::vector<dGeomID> solids_;  // parts first
+  std::vector<dGeomID> solids_;  // Scene::walls first
   Geom ray_;
 };
 

@@ -4,11 +4,11 @@
 
 namespace falling_particles {
 
-Candidate::Candidate(const Grain& grain, double scale)
-    : world_(dWorldCreate()), body_{dBodyCreate(world_), nullptr, &grain, {}, scale} {
-  body_.geom = attach_geoms(nullptr, grain, scale, body_.body, nullptr);
-  body_.mass = mass_of(body_);
-  geoms_ = body_.geoms();
+Candidate::Candidate(const GrainKind& kind, double scale)
+    : world_(dWorldCreate()), grain_{dBodyCreate(world_), nullptr, &kind, {}, scale} {
+  grain_.geom = attach_geoms(nullptr, kind, scale, grain_.body, nullptr);
+  grain_.mass = mass_of(grain_);
+  geoms_ = grain_.geoms();
 }
 
 Candidate::~Candidate() {

@@ -1,4 +1,4 @@
-// A grain that looks for its place.
+// A grain to be placed.
 #pragma once
 
 #include <ode/ode.h>
@@ -11,22 +11,23 @@
 
 namespace falling_particles {
 
-/// A grain outside the world of the others, which does not notice it.
+/// A grain in a world of its own, so that other grains do not collide with it.
 class Candidate {
  public:
-  /// `scale`: of the grain's lengths. The grain must outlive this object. Throws std::runtime_error when the library refuses it.
-  Candidate(const Grain& grain, double scale);
+  /// `scale`: factor on the lengths of the kind, which must outlive this object. Throws std::runtime_error when the library refuses
+  /// the grain.
+  Candidate(const GrainKind& kind, double scale);
   ~Candidate();
   Candidate(const Candidate&) = delete;
   Candidate& operator=(const Candidate&) = delete;
 
-  const Body& body() const { return body_; }
+  const Grain& grain() const { return grain_; }
   const std::vector<dGeomID>& geoms() const { return geoms_; }
-  void put(const Placement& place) const { falling_particles::put(body_.body, place); }
+  void put(const Placement& place) const { falling_particles::put(grain_.body, place); }
 
  private:
   dWorldID world_;
-  Body body_;
+  Grain grain_;
   std::vector<dGeomID> geoms_;
 };
 

@@ -9,23 +9,23 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kRate = 0.2;        // largest strain of a step, relative to the target overlap
-constexpr double kRestFrom = 0.8;    // share of the duration after which the target stays, and nothing has inertia
+constexpr double kRate = 0.2;        // largest strain in a step, relative to the target overlap
+constexpr double kRestFrom = 0.8;    // fraction of the duration after which the target is constant and all velocities are removed
 constexpr double kSamePlace = 1e-3;  // of the grain's radius; another meeting of the same grains is a cell away
 
-using Grains = std::pair<const Body*, const Body*>;
+using Grains = std::pair<const Grain*, const Grain*>;
 
-/// A place in the cell where two grains meet, with one contact point or several: of a face, of parts of compounds, on both sides of
-/// the boundary of the cell.
+/// A place in the cell where two grains meet, with one contact point or several: of a face, of components of compounds, or on both
+/// sides of the boundary of the cell.
 struct Meeting {
-  std::array<double, 3> between;  ///< m, from the centre of the second grain to that of the first
-  double overlap;                 ///< relative, the largest of its points
+  std::array<double, 3> between;  ///< m, from the centre of the second grain to the centre of the first
+  double overlap;                 ///< relative, largest over its points
 };
 
-/// Adds a contact point to the meeting that it belongs to, among those of its two grains.
+/// Adds a contact point to the meeting of the same place, or to a new one. All meetings are of the same two grains.
 void add(const dContactGeom& contact, std::vector<Meeting>& meetings) {
-  const double sign = body_of(contact.g1) < body_of(contact.g2) ? 1 : -1;
-  const dReal* p1 = dBodyGetPosition(dGeomGetBody(contact.g1));  // of a compound, not of the part
+  const double sign = grain_of(contact.g1) < grain_of(contact.g2) ? 1 : -1;
+  const dReal* p1 = dBodyGetPosition(dGeomGetBody(contact.g1));  // the centre of a compound, not of its component
   const dReal* p2 = dBodyGetPosition(dGeomGetBody(contact.g2));
   std::array<double, 3> between{};
   double along = 0;  // distance of the centres along the normal, which points into g1
@@ -33,10 +33,10 @@ void add(const dContactGeom& contact, std::vector<Meeting>& meetings) {
     between.at(i) = sign * (p1[i] - p2[i]);
     along += (p1[i] - p2[i]) * contact.normal[i];
   }
-  // Where compounds are hooked into one another the normal may point the other way, and shrinking would not part them.
+  // If compounds interlock, the normal may point the other way. Then shrinking would not separate them.
   if (!(along > 0)) along = dCalcPointsDistance3(p1, p2);
   const double overlap = contact.depth / (along + contact.depth);
-  const double near = kSamePlace * body_of(contact.g1)->bounding_radius();
+  const double near = kSamePlace * grain_of(contact.g1)->bounding_radius();
   const auto is_here = [&](const Meeting& meeting) {
     return std::hypot(meeting.between[0] - between[0], meeting.between[1] - between[1], meeting.between[2] - between[2]) < near;
   };
@@ -61,7 +61,7 @@ MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts) {
   Grains last{};
   for (const dContactGeom& contact : contacts) {
     if (!(contact.depth > 0)) continue;
-    const Grains grains = std::minmax(body_of(contact.g1), body_of(contact.g2));
+    const Grains grains = std::minmax(grain_of(contact.g1), grain_of(contact.g2));
     if (grains != last) count();
     last = grains;
     add(contact, meetings);
@@ -73,29 +73,28 @@ MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts) {
 
 Compressor::Compressor(const World& world, PeriodicCell& cell, const Compression& compression, double duration)
     : world_(world), cell_(cell), compression_(compression), duration_(duration), packing_{} {
-  for (const Body& body : world.present()) grain_volume_ += body.volume();
+  for (const Grain& grain : world.present()) grain_volume_ += grain.volume();
 }
 
 void Compressor::after_step(double time, std::span<const dContactGeom> contacts) {
   const MeanOverlap overlap = measure_mean_overlap(contacts);
-  const auto bodies = static_cast<double>(world_.bodies().size());
+  const auto grains = static_cast<double>(world_.grains().size());
   const double side = cell_.side();
   const double fraction = grain_volume_ / (side * side * side);
   const double progress = std::min(1.0, time / (kRestFrom * duration_));
   const double target = compression_.overlap * std::pow(compression_.final_overlap / compression_.overlap, progress);
   packing_ = {side,    fraction, fraction * std::pow(1 - overlap.relative, 3),
-              overlap, target,   2 * static_cast<double>(overlap.contacts) / bodies};
+              overlap, target,   2 * static_cast<double>(overlap.contacts) / grains};
 
   const double kept = progress < 1 ? 1 - compression_.damping : 0;
-  for (const Body& body : world_.present()) {
-    const dReal* v = dBodyGetLinearVel(body.body);
-    const dReal* w = dBodyGetAngularVel(body.body);
-    dBodySetLinearVel(body.body, kept * v[0], kept * v[1], kept * v[2]);
-    dBodySetAngularVel(body.body, kept * w[0], kept * w[1], kept * w[2]);
+  for (const Grain& grain : world_.present()) {
+    const dReal* v = dBodyGetLinearVel(grain.body);
+    const dReal* w = dBodyGetAngularVel(grain.body);
+    dBodySetLinearVel(grain.body, kept * v[0], kept * v[1], kept * v[2]);
+    dBodySetAngularVel(grain.body, kept * w[0], kept * w[1], kept * w[2]);
   }
-  // A few grains that overlap among many that do not are no pressure: the mean is taken as if there were a contact for each grain
-  // at least.
-  const double share = std::min(1.0, static_cast<double>(overlap.contacts) / bodies);
+  // A few overlapping grains among many are no pressure. So the mean is taken over at least one contact per grain.
+  const double share = std::min(1.0, static_cast<double>(overlap.contacts) / grains);
   const double strain = kRate * target * std::clamp(1 - overlap.relative * share / target, -1.0, 1.0);
   cell_.scale(1 - strain);
 }

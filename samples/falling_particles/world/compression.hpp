@@ -11,37 +11,38 @@
 
 namespace falling_particles {
 
-/// The mean overlap of grains that meet: how much both would have to shrink to touch, depth / distance of their parallel tangent
-/// planes from centre to centre along the normal. However many points a contact has, it counts once.
+/// The mean overlap of overlapping grains. The overlap of a pair is the relative amount by which both would have to shrink to
+/// touch: depth / distance of their parallel tangent planes from centre to centre along the normal. A contact counts once, whatever
+/// its number of points.
 struct MeanOverlap {
   double relative = 0;
-  std::size_t contacts = 0;  ///< pairs of grains that overlap; two that meet in two places of the cell count twice
+  std::size_t contacts = 0;  ///< pairs of overlapping grains; a pair that meets in two places of the cell counts twice
 };
-/// `contacts` are sorted by their grains.
+/// `contacts` must be sorted by their grains.
 MeanOverlap measure_mean_overlap(std::span<const dContactGeom> contacts);
 
 struct Packing {
   double side;             ///< m, of the cell
-  double volume_fraction;  ///< volume of the grains / that of the cell: volume that two grains share counts twice
-  double at_contact;       ///< volume_fraction of grains shrunk, all alike, until they no longer overlap in the mean
+  double volume_fraction;  ///< volume of the grains / volume of the cell; overlaps count twice
+  double at_contact;       ///< volume_fraction after shrinking all grains by the mean overlap
   MeanOverlap overlap;
-  double target_overlap;      ///< relative, for the mean
-  double contacts_per_grain;  ///< grains that a grain overlaps, mean; rattlers included
+  double target_overlap;      ///< relative, of the mean overlap
+  double contacts_per_grain;  ///< mean number of grains that a grain overlaps, rattlers included
 };
 
-/// Compresses the grains in a periodic cell until they jam. They are moved by the push out of their overlaps, and every step
-/// takes away a share of the resulting speed. The cell shrinks while the mean overlap is below its target and grows while it is
-/// above; the target falls, so that the end is approached from above, at the onset of jamming. For the last fifth of the time it
-/// stays, and all speed is taken away in every step, so that the forces find their balance.
+/// Compresses the grains in a periodic cell until they jam. The solver pushes overlapping grains apart, and every step removes a
+/// fraction of the resulting velocity. The cell shrinks while the mean overlap is below its target and grows while it is above. The
+/// target decreases, so that the jamming point is approached from above. For the last fifth of the time the target is constant, and
+/// every step removes all velocity, so that the forces reach equilibrium.
 ///
-/// The method of compressing and relaxing is that of C. S. O'Hern, L. E. Silbert, A. J. Liu, S. R. Nagel, Jamming at zero
-/// temperature and zero applied stress: the epitome of disorder, Phys. Rev. E 68 (2003) 011306; G. W. Delaney, P. W. Cleary, The
-/// packing properties of superellipsoids, EPL 89 (2010) 34002, grow superellipsoids in a periodic cell.
+/// The method of compressing and relaxing is from C. S. O'Hern, L. E. Silbert, A. J. Liu, S. R. Nagel, Jamming at zero temperature
+/// and zero applied stress: the epitome of disorder, Phys. Rev. E 68 (2003) 011306. G. W. Delaney, P. W. Cleary, The packing
+/// properties of superellipsoids, EPL 89 (2010) 34002, grow superellipsoids in a periodic cell.
 class Compressor {
  public:
   Compressor(const World& world, PeriodicCell& cell, const Compression& compression, double duration);
 
-  /// Adjusts the cell after a step; `contacts` are those that the step has resolved.
+  /// Adjusts the cell after a step. `contacts` are the contacts that the step has resolved.
   void after_step(double time, std::span<const dContactGeom> contacts);
 
   const Packing& packing() const { return packing_; }

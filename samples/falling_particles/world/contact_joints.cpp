@@ -9,13 +9,13 @@
 namespace falling_particles {
 namespace {
 
-/// A grain on a wall that moves stays awake: ODE would take the velocity of one that is slow for none.
+/// Whether the geom is a moving wall. A grain on it stays awake: ODE would regard a slow grain as idle and disable it.
 bool is_moving_wall(dGeomID geom, const supernormal::effects::Side& side) {
-  return body_of(geom) == nullptr && side.body != nullptr;
+  return grain_of(geom) == nullptr && side.body != nullptr;
 }
 
-/// Lets the joint ask for this velocity (m/s) of the first body relative to the second, along the directions of friction that the
-/// effects have set or ODE would choose.
+/// Makes the joint enforce this velocity (m/s) of the first body relative to the second, along the friction directions of the
+/// effects or, without them, of ODE.
 void set_relative_velocity(dContact& contact, const Vector3& velocity) {
   dVector3 first, second;
   if ((contact.surface.mode & dContactFDir1) == 0) {
@@ -24,7 +24,7 @@ void set_relative_velocity(dContact& contact, const Vector3& velocity) {
   }
   const Vector3 normal = to_vector(contact.geom.normal);
   const Vector3 along = to_vector(contact.fdir1);
-  // The effects may ask for a velocity along the normal, relative to the wall: springs do, and contacts ahead of touch.
+  // The effects may set a velocity along the normal, relative to the wall: springs and speculative contacts do.
   const double asked = (contact.surface.mode & dContactMotionN) != 0 ? double{contact.surface.motionN} : 0;
   contact.surface.mode |= dContactFDir1 | dContactMotion1 | dContactMotion2 | dContactMotionN;
   contact.surface.motion1 = along.dot(velocity);
@@ -36,7 +36,7 @@ bool is_same_pair(const dContactGeom& a, const dContactGeom& b) { return a.g1 ==
 
 }  // namespace
 
-// ODE tells the force on the joint's first body, which is that of g2 when g1 has none.
+// ODE reports the force on the joint's first body. This is the body of g2 when g1 has none.
 Point MeasuredContact::force() const {
   const double sign = is_reversed ? -1 : 1;
   return {sign * feedback.f1[0], sign * feedback.f1[1], sign * feedback.f1[2]};
@@ -74,19 +74,19 @@ void ContactJoints::attach(std::span<const dContactGeom> pair, bool measures) {
 }
 
 ContactJoints::Side ContactJoints::side_of(dGeomID geom) const {
-  const PartBodies* parts = world_.parts();
-  if (parts == nullptr || body_of(geom) != nullptr) return {material_of(geom), dGeomGetBody(geom)};
-  return parts->side_of(geom, material_of(geom));
+  const WallBodies* walls = world_.walls();
+  if (walls == nullptr || grain_of(geom) != nullptr) return {material_of(geom), dGeomGetBody(geom)};
+  return walls->side_of(geom, material_of(geom));
 }
 
 void ContactJoints::follow_chords(std::span<dContact> contacts, const Side& side1, const Side& side2) const {
-  const PartBodies* parts = world_.parts();
-  if (parts == nullptr || contacts.empty()) return;
+  const WallBodies* walls = world_.walls();
+  if (walls == nullptr || contacts.empty()) return;
   const dContactGeom& geom = contacts.front().geom;
-  const bool is_wall_first = body_of(geom.g1) == nullptr;
-  if ((is_wall_first ? side1 : side2).body == nullptr || (!is_wall_first && body_of(geom.g2) != nullptr)) return;
+  const bool is_wall_first = grain_of(geom.g1) == nullptr;
+  if ((is_wall_first ? side1 : side2).body == nullptr || (!is_wall_first && grain_of(geom.g2) != nullptr)) return;
   const dBodyID grain = (is_wall_first ? side2 : side1).body;
-  const Vector3 excess = parts->chord_excess(is_wall_first ? geom.g1 : geom.g2, to_vector(dBodyGetPosition(grain)),
+  const Vector3 excess = walls->chord_excess(is_wall_first ? geom.g1 : geom.g2, to_vector(dBodyGetPosition(grain)),
                                              to_vector(dBodyGetLinearVel(grain)));
   if (excess.isZero(0)) return;
   for (dContact& contact : contacts) set_relative_velocity(contact, is_wall_first ? Vector3(-excess) : excess);

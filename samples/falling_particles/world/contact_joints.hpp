@@ -10,20 +10,20 @@
 
 namespace falling_particles {
 
-/// The most contacts that a pair may ask for: a face on a face is held by four points and the deepest one.
+/// max_contacts of a pair: four points support a face on a face, and the deepest point is the fifth.
 inline constexpr int kContactsPerPair = 5;
 
-/// A contact whose joint says with which force it holds the bodies apart.
+/// A contact whose joint reports the contact force.
 struct MeasuredContact {
   dContactGeom geom;
   dJointFeedback feedback;
-  bool is_reversed = false;  ///< whether the joint's first body is that of geom.g2
+  bool is_reversed = false;  ///< whether the joint's first body is the body of geom.g2
 
-  /// N, in the world's frame, on the body of geom.g1; after the step.
+  /// N, in the world's frame, on the body of geom.g1; valid after the step.
   Point force() const;
 };
 
-/// The contacts of a step as joints of a world, which must outlive them.
+/// The contact joints of a step in a world, which must outlive them.
 class ContactJoints {
  public:
   explicit ContactJoints(const World& world);
@@ -33,11 +33,11 @@ class ContactJoints {
   ContactJoints& operator=(const ContactJoints&) = delete;
   ContactJoints& operator=(ContactJoints&&) = delete;
 
-  /// Replaces the joints of the last step by those for `contacts`, as the effects of the world set them up. The contacts of a
-  /// pair, at most kContactsPerPair, are consecutive. If `measures`, the next step tells measured() their forces.
+  /// Replaces the joints of the last step by joints for `contacts`, as the effects of the world set them up. The contacts of a
+  /// pair, at most kContactsPerPair, must be consecutive. If `measures`, measured() has their forces after the next step.
   void replace(std::span<const dContactGeom> contacts, bool measures = false);
 
-  /// The contacts that the effects have left, in the order of their pairs; none when the last ones were not to be measured.
+  /// The contacts that the effects have kept, in the order of their pairs. Empty if `measures` was false.
   const std::deque<MeasuredContact>& measured() const { return measured_; }
 
  private:
@@ -50,7 +50,7 @@ class ContactJoints {
 
   const World& world_;
   dJointGroupID joints_;
-  std::deque<MeasuredContact> measured_;  // the joints hold pointers to its elements, which stay where they are
+  std::deque<MeasuredContact> measured_;  // the joints point to its elements, which a deque does not move
 };
 
 }  // namespace falling_particles

@@ -12,8 +12,8 @@
 namespace falling_particles {
 namespace {
 
-constexpr int kTries = 64;          // places for a grain in a step: a region of which a tenth is free is found full in one of 800
-constexpr double kRounding = 1e-9;  // of the amount that is due: times are multiples of a step, rounded
+constexpr int kTries = 64;  // places to try for a grain in a step: in a region that is free to a tenth, all fail once in 800 cases
+constexpr double kRounding = 1e-9;  // of the due amount: times are rounded multiples of a step
 
 std::string in_brackets(const Point& p) { return "[" + shortest(p[0]) + ", " + shortest(p[1]) + ", " + shortest(p[2]) + "] m"; }
 
@@ -26,7 +26,7 @@ Feeding::Feeding(const Feeder& feeder, World& world, std::uint64_t seed, std::ui
   choose_next();
 }
 
-const Grain& Feeding::grain(std::size_t i) const { return world_.scene().grains[feeder_.mixture[i].kind].grain; }
+const GrainKind& Feeding::kind(std::size_t i) const { return world_.scene().kinds[feeder_.mixture[i].kind].kind; }
 
 Amount Feeding::fed() const {
   Amount sum;
@@ -34,7 +34,7 @@ Amount Feeding::fed() const {
   return sum;
 }
 
-/// The kind that is most behind its fraction once a grain more has been fed.
+/// The kind that would be most below its fraction if one more grain were fed.
 std::size_t Feeding::next_kind() const {
   const Amount all = fed();
   const double whole = feeder_.fraction_of == Quantity::Of::Mass ? all.mass : static_cast<double>(all.grains) + 1;
@@ -52,20 +52,20 @@ std::size_t Feeding::next_kind() const {
 
 void Feeding::choose_next() {
   const std::size_t kind = next_kind();
-  const std::optional<SizeDistribution>& size = world_.scene().grains[feeder_.mixture[kind].kind].size;
+  const std::optional<SizeDistribution>& size = world_.scene().kinds[feeder_.mixture[kind].kind].size;
   state_.next = {kind, size ? size->quantile(state_.random.uniform()) : 1};
 }
 
 Candidate& Feeding::candidate() {
-  const auto& [kind, scale] = state_.next;
-  std::unique_ptr<Candidate>& last = candidates_[kind];
-  if (last == nullptr || last->body().scale != scale) last = std::make_unique<Candidate>(grain(kind), scale);
+  const auto& [index, scale] = state_.next;
+  std::unique_ptr<Candidate>& last = candidates_[index];
+  if (last == nullptr || last->grain().scale != scale) last = std::make_unique<Candidate>(kind(index), scale);
   return *last;
 }
 
 bool Feeding::is_due(double now) {
   Amount then = fed();
-  then.add(candidate().body().mass.mass);
+  then.add(candidate().grain().mass.mass);
   const double owed = feeder_.rate.number * (std::min(now, feeder_.until) - feeder_.from);
   const auto is_within = [&](const Quantity& limit) { return limit.in(then) <= (1 + kRounding) * limit.number; };
   return is_within({owed, feeder_.rate.of}) && (!feeder_.total || is_within(*feeder_.total));
@@ -78,13 +78,13 @@ std::span<const std::size_t> Feeding::feed(double now) {
   while (is_due(now)) {
     const std::optional<Placement> place = find_place(neighbourhood);
     if (!place) {
-      check_patience(now);
+      check_timeout(now);
       return last_;
     }
     last_.push_back(world_.insert(*place, feeder_.velocity));
-    const Body& body = world_.bodies()[last_.back()];
-    for (const dGeomID geom : body.geoms()) neighbourhood.add(geom);
-    state_.fed[state_.next.kind].add(body.mass.mass);
+    const Grain& grain = world_.grains()[last_.back()];
+    for (const dGeomID geom : grain.geoms()) neighbourhood.add(geom);
+    state_.fed[state_.next.kind].add(grain.mass.mass);
     choose_next();
   }
   state_.behind_since.reset();
@@ -92,19 +92,19 @@ std::span<const std::size_t> Feeding::feed(double now) {
 }
 
 std::optional<Placement> Feeding::find_place(const Neighbourhood& neighbourhood) {
-  const Candidate& grain = candidate();
-  const double radius = grain.body().bounding_radius();
+  const Candidate& next = candidate();
+  const double radius = next.grain().bounding_radius();
   for (int i = 0; i < kTries; ++i) {
     const std::size_t kind = feeder_.mixture[state_.next.kind].kind;
     const Placement place = random_place(feeder_.region, kind, state_.next.scale, radius, state_.random);
-    grain.put(place);
+    next.put(place);
     const auto is_free = [&](dGeomID geom) { return neighbourhood.is_free(geom); };
-    if (std::ranges::all_of(grain.geoms(), is_free)) return place;
+    if (std::ranges::all_of(next.geoms(), is_free)) return place;
   }
   return std::nullopt;
 }
 
-void Feeding::check_patience(double now) {
+void Feeding::check_timeout(double now) {
   if (!state_.behind_since) {
     state_.behind_since = now;
     state_.when_behind = fed();

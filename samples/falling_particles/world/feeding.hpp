@@ -1,4 +1,4 @@
-// A feeder at work.
+// The insertion of grains by a feeder.
 #pragma once
 
 #include <memory>
@@ -13,9 +13,9 @@
 
 namespace falling_particles {
 
-/// All that a feeder remembers: what a resumed run has to restore.
+/// The state of a feeder, which a resumed run restores.
 struct FeederState {
-  /// The grain that comes next, as soon as it is due.
+  /// The next grain, which is inserted as soon as it is due.
   struct Next {
     std::size_t kind;  ///< index into Feeder::mixture
     double scale;      ///< of the grain's lengths
@@ -26,9 +26,9 @@ struct FeederState {
   };
   Next next = {};
   std::vector<Amount> fed = {};             ///< of each kind of Feeder::mixture
-  Random random;                            ///< for sizes, places and attitudes
-  std::optional<double> behind_since = {};  ///< s, since when grains that are due have found no place
-  Amount when_behind = {};                  ///< what had been fed then
+  Random random;                            ///< for sizes, positions and orientations
+  std::optional<double> behind_since = {};  ///< s, time since which due grains have found no place
+  Amount when_behind = {};                  ///< the amount that had been fed at that time
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -36,22 +36,23 @@ struct FeederState {
   }
 };
 
-/// Feeds the grains of one feeder. A grain is due as soon as the rate, added up since the start, is owed a whole one; one that
-/// finds no place stays due. Which kind is next follows from the fractions and what has been fed, without chance: the mixture is
-/// exact to a grain at any time. Sizes, places and attitudes come from random numbers of the feeder's own.
+/// Inserts the grains of one feeder. A grain is due whenever the integral of the rate since the start passes a whole grain. A due
+/// grain that finds no place stays due. The next kind follows from the fractions and the amounts fed so far, without random
+/// numbers: at any time the mixture is exact to one grain. Sizes, positions and orientations come from random numbers of the
+/// feeder's own.
 class Feeding {
  public:
-  /// The feeder and the world must outlive this object. `seed`: of the scene; `number`: of the feeder in it.
+  /// The feeder and the world must outlive this object. `seed` is the scene's seed; `number` is the feeder's index in the scene.
   Feeding(const Feeder& feeder, World& world, std::uint64_t seed, std::uint64_t number);
 
-  /// Feeds what is due until `now` (s), and returns the indices of these grains, which end before the next call. Throws
-  /// std::runtime_error when the region has been too full for longer than the feeder's patience.
+  /// Inserts the grains that are due until `now` (s), and returns their indices, valid until the next call. Throws
+  /// std::runtime_error when the region has been too full for longer than the feeder's timeout (Feeder::patience).
   std::span<const std::size_t> feed(double now);
 
   const Feeder& feeder() const { return feeder_; }
-  const Grain& grain(std::size_t i) const;  ///< of Feeder::mixture
+  const GrainKind& kind(std::size_t i) const;  ///< the kind of Feeder::mixture[i]
   const FeederState& state() const { return state_; }
-  Amount fed() const;  ///< of all kinds
+  Amount fed() const;  ///< of all kinds together
 
   template <typename Archive>
   void serialize(Archive& archive) {
@@ -64,12 +65,12 @@ class Feeding {
   Candidate& candidate();
   bool is_due(double now);
   std::optional<Placement> find_place(const class Neighbourhood& neighbourhood);
-  void check_patience(double now);
+  void check_timeout(double now);
 
   const Feeder& feeder_;
   World& world_;
   FeederState state_;
-  std::vector<std::unique_ptr<Candidate>> candidates_;  // the last one of each kind of the mixture
+  std::vector<std::unique_ptr<Candidate>> candidates_;  // the last candidate of each kind of the mixture
   std::vector<std::size_t> last_;
 };
 

@@ -36,9 +36,9 @@ Neighbourhood::Neighbourhood(const World& world, const Region& region) {
   const auto add_if_near = [&](dGeomID geom) {
     if (dGeomIsEnabled(geom) != 0 && meet(aabb_of(geom), box)) geoms_.push_back(geom);
   };
-  world.sweep().for_each_body(add_if_near);
-  std::ranges::for_each(world.walls().geoms(), add_if_near);
-  if (world.parts() != nullptr) std::ranges::for_each(world.parts()->geoms(), add_if_near);
+  world.sweep().for_each_geom(add_if_near);
+  std::ranges::for_each(world.container_geoms().geoms(), add_if_near);
+  if (world.walls() != nullptr) std::ranges::for_each(world.walls()->geoms(), add_if_near);
 }
 
 dGeomID Neighbourhood::find_overlap(dGeomID geom) const {

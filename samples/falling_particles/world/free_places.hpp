@@ -1,4 +1,4 @@
-// Places in a world where a grain touches nothing.
+// A search for places where a grain touches nothing.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,15 +10,15 @@
 
 namespace falling_particles {
 
-/// What is in a region of a world, at one moment.
+/// The geoms in a region of a world at one time.
 class Neighbourhood {
  public:
-  /// Grains, their images in a periodic world, walls and parts whose bounding boxes meet the region.
+  /// Contains the grains, their images in a periodic world, and the walls whose bounding boxes meet the region.
   Neighbourhood(const World& world, const Region& region);
 
   void add(dGeomID geom) { geoms_.push_back(geom); }
-  /// One of them that the geom, one of ours, overlaps, to the tolerance of snGeomProximity; null if there is none. A grain behind a
-  /// wall that is a sheet, a mesh or a terrain, overlaps none. Throws std::runtime_error.
+  /// A geom that `geom`, of the library's class, overlaps to the tolerance of snGeomProximity; null if there is none. A wall that
+  /// is a surface, a mesh or a terrain, overlaps no grain behind it. Throws std::runtime_error.
   dGeomID find_overlap(dGeomID geom) const;
   bool is_free(dGeomID geom) const { return find_overlap(geom) == nullptr; }
 
@@ -26,7 +26,7 @@ class Neighbourhood {
   std::vector<dGeomID> geoms_;
 };
 
-/// A random place and attitude at which a ball of `radius` (m) is within the region.
+/// A random position and orientation such that a ball of `radius` (m) lies within the region.
 Placement random_place(const Region& region, std::size_t kind, double scale, double radius, Random& random);
 
 }  // namespace falling_particles

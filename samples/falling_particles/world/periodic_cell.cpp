@@ -14,8 +14,8 @@ namespace {
 
 bool is_part_of(unsigned mask, unsigned whole) { return (mask & ~whole) == 0; }
 
-/// Makes the velocities of the centres equal, in three rows: a ball joint whose anchors are the two centres, wherever these are.
-/// With ERP 0 it does not pull them together. (ODE's linear motor would give the bodies lever arms to the middle between them.)
+/// Makes the velocities of the centres equal by three rows: a ball joint whose anchors are the two centres, wherever they are. With
+/// ERP 0 it does not pull them together. (ODE's linear motor would give the bodies lever arms to their midpoint.)
 dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
   dJointID ball = dJointCreateBall(world, nullptr);
   dJointAttach(ball, body, image);
@@ -27,7 +27,7 @@ dJointID tie_velocities(dWorldID world, dBodyID body, dBodyID image) {
   return ball;
 }
 
-/// Makes the angular velocities equal, in three rows.
+/// Makes the angular velocities equal by three rows.
 dJointID tie_spins(dWorldID world, dBodyID body, dBodyID image) {
   constexpr int kGlobal = 0;
   dJointID motor = dJointCreateAMotor(world, nullptr);
@@ -58,7 +58,7 @@ void for_each_geom(dBodyID body, void (*visit)(dGeomID)) {
 }  // namespace
 
 PeriodicCell::PeriodicCell(const World& world, const PeriodicAxes& axes)
-    : world_(world), axes_(axes), families_(world.bodies().size()) {}
+    : world_(world), axes_(axes), families_(world.grains().size()) {}
 
 PeriodicCell::~PeriodicCell() {
   for (Family& family : families_) destroy(family);
@@ -88,32 +88,32 @@ double PeriodicCell::shift_along(unsigned mask, std::size_t axis) const {
   return ((mask >> axis) & 1U) != 0 ? axes_[axis]->length : 0;
 }
 
-PeriodicCell::Image PeriodicCell::make_image(const Body& body) const {
+PeriodicCell::Image PeriodicCell::make_image(const Grain& grain) const {
   Image image{dBodyCreate(world_.id()), nullptr, nullptr};
-  attach_geoms(world_.sweep().id(), *body.grain, body.scale, image.body, dGeomGetData(body.geom));
+  attach_geoms(world_.sweep().id(), *grain.kind, grain.scale, image.body, dGeomGetData(grain.geom));
   if (world_.scene().looks_ahead()) {
     for (dGeomID geom = dBodyGetFirstGeom(image.body); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
       snGeomSetLookAhead(geom, world_.scene().time.step);
     }
   }
-  image.same_velocity = tie_velocities(world_.id(), body.body, image.body);
-  image.same_spin = tie_spins(world_.id(), body.body, image.body);
+  image.same_velocity = tie_velocities(world_.id(), grain.body, image.body);
+  image.same_spin = tie_spins(world_.id(), grain.body, image.body);
   return image;
 }
 
-void PeriodicCell::show(const Body& body, Family& family, unsigned mask) {
+void PeriodicCell::show(const Grain& grain, Family& family, unsigned mask) {
   std::optional<Image>& image = family.images[mask];
-  if (!image) image = make_image(body);
+  if (!image) image = make_image(grain);
   if (dBodyIsEnabled(image->body) == 0) {
     dBodyEnable(image->body);
     for_each_geom(image->body, dGeomEnable);
     dJointEnable(image->same_velocity);
     dJointEnable(image->same_spin);
   }
-  const dReal* p = dBodyGetPosition(body.body);
+  const dReal* p = dBodyGetPosition(grain.body);
   dBodySetPosition(image->body, p[0] - shift_along(mask, 0), p[1] - shift_along(mask, 1), p[2] - shift_along(mask, 2));
-  dBodySetQuaternion(image->body, dBodyGetQuaternion(body.body));
-  set_motion(image->body, body.body);
+  dBodySetQuaternion(image->body, dBodyGetQuaternion(grain.body));
+  set_motion(image->body, grain.body);
 }
 
 void PeriodicCell::hide(const Image& image) {
@@ -123,10 +123,10 @@ void PeriodicCell::hide(const Image& image) {
   dJointDisable(image.same_spin);
 }
 
-void PeriodicCell::share_mass(const Body& body, Family& family, unsigned size) {
-  dMass share = body.mass;
-  dMassAdjust(&share, body.mass.mass / size);
-  dBodySetMass(body.body, &share);
+void PeriodicCell::share_mass(const Grain& grain, Family& family, unsigned size) {
+  dMass share = grain.mass;
+  dMassAdjust(&share, grain.mass.mass / size);
+  dBodySetMass(grain.body, &share);
   for (const std::optional<Image>& image : family.images) {
     if (image) dBodySetMass(image->body, &share);
   }
@@ -134,9 +134,9 @@ void PeriodicCell::share_mass(const Body& body, Family& family, unsigned size) {
 }
 
 void PeriodicCell::place_images() {
-  for (const Body& body : world_.present()) {
-    const std::array<dReal, 6> aabb = body.aabb();
-    const dReal* p = dBodyGetPosition(body.body);
+  for (const Grain& grain : world_.present()) {
+    const std::array<dReal, 6> aabb = grain.aabb();
+    const dReal* p = dBodyGetPosition(grain.body);
     unsigned sticks_out = 0;
     dReal inside[3] = {p[0], p[1], p[2]};  // position with the lower corner of the bounding box in the cell
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -147,29 +147,29 @@ void PeriodicCell::place_images() {
       const double width = aabb[2 * axis + 1] - aabb[2 * axis];
       if (2 * width > period.length) {
         throw std::runtime_error("the periodic cell is " + std::to_string(period.length) +
-                                 " m long; needed: twice the width of grain \"" + body.grain->name + "\"" +
+                                 " m long; needed: twice the width of grain \"" + grain.kind->name + "\"" +
                                  (world_.scene().looks_ahead() ? " with its way in a step, " + std::to_string(width) + " m" : ""));
       }
       if (aabb[2 * axis + 1] - shift > period.upper()) sticks_out |= 1U << axis;
     }
-    dBodySetPosition(body.body, inside[0], inside[1], inside[2]);
-    Family& family = families_[world_.index_of(body)];
+    dBodySetPosition(grain.body, inside[0], inside[1], inside[2]);
+    Family& family = families_[world_.index_of(grain)];
     family.placed = {inside[0], inside[1], inside[2]};
     const bool changed = sticks_out != family.shown;
     family.shown = sticks_out;
     for (unsigned mask = 1; mask < kMasks; ++mask) {
       if (is_part_of(mask, sticks_out)) {
-        show(body, family, mask);
+        show(grain, family, mask);
       } else if (changed && family.images[mask]) {
         hide(*family.images[mask]);
       }
     }
-    if (changed) share_mass(body, family, 1U << static_cast<unsigned>(std::popcount(sticks_out)));
+    if (changed) share_mass(grain, family, 1U << static_cast<unsigned>(std::popcount(sticks_out)));
   }
 }
 
 void PeriodicCell::share_ways() {
-  for (const Body& each : world_.present()) {
+  for (const Grain& each : world_.present()) {
     const Family& family = families_[world_.index_of(each)];
     if (family.size == 1) continue;
     const auto place = [&](unsigned mask, std::size_t axis) { return family.placed[axis] - shift_along(mask, axis); };
@@ -189,14 +189,14 @@ void PeriodicCell::share_ways() {
 }
 
 void PeriodicCell::gather() {
-  for (const Body& each : world_.present()) {
+  for (const Grain& each : world_.present()) {
     const Family& family = families_[world_.index_of(each)];
     if (family.size == 1) continue;
     dBodyID grain = each.body;
     std::array<double, 3> position{};
     std::array<double, 3> velocity{};
     std::array<double, 3> spin{};
-    dQuaternion attitude{};
+    dQuaternion orientation{};
     for (unsigned mask = 0; mask < kMasks; ++mask) {
       if (!is_part_of(mask, family.shown)) continue;
       dBodyID body = mask == 0 ? grain : family.images[mask]->body;
@@ -205,12 +205,12 @@ void PeriodicCell::gather() {
         velocity[axis] += dBodyGetLinearVel(body)[axis] / family.size;
         spin[axis] += dBodyGetAngularVel(body)[axis] / family.size;
       }
-      for (unsigned k = 0; k < 4; ++k) attitude[k] += dBodyGetQuaternion(body)[k];
+      for (unsigned k = 0; k < 4; ++k) orientation[k] += dBodyGetQuaternion(body)[k];
     }
     dBodySetPosition(grain, position[0], position[1], position[2]);
     dBodySetLinearVel(grain, velocity[0], velocity[1], velocity[2]);
     dBodySetAngularVel(grain, spin[0], spin[1], spin[2]);
-    dBodySetQuaternion(grain, attitude);  // ODE normalizes it
+    dBodySetQuaternion(grain, orientation);  // ODE normalizes the quaternion
   }
 }
 
@@ -230,9 +230,9 @@ void PeriodicCell::set_lengths(const Point& lengths) {
 
 void PeriodicCell::scale(double factor) {
   for (std::optional<Period>& period : axes_) period->length *= factor;
-  for (const Body& body : world_.present()) {
-    const dReal* p = dBodyGetPosition(body.body);
-    dBodySetPosition(body.body, factor * p[0], factor * p[1], factor * p[2]);
+  for (const Grain& grain : world_.present()) {
+    const dReal* p = dBodyGetPosition(grain.body);
+    dBodySetPosition(grain.body, factor * p[0], factor * p[1], factor * p[2]);
   }
 }
 

@@ -13,14 +13,14 @@
 namespace falling_particles {
 
 class World;
-struct Body;
+struct Grain;
 
-/// Periodic boundaries for ODE, which has none. A grain that sticks out of the cell gets an image, a body and a geom of its own, at
-/// every place where it comes in again, up to seven of them. Grain and images share mass and inertia evenly and are tied to one
-/// velocity and one spin by six constraint rows without lever arms; so forces on an image act on the grain, in the same step. The
+/// Periodic boundaries for ODE, which has none. A grain that extends beyond the cell gets an image, a body with its own geoms, at
+/// every place where it re-enters the cell: up to seven. The grain and its images share mass and inertia evenly. Six constraint
+/// rows without lever arms give them equal velocities and spins, so that forces on an image act on the grain in the same step. The
 /// cell may be periodic along some axes only.
 ///
-/// A point of contact lies in the cell exactly once, whichever grains and images meet there: only contacts in the cell count.
+/// A contact point lies in the cell exactly once, whichever grains and images meet there. So only contacts in the cell count.
 class PeriodicCell {
  public:
   PeriodicCell(const World& world, const PeriodicAxes& axes);
@@ -29,30 +29,31 @@ class PeriodicCell {
   PeriodicCell& operator=(const PeriodicCell&) = delete;
 
   const PeriodicAxes& axes() const { return axes_; }
-  /// m, along x, y and z, as scale() has left them; 0 where the cell is not periodic.
+  /// m, along x, y and z, after scale(); 0 along axes that are not periodic.
   Point lengths() const;
   void set_lengths(const Point& lengths);
-  double side() const { return axes_[0]->length; }  ///< m, of a cell that is a cube
+  double side() const { return axes_[0]->length; }  ///< m, of a cubic cell
 
   bool contains(const dVector3 point) const;
   /// The image of the point in the cell.
   Point wrapped(const Point& point) const { return falling_particles::wrapped(axes_, point); }
 
-  /// Moves grains that have left into the cell, the lower ends of their bounding boxes that is, and sets up the images; call it
-  /// before collision. Throws std::runtime_error when the cell is below twice the width of a grain: a grain might meet itself.
+  /// Moves grains into the cell, such that the lower corners of their bounding boxes are in it, and places the images. Call it
+  /// before collision. Throws std::runtime_error when the cell is narrower than two widths of a grain, which could then meet
+  /// itself.
   void place_images();
-  /// Gives a grain and its images the way that one of them has gone since place_images(): that of the effects, which bring grains
-  /// to touch that will bounce. Call it before a step.
+  /// Gives a grain and its images the sum of their displacements since place_images(). These are displacements by effects, which
+  /// move bouncing grains into contact. Call it before a step.
   void share_ways();
-  /// Gives grains the mean motion of themselves and their images, between which the solver leaves a small difference; call it
-  /// after a step.
+  /// Gives each grain the mean motion of itself and its images, which the solver makes equal only approximately. Call it after a
+  /// step.
   void gather();
-  /// The world has a grain more.
+  /// Call it when the world has got one more grain.
   void add_last() { families_.emplace_back(); }
-  /// The world's grain of that index goes, and its images with it.
+  /// Removes the images of the world's grain `index`. Call it when the grain is removed.
   void remove(std::size_t index);
 
-  /// Scales the cell, a cube from the origin, and the centres of the grains in it, but not their sizes.
+  /// Scales a cubic cell about the origin, and the centres of the grains in it, but not their sizes.
   void scale(double factor);
 
  private:
@@ -63,23 +64,23 @@ class PeriodicCell {
   };
   double shift_along(unsigned mask, std::size_t axis) const;
 
-  static constexpr unsigned kMasks = 8;  // axes along which an image is shifted: bit 0 for x, 1 for y, 2 for z
+  static constexpr unsigned kMasks = 8;  // sets of axes along which an image is shifted: bit 0 for x, 1 for y, 2 for z
   struct Family {
-    std::array<std::optional<Image>, kMasks> images;  // [0], the grain itself, stays empty; made when first needed
-    unsigned shown = 0;                               // axes along which the grain sticks out
-    Point placed = {};                                // m, of the grain, by place_images()
-    unsigned size = 1;                                // number of the grain and its images that are in use
+    std::array<std::optional<Image>, kMasks> images;  // made when first needed; [0], the grain itself, stays empty
+    unsigned shown = 0;                               // axes along which the grain extends beyond the cell
+    Point placed = {};                                // m, position of the grain after place_images()
+    unsigned size = 1;                                // number of bodies in use: the grain and its images
   };
 
-  Image make_image(const Body& body) const;
-  void show(const Body& body, Family& family, unsigned mask);
+  Image make_image(const Grain& grain) const;
+  void show(const Grain& grain, Family& family, unsigned mask);
   static void hide(const Image& image);
   static void destroy(Family& family);
-  static void share_mass(const Body& body, Family& family, unsigned size);
+  static void share_mass(const Grain& grain, Family& family, unsigned size);
 
   const World& world_;
   PeriodicAxes axes_;
-  std::vector<Family> families_;  // in the order of the world's bodies
+  std::vector<Family> families_;  // in the order of the world's grains
 };
 
 }  // namespace falling_particles

@@ -8,18 +8,18 @@
 namespace falling_particles {
 namespace {
 
-/// The grains in random order, without their places.
+/// The grains in random order, not yet placed.
 std::vector<Placement> shuffled_grains(const Scene& scene, Random& random) {
   std::vector<Placement> grains;
-  for (std::size_t kind = 0; kind < scene.grains.size(); ++kind) {
-    const auto count = static_cast<std::size_t>(scene.grains[kind].count);
-    for (std::size_t i = 0; i < count; ++i) grains.push_back({kind, {}, {}, scene.grains[kind].scale(i)});
+  for (std::size_t kind = 0; kind < scene.kinds.size(); ++kind) {
+    const auto count = static_cast<std::size_t>(scene.kinds[kind].count);
+    for (std::size_t i = 0; i < count; ++i) grains.push_back({kind, {}, {}, scene.kinds[kind].scale(i)});
   }
   for (std::size_t i = grains.size(); i > 1; --i) std::swap(grains[i - 1], grains[random.below(i)]);  // Fisher-Yates
   return grains;
 }
 
-/// Scatters grains like the points of an ideal gas: they overlap, and are pushed apart in the first steps.
+/// Scatters grains like the points of an ideal gas. They overlap; the first steps push them apart.
 std::vector<Placement> scatter(const Scene& scene, double side, Random& random) {
   std::vector<Placement> placements = shuffled_grains(scene, random);
   for (Placement& placement : placements) {
@@ -35,10 +35,10 @@ std::vector<Placement> place(const Scene& scene, Random& random) {
   if (const Periodic* periodic = std::get_if<Periodic>(&scene.container)) return scatter(scene, periodic->side, random);
   Lattice lattice(scene);
   std::vector<double> radii;  // m, by kind
-  for (const GrainCount& kind : scene.grains) radii.push_back(kind.grain.bounding_radius());
+  for (const GrainCount& entry : scene.kinds) radii.push_back(entry.kind.bounding_radius());
   std::vector<Placement> placements = shuffled_grains(scene, random);
   for (Placement& placement : placements) {
-    // A grain may stand anywhere in its cell as long as its own bounding sphere is inside.
+    // A grain may be anywhere in its cell where its own bounding sphere is inside.
     const double own_radius = placement.scale * radii[placement.kind];
     const Lattice::Cell cell = lattice.next(own_radius);
     placement.position = lattice.corner();

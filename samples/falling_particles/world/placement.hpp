@@ -1,4 +1,4 @@
-// Start positions of the grains.
+// Start positions and orientations of the grains.
 #pragma once
 
 #include <array>
@@ -11,14 +11,15 @@
 namespace falling_particles {
 
 struct Placement {
-  std::size_t kind;                  ///< index into Scene::grains
+  std::size_t kind;                  ///< index into Scene::kinds
   Point position;                    ///< m
   std::array<double, 4> quaternion;  ///< w, x, y, z
-  double scale = 1;                  ///< of the grain's lengths
+  double scale = 1;                  ///< factor on the grain's lengths
 };
 
-/// Places every grain: kinds are shuffled, layer upon layer on a jittered lattice, with random attitudes. No two touch, nor does
-/// any touch a wall: each stays within its own cell. In a periodic container grains are placed anywhere and may overlap.
+/// Places every grain with a random orientation, layer upon layer on a jittered lattice, with the kinds shuffled. Each grain stays
+/// within its own cell, so no grain touches another one or a wall. In a periodic container grains are placed anywhere and may
+/// overlap.
 std::vector<Placement> place(const Scene& scene, Random& random);
 
 }  // namespace falling_particles

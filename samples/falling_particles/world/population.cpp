@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "body_energy.hpp"
+#include "grain_energy.hpp"
 
 namespace falling_particles {
 namespace {
 
 Amount present_in(const World& world) {
   Amount amount;
-  for (const Body& body : world.present()) amount.add(body.mass.mass);
+  for (const Grain& grain : world.present()) amount.add(grain.mass.mass);
   return amount;
 }
 
@@ -18,7 +18,7 @@ Amount present_in(const World& world) {
 Population::Population(World& world, const Scene& scene)
     : world_(world),
       scene_(scene),
-      taken_(scene.sinks.size(), std::vector<Amount>(scene.grains.size())),
+      taken_(scene.sinks.size(), std::vector<Amount>(scene.kinds.size())),
       at_start_(present_in(world)) {
   for (const Feeder& feeder : scene.feeders) feeders_.emplace_back(feeder, world, scene.seed, feeders_.size());
 }
@@ -29,13 +29,13 @@ double Population::take() {
   double energy = 0;
   if (scene_.sinks.empty()) return energy;
   std::vector<std::size_t> inside;
-  for (const Body& body : world_.present()) {
-    const auto contains = [&](const Sink& sink) { return sink.contains(world_.place_of(body)); };
+  for (const Grain& grain : world_.present()) {
+    const auto contains = [&](const Sink& sink) { return sink.contains(world_.place_of(grain)); };
     const auto sink = std::ranges::find_if(scene_.sinks, contains);
     if (sink == scene_.sinks.end()) continue;
-    energy -= energy_of(body, scene_);
-    taken_[static_cast<std::size_t>(sink - scene_.sinks.begin())][scene_.kind_of(*body.grain)].add(body.mass.mass);
-    inside.push_back(world_.index_of(body));
+    energy -= energy_of(grain, scene_);
+    taken_[static_cast<std::size_t>(sink - scene_.sinks.begin())][scene_.kind_of(*grain.kind)].add(grain.mass.mass);
+    inside.push_back(world_.index_of(grain));
   }
   for (const std::size_t index : inside) world_.remove(index);
   return energy;
@@ -46,7 +46,7 @@ double Population::feed(double end) {
   if (feeders_.empty()) return energy;
   if (PeriodicCell* cell = world_.cell()) cell->place_images();
   for (Feeding& feeding : feeders_) {
-    for (const std::size_t index : feeding.feed(end)) energy += energy_of(world_.bodies()[index], scene_);
+    for (const std::size_t index : feeding.feed(end)) energy += energy_of(world_.grains()[index], scene_);
   }
   return energy;
 }

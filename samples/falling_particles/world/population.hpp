@@ -1,4 +1,4 @@
-// The grains of a world that come and go.
+// The insertion and removal of grains during a run.
 #pragma once
 
 #include <deque>
@@ -10,25 +10,25 @@
 
 namespace falling_particles {
 
-/// Lets feeders and sinks do their work between the steps, and keeps account of it.
+/// Runs feeders and sinks between the steps, and counts their grains.
 class Population {
  public:
-  /// Both must outlive this object. The world holds the grains of the start.
+  /// Both must outlive this object. The world must hold exactly the grains of the start.
   Population(World& world, const Scene& scene);
 
-  /// Takes away the grains that are in sinks after the last step, the first sink of the scene first; then feeds what is due until
-  /// `end` (s), when the next step ends. Returns the energy (J) of the grains that have come, less that of those that have gone.
+  /// Removes the grains that are in sinks after the last step, the scene's first sink first. Then inserts the grains that are due
+  /// until `end` (s), when the next step ends. Returns the energy (J) of the inserted grains minus the energy of the removed ones.
   double before_step(double end);
 
   const std::deque<Feeding>& feeders() const { return feeders_; }
-  /// What a sink has taken so far, by Scene::grains.
+  /// The amounts that a sink has removed so far, by Scene::kinds.
   const std::vector<Amount>& taken(std::size_t sink) const { return taken_[sink]; }
   const Amount& at_start() const { return at_start_; }
   Amount fed() const;
   Amount taken() const;
   Amount present() const;
 
-  /// What the feeders remember, and the account, into an object of the same scene.
+  /// Saves or restores the states of the feeders and the amounts, for an object of the same scene.
   template <typename Archive>
   void serialize(Archive& archive) {
     for (Feeding& feeding : feeders_) archive(feeding);

@@ -18,7 +18,7 @@ QueryDefaults::QueryDefaults(const std::optional<Query>& query) : are_changed_(q
 }
 
 QueryDefaults::~QueryDefaults() {
-  if (are_changed_) set({});  // these are never refused
+  if (are_changed_) set({});  // the defaults are never refused
 }
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-// The library's defaults for the time of a world.
+// The library's query defaults during the lifetime of a world.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace falling_particles {
 
-/// Sets the defaults of the library, which are the process', to those of a scene, and back to the library's own at the end. Without
-/// a section [query] it does nothing. Throws std::runtime_error when the library refuses them.
+/// Sets the library's defaults, which hold for the process, to the scene's, and resets them at the end of its lifetime. Without a
+/// section [query] it does nothing. Throws std::runtime_error when the library refuses the values.
 class QueryDefaults {
  public:
   explicit QueryDefaults(const std::optional<Query>& query);

@@ -1,4 +1,4 @@
-// Steps of a simulation.
+// The steps of a simulation.
 #pragma once
 
 #include <ode/ode.h>
@@ -18,8 +18,8 @@ namespace falling_particles {
 /// The time and the amount of work of all steps.
 struct StepCosts {
   Stopwatch collision;      ///< broad and narrow phase
-  Stopwatch broad_phase;    ///< bounding boxes and pairs, within collision
-  Stopwatch contact_setup;  ///< effects' passes, contact joints made and removed
+  Stopwatch broad_phase;    ///< bounding boxes and pairs; part of collision
+  Stopwatch contact_setup;  ///< passes of the effects, creation and removal of contact joints
   Stopwatch solver;         ///< dWorldQuickStep
   unsigned long long pairs_tested = 0;
   unsigned long long contacts = 0;
@@ -30,16 +30,16 @@ struct StepCosts {
   }
 };
 
-/// Advances a world: find contacts, turn them into constraints, step.
+/// Advances a world by steps. A step finds contacts, makes them constraints, and integrates.
 class Stepper {
  public:
-  /// `threads`, in [1, 256], look for contacts; 0: as many as the machine has. The motion is the same with any number.
+  /// `threads`, in [1, 256], find contacts; 0: as many as the machine has. The motion does not depend on their number.
   Stepper(const World& world, const Scene& scene, int threads = 1);
   ~Stepper();
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
-  /// If `measures`, measured_contacts() tells the forces of this step; the motion is the same.
+  /// If `measures`, measured_contacts() has the forces of this step. The motion is the same.
   void step(bool measures = false);
 
   std::size_t contacts() const { return contacts_.size(); }                     ///< number of contacts in the last step
@@ -49,7 +49,7 @@ class Stepper {
   double deepest_contact() const { return deepest_contact_; }  ///< m, over all steps
   const StepCosts& costs() const { return costs_; }
 
-  /// What the steps so far have left, but for the contacts of the last one.
+  /// Saves or restores the results of the steps so far, but not the contacts of the last one.
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(deepest_contact_, costs_);

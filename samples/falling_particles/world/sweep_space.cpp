@@ -7,10 +7,10 @@
 namespace falling_particles {
 namespace {
 
-// Choosing takes less time than a sweep, and a bed takes hundreds of steps to change its shape.
+// Choosing an axis takes less time than a sweep, and a bed takes hundreds of steps to change its shape.
 constexpr int kStepsBetweenChoices = 50;
-// The variance along the other axis must be larger by this factor: it then spares a third of the tests, and beds as wide as long
-// keep their axis.
+// The variance along the other axis must be larger by this factor. A change then saves a third of the tests, and square beds keep
+// their axis.
 constexpr double kWorthAMove = 2;
 
 constexpr unsigned long kMarkerBit = 1UL << 31U;
@@ -18,12 +18,12 @@ constexpr unsigned long kMarkerBit = 1UL << 31U;
 std::size_t index_of(Axis axis) { return static_cast<std::size_t>(axis); }
 
 dSpaceID create_space(const std::array<Axis, 3>& order) {
-  // The order is composed in the way of dSAP_AXES_XYZ and its permutations.
+  // The order is encoded as in dSAP_AXES_XYZ and its permutations.
   return dSweepAndPruneSpaceCreate(nullptr,
                                    static_cast<int>(index_of(order[0]) | index_of(order[1]) << 2U | index_of(order[2]) << 4U));
 }
 
-/// Creates a plane that meets nothing but its twin.
+/// Creates a plane that collides only with its twin.
 dGeomID create_marker(dSpaceID space) {
   dGeomID plane = dCreatePlane(space, 0.6, 0, 0.8, 0);
   dGeomSetCategoryBits(plane, kMarkerBit);
@@ -67,7 +67,7 @@ std::array<double, 3> variances(dSpaceID space) {
 SweepSpace::SweepSpace(std::optional<Axis> axis) : fixed_(axis), order_{Axis::X, Axis::Y, Axis::Z} {
   if (fixed_) std::swap(order_[0], order_[index_of(*fixed_)]);
   space_ = create_space(order_);
-  // Planes that are not along an axis have no bounding box, and ODE names such pairs after the sweep.
+  // Planes that are not parallel to an axis have no bounding box. ODE names such pairs after the sweep.
   for (dGeomID& marker : markers_) marker = create_marker(space_);
 }
 

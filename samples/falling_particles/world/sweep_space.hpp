@@ -1,4 +1,4 @@
-// ODE's sweep-and-prune space with a changing axis.
+// ODE's sweep-and-prune space with an axis that is chosen at run time.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,29 +10,29 @@
 
 namespace falling_particles {
 
-/// ODE's sweep-and-prune space along the axis that suits the positions of the bodies. A sweep tests every pair of bounding boxes
-/// that overlap along its axis. For N bodies spread over a length L these are about N^2 d / L, with d their diameter, so the axis
-/// of the largest spread is the best (Ericson 2005, section 7.5.1). Grains that wait to fall form a tower, and settle to a bed
-/// that is wider than high: so the axis is chosen again during a run, from their positions alone.
+/// ODE's sweep-and-prune space along the best axis for the positions of the bodies. A sweep tests every pair of bounding boxes that
+/// overlap along its axis. For N bodies of diameter d over a length L these are about N^2 d / L, so the axis of the largest spread
+/// is the best (Ericson 2005, section 7.5.1). Grains at the start form a tower and later settle to a wide bed, so the axis is
+/// chosen again during a run, from the positions alone.
 ///
-/// It is for bodies with finite bounding boxes. Others belong outside: ODE would pair them with every other geom.
+/// All bodies must have finite bounding boxes: ODE pairs others with every geom.
 class SweepSpace {
  public:
-  /// Always sweeps along `axis`, if there is one.
+  /// Sweeps along `axis`, if it is given, in all steps.
   explicit SweepSpace(std::optional<Axis> axis);
   ~SweepSpace();
   SweepSpace(const SweepSpace&) = delete;
   SweepSpace& operator=(const SweepSpace&) = delete;
 
-  dSpaceID id() const { return space_; }  ///< valid until the axis is chosen again
+  dSpaceID id() const { return space_; }  ///< valid until the axis changes
   Axis axis() const { return order_[0]; }
 
-  /// Chooses the axis in the first step and again now and then; call it before a step.
+  /// Chooses the axis in the first step and again at intervals. Call it before a step.
   void before_step();
 
-  /// Calls visit(geom) for all geoms but the marks.
+  /// Calls visit(geom) for all geoms but the end markers.
   template <typename Visit>
-  void for_each_body(const Visit& visit) const {
+  void for_each_geom(const Visit& visit) const {
     const int count = dSpaceGetNumGeoms(space_);
     for (int i = 0; i < count; ++i) {
       const dGeomID geom = dSpaceGetGeom(space_, i);
@@ -40,7 +40,7 @@ class SweepSpace {
     }
   }
 
-  /// In the near callback of dSpaceCollide: whether this is no pair of bodies, but the mark after the last one.
+  /// For the near callback of dSpaceCollide: whether the pair is no pair of bodies but has an end marker.
   bool is_end_marker(dGeomID geom) const { return geom == markers_[0] || geom == markers_[1]; }
 
  private:

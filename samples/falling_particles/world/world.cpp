@@ -22,7 +22,7 @@ struct PairCallback {
 
 Point to_point(const dReal* v) { return {v[0], v[1], v[2]}; }
 
-/// Bodies stay where they are in memory, so the list has room for all from the start.
+/// The capacity for all grains of a run: grains must not move in memory.
 std::size_t capacity(const Scene& scene, std::size_t at_start) {
   return static_cast<std::size_t>(static_cast<double>(at_start) + most_fed(scene));
 }
@@ -34,19 +34,19 @@ void call_for_pair(void* to, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-std::vector<dGeomID> Body::geoms() const {
+std::vector<dGeomID> Grain::geoms() const {
   std::vector<dGeomID> all;
-  all.reserve(grain->parts.size() + 1);
-  // ODE keeps the last one first.
+  all.reserve(kind->components.size() + 1);
+  // ODE lists the last geom first.
   for (dGeomID each = dBodyGetFirstGeom(body); each != nullptr; each = dBodyGetNextGeom(each)) all.push_back(each);
   std::ranges::reverse(all);
   return all;
 }
 
-std::array<dReal, 6> Body::aabb() const {
+std::array<dReal, 6> Grain::aabb() const {
   std::array<dReal, 6> box{};
   dGeomGetAABB(geom, box.data());
-  if (grain->parts.empty()) return box;
+  if (kind->components.empty()) return box;
   for (const dGeomID each : geoms()) {
     std::array<dReal, 6> other{};
     dGeomGetAABB(each, other.data());
@@ -58,19 +58,19 @@ std::array<dReal, 6> Body::aabb() const {
   return box;
 }
 
-dGeomID create_geom(dSpaceID space, const GrainBody& body, double scale) {
+dGeomID create_geom(dSpaceID space, const ConvexBody& body, double scale) {
   const std::array<double, 3> half_axes = body.core_half_axes();
   const auto [a, b, c] = std::array{scale * half_axes[0], scale * half_axes[1], scale * half_axes[2]};
   dGeomID geom = nullptr;
   switch (body.shape) {
-    case GrainBody::Shape::Superellipsoid:
+    case ConvexBody::Shape::Superellipsoid:
       geom = body.delta == 2 && body.epsilon == 2 ? snCreateEllipsoid(space, a, b, c)
                                                   : snCreateSuperellipsoid(space, a, b, c, body.delta, body.epsilon);
       break;
-    case GrainBody::Shape::Superovoid:
+    case ConvexBody::Shape::Superovoid:
       geom = snCreateSuperovoid(space, a, b, c, body.delta, body.epsilon, body.taper[0], body.taper[1]);
       break;
-    case GrainBody::Shape::Capsule:
+    case ConvexBody::Shape::Capsule:
       geom = snCreateCapsule(space, a, 2 * (c - a));
       break;
   }
@@ -80,9 +80,9 @@ dGeomID create_geom(dSpaceID space, const GrainBody& body, double scale) {
   return geom;
 }
 
-dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID body, void* data) {
-  const auto create = [&](const GrainBody& part) {
-    dGeomID geom = create_geom(space, part, scale);
+dGeomID attach_geoms(dSpaceID space, const GrainKind& kind, double scale, dBodyID body, void* data) {
+  const auto create = [&](const ConvexBody& shape) {
+    dGeomID geom = create_geom(space, shape, scale);
     dGeomSetBody(geom, body);
     dGeomSetData(geom, data);
     dGeomSetCategoryBits(geom, kGrainBit);
@@ -90,12 +90,12 @@ dGeomID attach_geoms(dSpaceID space, const Grain& grain, double scale, dBodyID b
     return geom;
   };
   dGeomID first = nullptr;
-  for (const GrainPart& part : grain.all_parts()) {
-    dGeomID geom = create(part.body);
+  for (const Component& component : kind.all_components()) {
+    dGeomID geom = create(component.body);
     if (first == nullptr) first = geom;
-    if (grain.parts.empty()) break;  // without an offset, which would cost time in every step
-    const auto [x, y, z] = part.position;
-    const auto [qw, qx, qy, qz] = part.quaternion;
+    if (kind.components.empty()) break;  // without an offset, which costs time in every step
+    const auto [x, y, z] = component.position;
+    const auto [qw, qx, qy, qz] = component.quaternion;
     const dQuaternion q = {qw, qx, qy, qz};
     dGeomSetOffsetPosition(geom, scale * x, scale * y, scale * z);
     dGeomSetOffsetQuaternion(geom, q);
@@ -111,16 +111,16 @@ void put(dBodyID body, const Placement& place) {
   dBodySetQuaternion(body, q);
 }
 
-dMass mass_of(const Body& body) {
+dMass mass_of(const Grain& grain) {
   dMass mass;
-  if (const auto& compound = body.grain->compound_mass) {
-    const double volume = std::pow(body.scale, 3);
-    const double second_moment = std::pow(body.scale, 5);
+  if (const auto& compound = grain.kind->compound_mass) {
+    const double volume = std::pow(grain.scale, 3);
+    const double second_moment = std::pow(grain.scale, 5);
     const auto& I = compound->inertia;
     dMassSetParameters(&mass, volume * compound->mass, 0, 0, 0, second_moment * I[0][0], second_moment * I[1][1],
                        second_moment * I[2][2], second_moment * I[0][1], second_moment * I[0][2], second_moment * I[1][2]);
-  } else if (snMassSet(&mass, body.grain->density, body.geom) == 0) {
-    throw std::runtime_error("mass of grain \"" + body.grain->name + "\" was refused: " + snLastError());
+  } else if (snMassSet(&mass, grain.kind->density, grain.geom) == 0) {
+    throw std::runtime_error("mass of grain \"" + grain.kind->name + "\" was refused: " + snLastError());
   }
   return mass;
 }
@@ -130,28 +130,28 @@ World::World(const Scene& scene) : scene_(scene), query_defaults_(scene.query) {
   dAllocateODEDataForThread(dAllocateFlagBasicData | dAllocateFlagCollisionData);
   world_ = dWorldCreate();
   sweep_ = std::make_unique<SweepSpace>(scene.sweep_axis);
-  // Quickstep shuffles its constraints with ODE's global generator.
+  // Quickstep shuffles its constraints with ODE's global random generator.
   dRandSetSeed(static_cast<unsigned long>(scene.seed & 0xffffffffU));
   set_parameters(scene);
-  // The walls are in no space: ODE pairs geoms without an upper end with all others, whatever their bounding boxes. Each wall is
-  // compared with the grains instead, at the cost of the comparison of their boxes.
-  walls_.emplace(nullptr, scene.container, kWallBit, kGrainBit, scene.periodic);
-  if (!scene.parts.empty()) parts_ = std::make_unique<PartBodies>(world_, scene.parts, scene.time.step, kWallBit, kGrainBit);
+  // The walls are in no space. ODE pairs geoms of infinite height with all others, whatever their bounding boxes. Instead each wall
+  // is tested against the grains, at the cost of comparing bounding boxes.
+  container_geoms_.emplace(nullptr, scene.container, kWallBit, kGrainBit, scene.periodic);
+  if (!scene.walls.empty()) walls_ = std::make_unique<WallBodies>(world_, scene.walls, scene.time.step, kWallBit, kGrainBit);
 }
 
 World::World(const Scene& scene, const std::vector<Placement>& placements) : World(scene) {
-  bodies_.reserve(capacity(scene, placements.size()));
-  for (const Placement& placement : placements) add_body(placement);
+  grains_.reserve(capacity(scene, placements.size()));
+  for (const Placement& placement : placements) add_grain(placement);
   add_cell();
 }
 
 World::World(const Scene& scene, GoOn /*how*/, const WorldState& state) : World(scene) {
-  bodies_.reserve(capacity(scene, static_cast<std::size_t>(scene.bodies())));
-  for (const SavedBody& saved : state.bodies) restore(saved);
+  grains_.reserve(capacity(scene, static_cast<std::size_t>(scene.grains_at_start())));
+  for (const SavedGrain& saved : state.grains) restore(saved);
   add_cell();
   if (cell_ != nullptr) cell_->set_lengths(state.periods);
-  if (parts_ != nullptr) parts_->restore(state.parts);
-  if (walls_->has_lid() && !state.has_lid) walls_->open_outlet();
+  if (walls_ != nullptr) walls_->restore(state.walls);
+  if (container_geoms_->has_lid() && !state.has_lid) container_geoms_->open_outlet();
   dRandSetSeed(static_cast<unsigned long>(state.seed));
 }
 
@@ -163,8 +163,8 @@ void World::add_cell() {
 
 World::~World() {
   cell_.reset();
-  parts_.reset();
   walls_.reset();
+  container_geoms_.reset();
   sweep_.reset();
   dWorldDestroy(world_);
   snClose();
@@ -172,12 +172,12 @@ World::~World() {
 }
 
 void World::name_wall_pairs(void* data, dNearCallback* callback) const {
-  for (dGeomID wall : walls_->geoms()) {
+  for (dGeomID wall : container_geoms_->geoms()) {
     // A space is a geom to ODE.
     dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
   }
-  if (parts_ == nullptr) return;
-  for (dGeomID part : parts_->geoms()) dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), part, data, callback);
+  if (walls_ == nullptr) return;
+  for (dGeomID wall : walls_->geoms()) dSpaceCollide2(reinterpret_cast<dGeomID>(sweep_->id()), wall, data, callback);
 }
 
 void World::name_pairs(void* data, dNearCallback* callback) const {
@@ -190,21 +190,21 @@ void World::set_parameters(const Scene& scene) {
   dWorldSetQuickStepNumIterations(world_, scene.solver.iterations);
   dWorldSetERP(world_, scene.solver.erp);
   dWorldSetCFM(world_, scene.solver.cfm);
-  // The effects come before the bodies, which take some settings from the world.
+  // The effects must precede the bodies, which inherit some settings from the world.
   effects_ = std::make_unique<supernormal::effects::Effects>(scene.effects, scene.time.step);
   effects_->set_up(world_);
 }
 
 std::size_t World::insert(const Placement& placement, const Point& velocity) {
-  if (bodies_.size() == bodies_.capacity()) throw std::logic_error("feeders bring more grains than they may");
-  add_body(placement);
-  dBodySetLinearVel(bodies_.back().body, velocity[0], velocity[1], velocity[2]);
+  if (grains_.size() == grains_.capacity()) throw std::logic_error("feeders bring more grains than they may");
+  add_grain(placement);
+  dBodySetLinearVel(grains_.back().body, velocity[0], velocity[1], velocity[2]);
   if (cell_ != nullptr) cell_->add_last();
-  return bodies_.size() - 1;
+  return grains_.size() - 1;
 }
 
 void World::remove(std::size_t index) {
-  Body& entry = bodies_[index];
+  Grain& entry = grains_[index];
   if (cell_ != nullptr) cell_->remove(index);
   effects_->remove_body(entry.body);
   std::ranges::for_each(entry.geoms(), dGeomDestroy);
@@ -214,12 +214,12 @@ void World::remove(std::size_t index) {
   present_.erase(std::ranges::lower_bound(present_, index));
 }
 
-void World::add_body(const Placement& placement) {
-  const Grain& grain = scene_.grains[placement.kind].grain;
-  present_.push_back(bodies_.size());
-  // bodies_ is reserved: entries stay where they are, and geoms point to them.
-  Body& entry = bodies_.emplace_back(Body{dBodyCreate(world_), nullptr, &grain, {}, placement.scale});
-  entry.geom = attach_geoms(sweep_->id(), grain, entry.scale, entry.body, &entry);
+void World::add_grain(const Placement& placement) {
+  const GrainKind& kind = scene_.kinds[placement.kind].kind;
+  present_.push_back(grains_.size());
+  // The capacity is reserved: grains do not move, and geoms point to them.
+  Grain& entry = grains_.emplace_back(Grain{dBodyCreate(world_), nullptr, &kind, {}, placement.scale});
+  entry.geom = attach_geoms(sweep_->id(), kind, entry.scale, entry.body, &entry);
   entry.mass = mass_of(entry);
   dBodySetMass(entry.body, &entry.mass);
   put(entry.body, placement);
@@ -229,35 +229,35 @@ void World::add_body(const Placement& placement) {
 WorldState World::save() const {
   WorldState state;
   state.seed = dRandGetSeed();
-  state.has_lid = walls_->has_lid();
+  state.has_lid = container_geoms_->has_lid();
   if (cell_ != nullptr) state.periods = cell_->lengths();
-  if (parts_ != nullptr) state.parts = parts_->save();
-  state.bodies.reserve(bodies_.size());
-  for (const Body& body : bodies_) {
-    SavedBody& saved = state.bodies.emplace_back();
-    saved.kind = scene_.kind_of(*body.grain);
-    saved.scale = body.scale;
-    saved.mass = body.mass.mass;
-    saved.is_present = body.is_present();
-    if (!body.is_present()) continue;
-    saved.is_awake = dBodyIsEnabled(body.body) != 0;
-    saved.position = body.position();
-    saved.quaternion = body.quaternion();
-    saved.velocity = to_point(dBodyGetLinearVel(body.body));
-    saved.angular_velocity = to_point(dBodyGetAngularVel(body.body));
+  if (walls_ != nullptr) state.walls = walls_->save();
+  state.grains.reserve(grains_.size());
+  for (const Grain& grain : grains_) {
+    SavedGrain& saved = state.grains.emplace_back();
+    saved.kind = scene_.kind_of(*grain.kind);
+    saved.scale = grain.scale;
+    saved.mass = grain.mass.mass;
+    saved.is_present = grain.is_present();
+    if (!grain.is_present()) continue;
+    saved.is_awake = dBodyIsEnabled(grain.body) != 0;
+    saved.position = grain.position();
+    saved.quaternion = grain.quaternion();
+    saved.velocity = to_point(dBodyGetLinearVel(grain.body));
+    saved.angular_velocity = to_point(dBodyGetAngularVel(grain.body));
   }
   return state;
 }
 
-void World::restore(const SavedBody& saved) {
+void World::restore(const SavedGrain& saved) {
   const auto kind = static_cast<std::size_t>(saved.kind);
   if (!saved.is_present) {
-    Body& gone = bodies_.emplace_back(Body{nullptr, nullptr, &scene_.grains[kind].grain, {}, saved.scale});
+    Grain& gone = grains_.emplace_back(Grain{nullptr, nullptr, &scene_.kinds[kind].kind, {}, saved.scale});
     gone.mass.mass = saved.mass;
     return;
   }
-  add_body({kind, saved.position, saved.quaternion, saved.scale});
-  dBodyID body = bodies_.back().body;
+  add_grain({kind, saved.position, saved.quaternion, saved.scale});
+  dBodyID body = grains_.back().body;
   dBodySetLinearVel(body, saved.velocity[0], saved.velocity[1], saved.velocity[2]);
   dBodySetAngularVel(body, saved.angular_velocity[0], saved.angular_velocity[1], saved.angular_velocity[2]);
   if (!saved.is_awake) dBodyDisable(body);

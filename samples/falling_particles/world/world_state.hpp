@@ -1,4 +1,4 @@
-// What a world is between two steps.
+// The state of a world between two steps.
 #pragma once
 
 #include <array>
@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "model/geometry.hpp"
-#include "part_bodies.hpp"
+#include "wall_bodies.hpp"
 
 namespace falling_particles {
 
-/// A grain, or what is left of one that is gone.
-struct SavedBody {
-  std::uint64_t kind = 0;  ///< index into Scene::grains
+/// A present grain, or the data of a removed one.
+struct SavedGrain {
+  std::uint64_t kind = 0;  ///< index into Scene::kinds
   double scale = 1;        ///< of the grain's lengths
   double mass = 0;         ///< kg
   bool is_present = true;
@@ -29,15 +29,15 @@ struct SavedBody {
 };
 
 struct WorldState {
-  std::uint64_t seed = 0;         ///< of ODE's random numbers
-  std::vector<SavedBody> bodies;  ///< all that there have been so far
-  bool has_lid = false;           ///< on a hopper's outlet
-  Point periods = {};             ///< m, of the cell along x, y and z; 0 where there is none
-  PartsState parts;
+  std::uint64_t seed = 0;          ///< of ODE's random numbers
+  std::vector<SavedGrain> grains;  ///< all grains so far
+  bool has_lid = false;            ///< whether a hopper's outlet has its lid
+  Point periods = {};              ///< m, of the cell along x, y and z; 0 along axes that are not periodic
+  WallsState walls;
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(seed, bodies, has_lid, periods, parts);
+    archive(seed, grains, has_lid, periods, walls);
   }
 };
 

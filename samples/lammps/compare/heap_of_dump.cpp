@@ -32,9 +32,9 @@ Placement read_grain(const std::string& line, const Scene& scene, int& id) {
   for (double& x : grain.position) words >> x;
   for (double& diameter : diameters) words >> diameter;
   for (const std::size_t k : {1, 2, 3, 0}) words >> grain.quaternion.at(k);
-  if (!words || type < 1 || type > scene.grains.size()) throw std::runtime_error("no line of a grain of the scene: " + line);
+  if (!words || type < 1 || type > scene.kinds.size()) throw std::runtime_error("no line of a grain of the scene: " + line);
   grain.kind = type - 1;
-  grain.scale = diameters[0] / 2 / scene.grains[grain.kind].grain.half_axes[0];
+  grain.scale = diameters[0] / 2 / scene.kinds[grain.kind].kind.half_axes[0];
   return grain;
 }
 

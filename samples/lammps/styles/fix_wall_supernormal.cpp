@@ -53,14 +53,14 @@ void FixWallSupernormal::setup(int vflag) {
 
 Body FixWallSupernormal::wall_body(double step) const {
   using namespace falling_particles;
-  const PartPose start{command_.anchor, Eigen::Quaterniond::Identity()};
+  const WallPose start{command_.anchor, Eigen::Quaterniond::Identity()};
   const double time = clock_.now(), before = time - step, after = time + step;
-  const PartPose now = pose_at(start, command_.motions, time);
+  const WallPose now = pose_at(start, command_.motions, time);
   // Springs grow by the velocity at this moment, as for the particles. The mean velocity of the steps before and after it adds up
   // to the displacement of the wall. In a rotation it has no radial component, unlike the mean of a single step.
-  const PartVelocity moved =
+  const WallVelocity moved =
       mean_velocity(pose_at(start, command_.motions, before), pose_at(start, command_.motions, after), after - before);
-  const PartVelocity belt = conveyor_velocity(start, now, command_.motions, before, after);
+  const WallVelocity belt = conveyor_velocity(start, now, command_.motions, before, after);
   Body body;
   body.pose = {now.position, now.rotation.toRotationMatrix()};
   body.velocity = moved.linear + belt.linear;

@@ -52,7 +52,7 @@ void read_shape(Words& words, WallCommand& command) {
   }
 }
 
-falling_particles::PartMotion read_motion(Words& words) {
+falling_particles::WallMotion read_motion(Words& words) {
   const std::string kind = words.next("move");
   if (kind == "linear") return {falling_particles::Translation{words.vector(kind)}};
   if (kind == "conveyor") return {falling_particles::Conveyor{words.vector(kind), {Vector3::UnitZ(), Vector3::Zero(), 0}}};

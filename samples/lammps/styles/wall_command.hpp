@@ -16,7 +16,7 @@ struct WallCommand {
   std::unique_ptr<Wall> wall;
   Vector3 anchor = Vector3::Zero();  ///< m; initial origin of the wall's frame
   ContactMaterial material;
-  std::vector<falling_particles::PartMotion> motions;
+  std::vector<falling_particles::WallMotion> motions;
 };
 
 /// Parses

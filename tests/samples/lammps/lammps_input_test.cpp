@@ -14,7 +14,12 @@
 #include "base/random.hpp"
 #include "support/relative.hpp"
 
-using namespace falling_particles;
+using falling_particles::Hopper;
+using falling_particles::InputError;
+using falling_particles::LammpsInput;
+using falling_particles::load_scene;
+using falling_particles::Mesh;
+using falling_particles::Scene;
 using supernormal::test::relative;
 
 namespace {
@@ -54,12 +59,12 @@ TEST_CASE("to LAMMPS: a box of grains, with their masses, and springs that give 
   // LAMMPS makes the mass of the volume of the ellipsoid.
   std::istringstream data(input.data.substr(input.data.find("ellipsoid\n\n", input.data.find("Atoms")) + 11));
   double lightest = INFINITY, heaviest = 0, top = 0;
-  for (int i = 0; i < scene.bodies(); ++i) {
+  for (int i = 0; i < scene.grains_at_start(); ++i) {
     int id = 0, type = 0, is_ellipsoid = 0;
     double density = 0, x = 0, y = 0, z = 0;
     data >> id >> type >> is_ellipsoid >> density >> x >> y >> z;
     REQUIRE(id == i + 1);
-    const auto& axes = scene.grains.at(static_cast<std::size_t>(type - 1)).grain.half_axes;
+    const auto& axes = scene.kinds.at(static_cast<std::size_t>(type - 1)).kind.half_axes;
     const double mass = density * 4 / 3 * std::numbers::pi * axes[0] * axes[1] * axes[2];
     lightest = std::min(lightest, mass);
     heaviest = std::max(heaviest, mass);

@@ -17,9 +17,9 @@ namespace {
 constexpr double kDepth = 0.02 * kSmallestHalfAxis;  // m
 constexpr std::array kColliders = {ColliderClass::Plane, ColliderClass::Box, ColliderClass::Capsule, ColliderClass::Trimesh};
 
-const falling_particles::Grain& body() {
-  static const falling_particles::Grain grain{"body", {0.5, 0.4, kSmallestHalfAxis}, 4, 4, 0, 1000, "ode_bodies.cpp"};
-  return grain;
+const falling_particles::GrainKind& body() {
+  static const falling_particles::GrainKind kind{"body", {0.5, 0.4, kSmallestHalfAxis}, 4, 4, 0, 1000, "ode_bodies.cpp"};
+  return kind;
 }
 
 /// The name without the number of triangles.

@@ -10,33 +10,33 @@
 namespace accuracy_cost {
 namespace {
 
-using falling_particles::Grain;
+using falling_particles::GrainKind;
 
 constexpr int kMostEvaluations = 1000;  // default of the library
 
-Mesh grain_mesh(const Grain& grain, MeshSize size) {
-  const auto [a, b, c] = grain.half_axes;
-  const double r = grain.rounding;
-  return superellipsoid_mesh({a - r, b - r, c - r}, grain.delta, grain.epsilon, r, size);
+Mesh grain_mesh(const GrainKind& kind, MeshSize size) {
+  const auto [a, b, c] = kind.half_axes;
+  const double r = kind.rounding;
+  return superellipsoid_mesh({a - r, b - r, c - r}, kind.delta, kind.epsilon, r, size);
 }
 
 }  // namespace
 
-GeomMaker grain_maker(const Form& form, const Grain& grain) {
+GeomMaker grain_maker(const Form& form, const GrainKind& kind) {
   switch (form.kind) {
     case FormKind::Smooth:
-      return [grain, tolerance = form.tolerance] {
-        OdeGeom geom(falling_particles::create_geom(nullptr, grain.all_parts().front().body));
+      return [kind, tolerance = form.tolerance] {
+        OdeGeom geom(falling_particles::create_geom(nullptr, kind.all_components().front().body));
         if (snGeomSetSolver(geom.id(), SN_SOLVER_HYBRID, tolerance, kMostEvaluations) == 0)
           throw std::invalid_argument(snLastError());
         return geom;
       };
     case FormKind::Box:
-      return [s = grain.half_axes] { return OdeGeom(dCreateBox(nullptr, 2 * s[0], 2 * s[1], 2 * s[2])); };
+      return [s = kind.half_axes] { return OdeGeom(dCreateBox(nullptr, 2 * s[0], 2 * s[1], 2 * s[2])); };
     case FormKind::Convex:
-      return convex_maker(grain_mesh(grain, form.mesh));
+      return convex_maker(grain_mesh(kind, form.mesh));
     case FormKind::Trimesh:
-      return trimesh_maker(grain_mesh(grain, form.mesh));
+      return trimesh_maker(grain_mesh(kind, form.mesh));
   }
   throw std::logic_error("no such form");
 }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "model/grain.hpp"
+#include "model/grain_kind.hpp"
 #include "ode_geom.hpp"
 
 namespace accuracy_cost {
@@ -21,6 +21,6 @@ struct Form {
 };
 
 /// Makes geoms of the grain, in no space. A dBox has the half-axes of its grain.
-GeomMaker grain_maker(const Form& form, const falling_particles::Grain& grain);
+GeomMaker grain_maker(const Form& form, const falling_particles::GrainKind& kind);
 
 }  // namespace accuracy_cost

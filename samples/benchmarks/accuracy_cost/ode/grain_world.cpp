@@ -61,7 +61,7 @@ GrainWorld::GrainWorld(const falling_particles::Scene& scene, const Snapshot& st
   add_geoms(form);
   set_velocities(start);
   set_space_cells(space);
-  walls_ = std::make_unique<falling_particles::Walls>(space_, scene.container, kWallBit, kGrainBit);
+  walls_ = std::make_unique<falling_particles::ContainerGeoms>(space_, scene.container, kWallBit, kGrainBit);
 }
 
 GrainWorld::~GrainWorld() {
@@ -73,11 +73,11 @@ GrainWorld::~GrainWorld() {
 
 void GrainWorld::add_geoms(const Form& form) {
   std::vector<GeomMaker> makers;
-  makers.reserve(scene_.grains.size());
-  for (const auto& kind : scene_.grains) makers.push_back(grain_maker(form, kind.grain));
+  makers.reserve(scene_.kinds.size());
+  for (const auto& entry : scene_.kinds) makers.push_back(grain_maker(form, entry.kind));
   geoms_.reserve(kinds_.size());
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
-    const falling_particles::Body& body = world_.bodies()[i];
+    const falling_particles::Grain& body = world_.grains()[i];
     const dGeomID geom = geoms_.emplace_back(makers[kinds_[i]]()).id();
     dGeomSetBody(geom, body.body);
     dGeomSetData(geom, dGeomGetData(body.geom));  // the effects find the grain through it
@@ -91,8 +91,8 @@ void GrainWorld::add_geoms(const Form& form) {
 void GrainWorld::set_velocities(const Snapshot& start) {
   for (std::size_t i = 0; i < start.velocities.size(); ++i) {
     const auto& v = start.velocities[i];
-    dBodySetLinearVel(world_.bodies()[i].body, v[0], v[1], v[2]);
-    dBodySetAngularVel(world_.bodies()[i].body, v[3], v[4], v[5]);
+    dBodySetLinearVel(world_.grains()[i].body, v[0], v[1], v[2]);
+    dBodySetAngularVel(world_.grains()[i].body, v[3], v[4], v[5]);
   }
 }
 
@@ -173,7 +173,7 @@ Snapshot GrainWorld::snapshot() const {
   snapshot.placements.reserve(kinds_.size());
   snapshot.velocities.reserve(kinds_.size());
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
-    const falling_particles::Body& body = world_.bodies()[i];
+    const falling_particles::Grain& body = world_.grains()[i];
     const dReal* const v = dBodyGetLinearVel(body.body);
     const dReal* const w = dBodyGetAngularVel(body.body);
     snapshot.placements.push_back({kinds_[i], body.position(), body.quaternion()});

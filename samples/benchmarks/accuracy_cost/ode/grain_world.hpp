@@ -66,7 +66,7 @@ class GrainWorld {
   falling_particles::World world_;
   dSpaceID space_;
   std::vector<OdeGeom> geoms_;
-  std::unique_ptr<falling_particles::Walls> walls_;
+  std::unique_ptr<falling_particles::ContainerGeoms> walls_;
   falling_particles::ContactJoints joints_;
   snBatchID batch_;  // null: one pair after the other
   std::vector<std::pair<dGeomID, dGeomID>> pairs_;

@@ -79,14 +79,15 @@ std::vector<std::string> time_forms(const Scene& scene) {
   std::vector<std::string> lines;
   lines.reserve(forms.size());
   for (std::size_t f = 0; f < forms.size(); ++f) {
-    lines.push_back(joined({forms[f].name(), forms[f].accuracy(), std::to_string(scene.bodies()), cost_cells(worlds[f]->costs())}));
+    lines.push_back(
+        joined({forms[f].name(), forms[f].accuracy(), std::to_string(scene.grains_at_start()), cost_cells(worlds[f]->costs())}));
   }
   return lines;
 }
 
 /// Half of the grains in a box of half the plan, to be repeated `columns` x `rows` times.
 Scene half_of(Scene scene) {
-  for (auto& kind : scene.grains) kind.count /= 2;
+  for (auto& entry : scene.kinds) entry.count /= 2;
   std::get<falling_particles::Box>(scene.container).width[1] /= 2;
   return scene;
 }
@@ -141,7 +142,7 @@ std::vector<std::string> measure_outcome(const Scene& scene, const Form& form) {
   const auto overlap = falling_particles::measure_overlap(ruler);
   Random random(scene.seed);
   const auto bed = falling_particles::measure_bed(ruler, std::get<falling_particles::Box>(scene.container), random);
-  return {joined({form.name(), form.accuracy(), std::to_string(scene.bodies()), cost_cells(world.costs()),
+  return {joined({form.name(), form.accuracy(), std::to_string(scene.grains_at_start()), cost_cells(world.costs()),
                   number(overlap.relative_to_pair), number(bed.volume_fraction), number(bed.standard_error),
                   number(energy.gained() / energy.lost()), number(falling_particles::kinetic_height(world.world(), scene)),
                   number(rocking_error(form))})};

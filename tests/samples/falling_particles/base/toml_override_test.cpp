@@ -29,8 +29,8 @@ TEST_CASE("an override replaces a number, an element, and entries by number and 
   CHECK(scene.seed == 8);
   CHECK(scene.time.step == 1e-3);
   CHECK(std::get<Box>(scene.container).width == std::array<double, 2>{0.05, 0.07});
-  CHECK(scene.grains[0].count == 6);
-  CHECK(scene.grains[1].count == 3);
+  CHECK(scene.kinds[0].count == 6);
+  CHECK(scene.kinds[1].count == 3);
   CHECK(scene.overrides == overrides);
   CHECK(scene_of(kSceneText).overrides.empty());
 }
@@ -38,7 +38,7 @@ TEST_CASE("an override replaces a number, an element, and entries by number and 
 TEST_CASE("an override replaces whole entries, arrays and tables, and adds keys and sections") {
   const Scene scene = scene_of(kSceneText, {R"(grain[pea]={name = "pea", count = 9})", "container.width=[0.1, 0.2]",
                                             "friction.walls=0.1", "output.pictures=[]", "damping.linear=1e-3"});
-  CHECK(scene.grains[0].count == 9);
+  CHECK(scene.kinds[0].count == 9);
   CHECK(std::get<Box>(scene.container).width == std::array<double, 2>{0.1, 0.2});
   REQUIRE(frictions(scene).size() == 2);
   CHECK(frictions(scene)[1].coefficient == 0.1);
@@ -48,7 +48,7 @@ TEST_CASE("an override replaces whole entries, arrays and tables, and adds keys 
 
 TEST_CASE("of two overrides of a value the later one holds, and sees what the earlier one set") {
   CHECK(scene_of(kSceneText, {"seed=8", "seed=9"}).seed == 9);
-  CHECK(scene_of(kSceneText, {R"(grain=[{name = "die", count = 1}])", "grain[die].count=2"}).bodies() == 2);
+  CHECK(scene_of(kSceneText, {R"(grain=[{name = "die", count = 1}])", "grain[die].count=2"}).grains_at_start() == 2);
 }
 
 TEST_CASE("an entry without a name has that of its kind") {
@@ -60,8 +60,8 @@ TEST_CASE("a scene with overrides is the scene with these values written into it
   const Scene written = scene_of(replaced(replaced(kSceneText, "seed = 7", "seed = 3"), "count = 5", "count = 4"));
   const Scene set = scene_of(kSceneText, {"seed=3", "grain[pea].count=4"});
   CHECK(set.seed == written.seed);
-  CHECK(set.grains[0].count == written.grains[0].count);
-  CHECK(set.bodies() == written.bodies());
+  CHECK(set.kinds[0].count == written.kinds[0].count);
+  CHECK(set.grains_at_start() == written.grains_at_start());
 }
 
 TEST_CASE("a mistake in an override ends with one line that names the option") {

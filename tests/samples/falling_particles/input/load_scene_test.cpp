@@ -34,11 +34,11 @@ TEST_CASE("a scene file is read as it is written") {
   CHECK(scene.name == "my.scene");
   CHECK(scene.seed == 7);
   CHECK(std::get<Box>(scene.container).width == std::array<double, 2>{0.05, 0.06});
-  CHECK(scene.bodies() == 7);
-  REQUIRE(scene.grains.size() == 2);
-  CHECK(scene.grains[1].grain.name == "die");
-  CHECK(scene.grains[1].grain.rounding == 1e-3);
-  CHECK(scene.grains[1].count == 2);
+  CHECK(scene.grains_at_start() == 7);
+  REQUIRE(scene.kinds.size() == 2);
+  CHECK(scene.kinds[1].kind.name == "die");
+  CHECK(scene.kinds[1].kind.rounding == 1e-3);
+  CHECK(scene.kinds[1].count == 2);
   CHECK(scene.time.steps() == 200);
   CHECK(scene.time.steps_per_frame() == 20);
   CHECK(scene.smallest_half_axis() == 3e-3);
@@ -95,8 +95,8 @@ TEST_CASE("fractions become counts that sum to the total") {
   text = replaced(text, "count = 2", "fraction = 0.665");
   text = replaced(text, "gap = 0.1", "gap = 0.1\ntotal = 10");
   const Scene scene = scene_of(text);
-  CHECK(scene.grains[0].count == 3);
-  CHECK(scene.grains[1].count == 7);
+  CHECK(scene.kinds[0].count == 3);
+  CHECK(scene.kinds[1].count == 7);
 }
 
 TEST_CASE("every mistake in a scene file ends with one line: file, line, what is allowed") {
@@ -220,12 +220,12 @@ TEST_CASE("files that cannot be read") {
 
 TEST_CASE("the catalogues are valid and name their sources, and the scenes load") {
   for (const char* catalogue : {"grains", "shapes", "compounds"}) {
-    const std::vector<Grain> grains = load_catalogue(std::string(SUPERNORMAL_SAMPLES "/data/") + catalogue + ".toml");
-    CHECK(grains.size() >= 3);
-    for (const Grain& grain : grains) {
-      CAPTURE(grain.name);
-      CHECK_FALSE(grain.source.empty());
-      CHECK(grain.bounding_radius() < 0.05);
+    const std::vector<GrainKind> kinds = load_catalogue(std::string(SUPERNORMAL_SAMPLES "/data/") + catalogue + ".toml");
+    CHECK(kinds.size() >= 3);
+    for (const GrainKind& kind : kinds) {
+      CAPTURE(kind.name);
+      CHECK_FALSE(kind.source.empty());
+      CHECK(kind.bounding_radius() < 0.05);
     }
   }
   for (const char* scene : {"mixture", "short", "hopper", "terrain", "heap", "packing_spheres", "packing_ellipsoids", "packing_mm",

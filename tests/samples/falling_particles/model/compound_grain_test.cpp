@@ -12,7 +12,7 @@
 #include "observe/bed.hpp"
 #include "observe/pair_contact.hpp"
 #include "output/grain_mesh.hpp"
-#include "output/shown_parts.hpp"
+#include "output/shown_components.hpp"
 #include "scenes.hpp"
 #include "support/relative.hpp"
 #include "world/stepper.hpp"
@@ -54,32 +54,35 @@ density = 1200
 source = "test"
 )";
 
-std::vector<Grain> compounds(const std::string& text = kCompoundsText) {
+std::vector<GrainKind> compounds(const std::string& text = kCompoundsText) {
   const TemporaryFolder folder;
   return load_catalogue(folder.write("grains.toml", text));
 }
 
-Scene scene_with(Grain grain, Container container = Box{{0.1, 0.1}}) {
-  return scene_of(std::move(container), {{std::move(grain), 1}});
+Scene scene_with(GrainKind kind, Container container = Box{{0.1, 0.1}}) {
+  return scene_of(std::move(container), {{std::move(kind), 1}});
 }
 
-GrainPart ball(double radius, double density, double x) { return {{{radius, radius, radius}}, density, {x, 0, 0}}; }
+Component ball(double radius, double density, double x) { return {{{radius, radius, radius}}, density, {x, 0, 0}}; }
 
 /// What samples/compound makes of the same parts, by ODE's own sums.
-dMass assembled(const Grain& grain) {
+dMass assembled(const GrainKind& kind) {
   dInitODE2(0);
   dMass mass;
   {
     dWorldID world = dWorldCreate();
-    std::vector<::Part> parts;
-    for (const GrainPart& part : grain.parts) {
-      ::Part made{create_geom(nullptr, part.body), part.density, {part.position[0], part.position[1], part.position[2]}, {}};
-      const dQuaternion q = {part.quaternion[0], part.quaternion[1], part.quaternion[2], part.quaternion[3]};
+    std::vector<::Part> walls;
+    for (const Component& component : kind.components) {
+      ::Part made{create_geom(nullptr, component.body),
+                  component.density,
+                  {component.position[0], component.position[1], component.position[2]},
+                  {}};
+      const dQuaternion q = {component.quaternion[0], component.quaternion[1], component.quaternion[2], component.quaternion[3]};
       dRfromQ(made.rotation, q);
-      parts.push_back(made);
+      walls.push_back(made);
     }
-    assemble(world, parts, mass);
-    for (const ::Part& part : parts) dGeomDestroy(part.geom);
+    assemble(world, walls, mass);
+    for (const ::Part& wall : walls) dGeomDestroy(wall.geom);
     dWorldDestroy(world);
   }
   dCloseODE();
@@ -89,34 +92,34 @@ dMass assembled(const Grain& grain) {
 }  // namespace
 
 TEST_CASE("compounds: mass and inertia are those that samples/compound finds, about the centre of mass") {
-  for (const Grain& grain : compounds()) {
-    if (grain.parts.empty()) continue;
-    CAPTURE(grain.name);
-    const dMass expected = assembled(grain);
-    REQUIRE(grain.compound_mass.has_value());
-    CHECK(grain.compound_mass->mass == relative(expected.mass).epsilon(1e-12));
+  for (const GrainKind& kind : compounds()) {
+    if (kind.components.empty()) continue;
+    CAPTURE(kind.name);
+    const dMass expected = assembled(kind);
+    REQUIRE(kind.compound_mass.has_value());
+    CHECK(kind.compound_mass->mass == relative(expected.mass).epsilon(1e-12));
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
-        CHECK(std::abs(grain.compound_mass->inertia[i][j] - expected.I[4 * i + j]) < 1e-11 * expected.I[0]);
+        CHECK(std::abs(kind.compound_mass->inertia[i][j] - expected.I[4 * i + j]) < 1e-11 * expected.I[0]);
       }
     }
-    const Scene scene = scene_with(grain);
+    const Scene scene = scene_with(kind);
     const World world(scene, {{0, {0.05, 0.05, 0.05}, {1, 0, 0, 0}, 2}});
-    const Body& body = world.bodies()[0];
-    CHECK(body.mass.mass == relative(8 * expected.mass).epsilon(1e-12));
-    CHECK(body.mass.I[0] == relative(32 * expected.I[0]).epsilon(1e-11));
-    CHECK(body.geoms().size() == grain.parts.size());
+    const Grain& grain = world.grains()[0];
+    CHECK(grain.mass.mass == relative(8 * expected.mass).epsilon(1e-12));
+    CHECK(grain.mass.I[0] == relative(32 * expected.I[0]).epsilon(1e-11));
+    CHECK(grain.geoms().size() == kind.components.size());
     // The centre of mass, weighed part by part in the world.
     double moment = 0;
-    const std::vector<dGeomID> geoms = body.geoms();
-    for (std::size_t part = 0; part < geoms.size(); ++part) {
-      const dGeomID geom = geoms[part];
+    const std::vector<dGeomID> geoms = grain.geoms();
+    for (std::size_t component = 0; component < geoms.size(); ++component) {
+      const dGeomID geom = geoms[component];
       dMass mass;
-      REQUIRE(snMassSet(&mass, grain.parts[part].density, geom) != 0);
+      REQUIRE(snMassSet(&mass, kind.components[component].density, geom) != 0);
       dMassRotate(&mass, dGeomGetRotation(geom));
       moment += mass.mass * (dGeomGetPosition(geom)[2] + mass.c[2] - 0.05);
     }
-    CHECK(std::abs(moment) < 1e-12 * body.mass.mass);
+    CHECK(std::abs(moment) < 1e-12 * grain.mass.mass);
   }
 }
 
@@ -124,27 +127,27 @@ TEST_CASE("compounds: what parts share counts once, with the first one's density
   constexpr double kRadius = 3e-3, kDistance = 4e-3;
   const double sphere = 4 * std::numbers::pi / 3 * std::pow(kRadius, 3);
   const double lens = std::numbers::pi / 12 * std::pow(2 * kRadius - kDistance, 2) * (kDistance + 4 * kRadius);
-  const Grain pair = make_compound("pair", {ball(kRadius, 1000, 0), ball(kRadius, 1000, kDistance)}, "test");
+  const GrainKind pair = make_compound("pair", {ball(kRadius, 1000, 0), ball(kRadius, 1000, kDistance)}, "test");
   CHECK(pair.compound_mass->mass == relative(1000 * (2 * sphere - lens)).epsilon(1e-5));
   CHECK(pair.density == relative(1000).epsilon(1e-12));
-  CHECK(pair.parts[0].position[0] == relative(-kDistance / 2).epsilon(1e-5));
+  CHECK(pair.components[0].position[0] == relative(-kDistance / 2).epsilon(1e-5));
   // About the axis of the two: two spheres without a lens, whose integral of r^2 is that of its two caps.
   const double cap = kRadius - kDistance / 2;
   const double caps = std::numbers::pi * std::pow(cap, 3) * (20 * kRadius * kRadius - 15 * kRadius * cap + 3 * cap * cap) / 15;
   const double expected = 1000 * (2 * 0.4 * sphere * kRadius * kRadius - caps);
   CHECK(pair.compound_mass->inertia[0][0] == relative(expected).epsilon(1e-5));
   // A ball within another one is not there, but the other way round it is a core of another density.
-  const Grain hidden = make_compound("hidden", {ball(3e-3, 1000, 0), ball(1e-3, 5000, 0)}, "test");
+  const GrainKind hidden = make_compound("hidden", {ball(3e-3, 1000, 0), ball(1e-3, 5000, 0)}, "test");
   CHECK(hidden.compound_mass->mass == relative(1000 * sphere).epsilon(1e-5));
-  const Grain core = make_compound("core", {ball(1e-3, 5000, 0), ball(3e-3, 1000, 0)}, "test");
+  const GrainKind core = make_compound("core", {ball(1e-3, 5000, 0), ball(3e-3, 1000, 0)}, "test");
   CHECK(core.compound_mass->mass == relative(1000 * sphere * (1 + 4.0 / 27)).epsilon(1e-4));
   // Three in one place count once.
-  const Grain thrice = make_compound("thrice", {ball(3e-3, 1000, 0), ball(3e-3, 1000, 0), ball(3e-3, 1000, 0)}, "test");
+  const GrainKind thrice = make_compound("thrice", {ball(3e-3, 1000, 0), ball(3e-3, 1000, 0), ball(3e-3, 1000, 0)}, "test");
   CHECK(thrice.compound_mass->mass == relative(1000 * sphere).epsilon(1e-3));
 }
 
 TEST_CASE("compounds: the size of a dumbbell") {
-  const Grain dumbbell = compounds()[0];
+  const GrainKind dumbbell = compounds()[0];
   CHECK(dumbbell.half_axes[0] == relative(6e-3).epsilon(1e-12));
   CHECK(dumbbell.half_axes[2] == relative(14e-3).epsilon(1e-12));
   CHECK(dumbbell.sieve_size() == relative(12e-3).epsilon(1e-12));
@@ -163,51 +166,51 @@ TEST_CASE("compounds: a dumbbell at rest carries its weight, and is one contact"
   Stepper stepper(world, scene);
   constexpr int kSteps = 1000;
   for (int i = 0; i < kSteps; ++i) stepper.step(i == kSteps - 1);
-  const Body& body = world.bodies()[0];
-  CHECK(body.position()[2] == relative(6e-3).epsilon(2e-3));
+  const Grain& grain = world.grains()[0];
+  CHECK(grain.position()[2] == relative(6e-3).epsilon(2e-3));
   double force = 0;
   for (const MeasuredContact& contact : stepper.measured_contacts()) force += contact.force()[2];
-  CHECK(force == relative(9.81 * body.mass.mass).epsilon(2e-3));
+  CHECK(force == relative(9.81 * grain.mass.mass).epsilon(2e-3));
   CHECK(stepper.measured_contacts().size() >= 2);  // both discs
   const std::vector<PairContact> pairs = gather_contacts(stepper.measured_contacts(), world, scene.time.step);
   REQUIRE(pairs.size() == 1);
-  CHECK(pairs[0].normal_force() == relative(9.81 * body.mass.mass).epsilon(2e-3));
+  CHECK(pairs[0].normal_force() == relative(9.81 * grain.mass.mass).epsilon(2e-3));
   CHECK(pairs[0].position.x() == relative(0.05).epsilon(1e-2));  // between the discs
 }
 
 TEST_CASE("compounds: two dumbbells that lie on one another in two places are one pair") {
   Scene scene = scene_with(compounds()[0]);
-  scene.grains[0].count = 2;
+  scene.kinds[0].count = 2;
   const std::array<double, 4> on_side = {std::sqrt(0.5), 0, std::sqrt(0.5), 0};
   const World world(scene, {{0, {0.05, 0.05, 6e-3}, on_side}, {0, {0.05, 0.05, 18e-3 - 2e-5}, on_side}});
   Stepper stepper(world, scene);
   stepper.step(true);
   const auto meet = [](const MeasuredContact& contact) {
-    return body_of(contact.geom.g1) != nullptr && body_of(contact.geom.g2) != nullptr;
+    return grain_of(contact.geom.g1) != nullptr && grain_of(contact.geom.g2) != nullptr;
   };
   CHECK(std::ranges::count_if(stepper.measured_contacts(), meet) >= 2);
   const std::vector<PairContact> pairs = gather_contacts(stepper.measured_contacts(), world, scene.time.step);
-  CHECK(std::ranges::count_if(pairs, [](const PairContact& pair) { return pair.body2 != nullptr; }) == 1);
+  CHECK(std::ranges::count_if(pairs, [](const PairContact& pair) { return pair.grain2 != nullptr; }) == 1);
   // The parts of one body do not meet: bar and discs touch.
-  for (const dContactGeom& contact : stepper.contact_geoms()) CHECK(body_of(contact.g1) != body_of(contact.g2));
+  for (const dContactGeom& contact : stepper.contact_geoms()) CHECK(grain_of(contact.g1) != grain_of(contact.g2));
 }
 
 TEST_CASE("compounds: a collision across a periodic boundary is that in the middle of the cell") {
   const auto motion_at = [](double offset) {
     constexpr double kSide = 0.08;
     Scene scene = scene_with(compounds()[0], Periodic{kSide});
-    scene.grains[0].count = 2;
+    scene.kinds[0].count = 2;
     scene.effects.clear();
     scene.solver.iterations = 500;
     const double middle = kSide / 2 + offset;
     const World world(
         scene, {{0, {middle - 6.1e-3, middle, middle}, {1, 0, 0, 0}}, {0, {middle + 6.1e-3, middle, middle + 4e-3}, {1, 0, 0, 0}}});
-    dBodySetLinearVel(world.bodies()[0].body, 0.2, 0, 0);
-    dBodySetLinearVel(world.bodies()[1].body, -0.2, 0, 0);
+    dBodySetLinearVel(world.grains()[0].body, 0.2, 0, 0);
+    dBodySetLinearVel(world.grains()[1].body, -0.2, 0, 0);
     Stepper stepper(world, scene);
     for (int i = 0; i < 20; ++i) stepper.step();
-    const dReal* v = dBodyGetLinearVel(world.bodies()[0].body);
-    const dReal* w = dBodyGetAngularVel(world.bodies()[0].body);
+    const dReal* v = dBodyGetLinearVel(world.grains()[0].body);
+    const dReal* w = dBodyGetAngularVel(world.grains()[0].body);
     return std::array<double, 6>{v[0], v[1], v[2], w[0], w[1], w[2]};
   };
   const auto expected = motion_at(0);
@@ -229,28 +232,28 @@ TEST_CASE("compounds: the volume of a bed is within the parts") {
 TEST_CASE("compounds: a picture's mesh and parts are where the geoms are") {
   const Scene scene = scene_with(compounds()[1]);
   const World world(scene, {{0, {0.05, 0.05, 0.05}, {0.5, 0.5, 0.5, 0.5}, 1.5}});
-  const Body& body = world.bodies()[0];
+  const Grain& grain = world.grains()[0];
   Contents contents = contents_of(world, scene);
-  contents.scale_of_body = {1.5};
-  const std::vector<ShownPart> parts = shown_parts(frame_of(0, {}, contents, world, nullptr), contents);
-  REQUIRE(parts.size() == 3);
+  contents.scale_of_grain = {1.5};
+  const std::vector<ShownComponent> components = shown_components(frame_of(0, {}, contents, world, nullptr), contents);
+  REQUIRE(components.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(parts[k].position[i] - dGeomGetPosition(body.geoms()[k])[i]) < 1e-15);
-    CHECK(parts[k].body.half_axes[0] == 1.5 * scene.grains[0].grain.parts[k].body.half_axes[0]);
-    CHECK(parts[k].grain == 0);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(components[k].position[i] - dGeomGetPosition(grain.geoms()[k])[i]) < 1e-15);
+    CHECK(components[k].body.half_axes[0] == 1.5 * scene.kinds[0].kind.components[k].body.half_axes[0]);
+    CHECK(components[k].grain == 0);
   }
   // Every corner of the mesh, scaled and turned, is on the boundary of a part.
-  for (const auto& point : mesh_of(scene.grains[0].grain, 0.05).points) {
+  for (const auto& point : mesh_of(scene.kinds[0].kind, 0.05).points) {
     dVector3 at;
-    dBodyGetRelPointPos(body.body, 1.5 * point.x(), 1.5 * point.y(), 1.5 * point.z(), at);
+    dBodyGetRelPointPos(grain.body, 1.5 * point.x(), 1.5 * point.y(), 1.5 * point.z(), at);
     double nearest = 1;
-    for (const dGeomID geom : body.geoms()) nearest = std::min(nearest, std::abs(snGeomPointDepth(geom, at[0], at[1], at[2])));
+    for (const dGeomID geom : grain.geoms()) nearest = std::min(nearest, std::abs(snGeomPointDepth(geom, at[0], at[1], at[2])));
     CHECK(nearest < 1e-9);
   }
 }
 
 TEST_CASE("capsules: mass, size and rest heights") {
-  const Grain rod = compounds()[3];
+  const GrainKind rod = compounds()[3];
   CHECK(rod.is_capsule);
   CHECK(rod.half_axes == std::array<double, 3>{2e-3, 2e-3, 6e-3});
   CHECK(rod.bounding_radius() == 6e-3);
@@ -260,18 +263,18 @@ TEST_CASE("capsules: mass, size and rest heights") {
                     {{0, {0.05, 0.03, 2.02e-3}, {std::sqrt(0.5), 0, std::sqrt(0.5), 0}}, {0, {0.05, 0.07, 6.02e-3}, {1, 0, 0, 0}}});
   dMass expected;
   dMassSetCapsule(&expected, 1200, 3, 2e-3, 8e-3);
-  CHECK(world.bodies()[0].mass.mass == relative(expected.mass).epsilon(1e-12));
-  for (const int i : {0, 5, 10}) CHECK(world.bodies()[0].mass.I[i] == relative(expected.I[i]).epsilon(1e-11));
+  CHECK(world.grains()[0].mass.mass == relative(expected.mass).epsilon(1e-12));
+  for (const int i : {0, 5, 10}) CHECK(world.grains()[0].mass.I[i] == relative(expected.I[i]).epsilon(1e-11));
   Stepper stepper(world, scene);
   constexpr int kSteps = 200;
   for (int i = 0; i < kSteps; ++i) stepper.step(i == kSteps - 1);
-  CHECK(world.bodies()[0].position()[2] == relative(2e-3).epsilon(3e-3));
-  CHECK(world.bodies()[1].position()[2] == relative(6e-3).epsilon(1e-3));
+  CHECK(world.grains()[0].position()[2] == relative(2e-3).epsilon(3e-3));
+  CHECK(world.grains()[1].position()[2] == relative(6e-3).epsilon(1e-3));
   double lying = 0;
   int points = 0;
   for (const MeasuredContact& contact : stepper.measured_contacts()) {
-    const Body* body = body_of(contact.geom.g1) != nullptr ? body_of(contact.geom.g1) : body_of(contact.geom.g2);
-    if (body != &world.bodies()[0]) continue;
+    const Grain* grain = grain_of(contact.geom.g1) != nullptr ? grain_of(contact.geom.g1) : grain_of(contact.geom.g2);
+    if (grain != &world.grains()[0]) continue;
     lying += contact.force()[2];
     ++points;
   }
@@ -303,7 +306,7 @@ TEST_CASE("capsules: the gap of two is the distance of their axes less both radi
     const World world(scene, {{0, {0.05, 0.05, 0.05}, pair.attitude1},
                               {0, {0.05 + pair.offset[0], 0.05 + pair.offset[1], 0.05 + pair.offset[2]}, pair.attitude2}});
     snProximity proximity;
-    REQUIRE(snGeomProximity(world.bodies()[0].geom, world.bodies()[1].geom, &proximity) != 0);
+    REQUIRE(snGeomProximity(world.grains()[0].geom, world.grains()[1].geom, &proximity) != 0);
     CHECK(std::abs(proximity.gap - pair.gap) < 1e-9 * 2e-3);
     CHECK(proximity.converged != 0);
   }

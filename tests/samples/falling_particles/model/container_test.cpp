@@ -102,7 +102,7 @@ TEST_CASE("grains start within their container, clear of its walls") {
     const Scene scene = scene_of(replaced(scene_in(container), "count = 5", "count = 12"));
     Random random(5);
     for (const Placement& p : place(scene, random)) {
-      const double radius = scene.grains[p.kind].grain.bounding_radius() * (1 - 1e-12);
+      const double radius = scene.kinds[p.kind].kind.bounding_radius() * (1 - 1e-12);
       constexpr int kDirections = 200;
       for (int i = 0; i < kDirections; ++i) {
         // The points cover the bounding sphere, by the golden angle.
@@ -118,27 +118,27 @@ TEST_CASE("grains start within their container, clear of its walls") {
 
 TEST_CASE("a leak is noticed once, and remembered") {
   Scene scene = scene_of(kSceneText);
-  scene.grains[0].count = 2;
-  scene.grains.resize(1);
+  scene.kinds[0].count = 2;
+  scene.kinds.resize(1);
   const World world(scene, {{0, {0.02, 0.02, 0.02}, {1, 0, 0, 0}}, {0, {0.04, 0.04, 0.02}, {1, 0, 0, 0}}});
   LeakWatch watch(world, scene);
   watch.after_step(0.1);
   CHECK(watch.count() == 0);
   CHECK_FALSE(watch.first());
-  dBodySetPosition(world.bodies()[1].body, 0.04, -0.001, 0.02);
+  dBodySetPosition(world.grains()[1].body, 0.04, -0.001, 0.02);
   watch.after_step(0.2);
   watch.after_step(0.3);
-  dBodySetPosition(world.bodies()[1].body, 0.04, 0.04, 0.02);
+  dBodySetPosition(world.grains()[1].body, 0.04, 0.04, 0.02);
   watch.after_step(0.4);
   CHECK(watch.count() == 1);
   REQUIRE(watch.first());
-  CHECK(watch.first()->body == 1);
+  CHECK(watch.first()->grain == 1);
   CHECK(watch.first()->time == 0.2);
   CHECK(describe(*watch.first()) ==
         "grain 1 (pea) left the container at t = 0.2 s: position [0.04, -0.001, 0.02] m, quaternion [1, 0, 0, 0], velocity [0, 0, "
         "0] m/s");
-  dBodySetPosition(world.bodies()[0].body, 0.02, 0.02, -1);
+  dBodySetPosition(world.grains()[0].body, 0.02, 0.02, -1);
   watch.after_step(0.5);
   CHECK(watch.count() == 2);
-  CHECK(watch.first()->body == 1);
+  CHECK(watch.first()->grain == 1);
 }

@@ -43,7 +43,7 @@ Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Grain soybean() { return {"soybean", {3.275e-3, 2.78e-3, 2.265e-3}, 2, 2, 0, 1250, "test"}; }
+GrainKind soybean() { return {"soybean", {3.275e-3, 2.78e-3, 2.265e-3}, 2, 2, 0, 1250, "test"}; }
 
 }  // namespace
 
@@ -102,7 +102,7 @@ TEST_CASE("ODE hits the mesh where the hopper ends, from inside") {
   const Scene scene = scene_of(kHopper, {{soybean(), 1}});
   const World world(scene, {{0, {0, 0, 0.2}, {1, 0, 0, 0}}});
   dGeomID mesh = nullptr;
-  for (dGeomID geom : world.walls().geoms()) {
+  for (dGeomID geom : world.container_geoms().geoms()) {
     if (dGeomGetClass(geom) == dTriMeshClass) mesh = geom;
   }
   REQUIRE(mesh != nullptr);
@@ -175,22 +175,22 @@ TEST_CASE("what passes the outlet is counted once, what comes down beside it is 
                       {0, {0, -0.01, 0.07}, {1, 0, 0, 0}}});
   Random random(1);
   Discharge discharge(world, kHopper, random);
-  const double grain_mass = world.bodies()[0].mass.mass;
-  const auto drop = [&](std::size_t i, double x) { dBodySetPosition(world.bodies()[i].body, x, 0, 0.0599); };
-  const std::size_t walls = world.walls().geoms().size();
+  const double grain_mass = world.grains()[0].mass.mass;
+  const auto drop = [&](std::size_t i, double x) { dBodySetPosition(world.grains()[i].body, x, 0, 0.0599); };
+  const std::size_t walls = world.container_geoms().geoms().size();
   drop(0, 0);
   discharge.after_step(0.2);
   CHECK_FALSE(discharge.charge());
   CHECK(discharge.count() == 0);
-  CHECK(world.walls().geoms().size() == walls);
-  dBodySetPosition(world.bodies()[0].body, 0, 0, 0.07);
+  CHECK(world.container_geoms().geoms().size() == walls);
+  dBodySetPosition(world.grains()[0].body, 0, 0, 0.07);
   discharge.after_step(0.3);
   REQUIRE(discharge.charge());
   CHECK(discharge.charge()->time == 0.3);
   CHECK(discharge.charge()->mass == supernormal::test::relative(5 * grain_mass));
   CHECK(discharge.charge()->grain_diameter ==
         supernormal::test::relative(2 * std::cbrt(3.36e-3 * 3.36e-3 * 1.29e-3)).epsilon(1e-9));
-  CHECK(world.walls().geoms().size() == walls - 1);
+  CHECK(world.container_geoms().geoms().size() == walls - 1);
   drop(0, 0);
   drop(1, 0.03);  // beside the outlet
   discharge.after_step(0.4);
@@ -214,7 +214,7 @@ TEST_CASE("the bed in a hopper: one lying column of known volume") {
   Hopper hopper = kHopper;
   hopper.outlet = 0.0719;  // the cone is a rim
   hopper.wall_angle = 80;
-  const Grain box{"box", {0.01, 0.01, 0.02}, 200, 200, 0, 1000, "test"};
+  const GrainKind box{"box", {0.01, 0.01, 0.02}, 200, 200, 0, 1000, "test"};
   const Scene scene = scene_of(hopper, {{box, 4}});
   const double z = hopper.clearance + 0.02;
   const World world(scene, {{0, {0.011, 0.011, z}, {1, 0, 0, 0}},
@@ -244,7 +244,7 @@ TEST_CASE("grains rest on the closed hopper, then run out of it, and none leaks"
     leaks.after_step(time);
     discharge.after_step(time);
     if (step == 590) {
-      for (const Body& body : world.bodies()) CHECK(body.position()[2] > kHopper.clearance);
+      for (const Grain& grain : world.grains()) CHECK(grain.position()[2] > kHopper.clearance);
     }
   }
   CAPTURE(leaks.first() ? describe(*leaks.first()) : "");
@@ -253,5 +253,5 @@ TEST_CASE("grains rest on the closed hopper, then run out of it, and none leaks"
   CHECK(discharge.last_passage() < 0.7);
   REQUIRE(discharge.mass_flow());
   CHECK(*discharge.mass_flow() > 0);
-  for (const Body& body : world.bodies()) CHECK(body.position()[2] < 0.02);
+  for (const Grain& grain : world.grains()) CHECK(grain.position()[2] < 0.02);
 }

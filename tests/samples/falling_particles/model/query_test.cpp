@@ -26,7 +26,7 @@ Outcome outcome(const std::optional<Query>& query) {
   Simulation simulation(scene, 1);
   for (int step = 0; step < 400; ++step) simulation.stepper.step(false);
   Outcome result{simulation.statistics(), {}};
-  for (const Body& body : simulation.world.bodies()) result.places.push_back(body.position());
+  for (const Grain& grain : simulation.world.grains()) result.places.push_back(grain.position());
   return result;
 }
 

@@ -21,7 +21,7 @@ namespace {
 constexpr TerrainParameters kParameters{
     .width = {0.12, 0.08}, .amplitude = 0.008, .wavelength = 0.06, .ridge_height = 0.01, .samples = 41, .seed = 4};
 
-Grain die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; }
+GrainKind die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; }
 
 }  // namespace
 
@@ -101,7 +101,7 @@ TEST_CASE("ODE's ground is the terrain: the same triangles in the same places") 
   const Scene scene = scene_of(terrain, {{lentil(), 1}});
   const World world(scene, {{0, {0.05, 0.05, 0.1}, {1, 0, 0, 0}}});
   dGeomID ground = nullptr;
-  for (dGeomID geom : world.walls().geoms()) {
+  for (dGeomID geom : world.container_geoms().geoms()) {
     if (dGeomGetClass(geom) == dHeightfieldClass) ground = geom;
   }
   REQUIRE(ground != nullptr);
@@ -149,8 +149,8 @@ TEST_CASE("round, flat and boxy grains fall on a terrain and stay on it") {
   CAPTURE(leaks.first() ? describe(*leaks.first()) : "");
   CHECK(leaks.count() == 0);
   CHECK(stepper.contacts() >= 30);
-  for (const Body& body : world.bodies()) {  // on the ground or on one another, none in the air
-    const Point p = body.position();
+  for (const Grain& grain : world.grains()) {  // on the ground or on one another, none in the air
+    const Point p = grain.position();
     CHECK(p[2] - std::get<Terrain>(scene.container).height(p[0], p[1]) < 0.02);
   }
 }

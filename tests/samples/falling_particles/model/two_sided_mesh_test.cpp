@@ -63,7 +63,7 @@ MeshShape two_sided(MeshShape mesh) {
 std::vector<Point> fall_on(const MeshShape& mesh, bool up) {
   const double sign = up ? -1 : 1;
   Scene scene = scene_of(Open{{{-0.1, -0.1, 0}, {0.2, 0.2, 1}}, {{-1, -1, -1}, {2, 2, 3}}}, {{ball(), 6}, {lentil(), 6}});
-  scene.parts = {{"sheet", mesh}};
+  scene.walls = {{"sheet", mesh}};
   scene.effects = {fx::Gravity{{0, 0, -9.81 * sign}}, fx::Friction{0.4, {}}, fx::MaxCorrectingVelocity{0.05}};
   std::vector<Placement> placements;
   Random random(3);
@@ -75,7 +75,7 @@ std::vector<Point> fall_on(const MeshShape& mesh, bool up) {
   Stepper stepper(world, scene);
   for (int step = 0; step < 800; ++step) stepper.step();
   std::vector<Point> places;
-  for (const Body& body : world.bodies()) places.push_back(body.position());
+  for (const Grain& grain : world.grains()) places.push_back(grain.position());
   return places;
 }
 

@@ -51,7 +51,7 @@ BedAtRest rest(const std::string& text, double pressure, int steps) {
   Stepper stepper(world, scene);
   for (int step = 0; step < steps; ++step) stepper.step();
   BedAtRest bed{};
-  for (const Body& body : world.bodies()) bed.weight += 9.81 * body.mass.mass;
+  for (const Grain& grain : world.grains()) bed.weight += 9.81 * grain.mass.mass;
   constexpr int kSamples = 50;
   for (int sample = 0; sample < kSamples; ++sample) {
     stepper.step(true);
@@ -60,9 +60,9 @@ BedAtRest rest(const std::string& text, double pressure, int steps) {
     for (std::size_t i = 0; i < kSlices; ++i) {
       bed.stress[i] += table.number("contact_zz_Pa", i) / kSamples;
       bed.expected[i] += pressure / kSamples;
-      for (const Body& body : world.bodies()) {
-        const double above = std::clamp(body.position()[2] - table.number("lower_m", i), 0.0, kSlice) / kSlice;
-        bed.expected[i] += 9.81 * body.mass.mass * above / (kWidth * kWidth) / kSamples;
+      for (const Grain& grain : world.grains()) {
+        const double above = std::clamp(grain.position()[2] - table.number("lower_m", i), 0.0, kSlice) / kSlice;
+        bed.expected[i] += 9.81 * grain.mass.mass * above / (kWidth * kWidth) / kSamples;
       }
     }
   }
@@ -94,7 +94,7 @@ TEST_CASE("measurements: a face on the floor is one contact with the whole weigh
   CHECK(table.text("grain2").empty());
   CHECK(table.text("kind2") == "floor");
   CHECK(table.number("normal_z") == relative(1).epsilon(1e-12));
-  CHECK(table.number("normal_force_N") == relative(world.bodies()[0].mass.mass * 9.81).epsilon(1e-3));
+  CHECK(table.number("normal_force_N") == relative(world.grains()[0].mass.mass * 9.81).epsilon(1e-3));
   CHECK(table.number("x_m") == relative(0.02).epsilon(1e-3));
   CHECK(table.number("y_m") == relative(0.03).epsilon(1e-3));
 }
@@ -160,8 +160,8 @@ TEST_CASE("measurements: a chain through a periodic cell has branches across its
 TEST_CASE("measurements: the kinetic stress is that of the velocities about their mean") {
   const Scene scene = scene_with("kind = \"stress\"\nlower = [0, 0, 0]\nupper = [0.05, 0.06, 0.1]\n");
   const World world(scene, {upright(kPea, 0.01, 0.03, 0.02), upright(kPea, 0.04, 0.03, 0.02)});
-  dBodySetLinearVel(world.bodies()[0].body, 1.5, 0, 2);
-  dBodySetLinearVel(world.bodies()[1].body, 0.5, 0, 2);
+  dBodySetLinearVel(world.grains()[0].body, 1.5, 0, 2);
+  dBodySetLinearVel(world.grains()[1].body, 0.5, 0, 2);
   const MeasuredTable table = measure(scene, world);
   const double mass = kPeaWeight / 9.81;
   const double expected = 2 * mass * 0.25 / (0.05 * 0.06 * 0.1);

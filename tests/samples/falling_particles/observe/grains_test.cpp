@@ -93,7 +93,8 @@ TEST_CASE("measurements: a rigid rotation has its velocity field on the grid and
   }
   const World world(scene, placements);
   constexpr double kSpin = 3;  // rad/s, about the z-axis
-  for (const Body& body : world.bodies()) dBodySetLinearVel(body.body, -kSpin * body.position()[1], kSpin * body.position()[0], 0);
+  for (const Grain& grain : world.grains())
+    dBodySetLinearVel(grain.body, -kSpin * grain.position()[1], kSpin * grain.position()[0], 0);
   const MeasuredTable table = measure(scene, world);
   REQUIRE(table.rows.size() == 4);
   for (std::size_t cell = 0; cell < 4; ++cell) {
@@ -126,10 +127,10 @@ TEST_CASE("measurements: velocities at random have their variance as temperature
       placements.push_back(upright(kPea, x, y, anywhere(generator)));
     }
     const World world(scene, placements);
-    for (const Body& body : world.bodies()) {
+    for (const Grain& grain : world.grains()) {
       const double vx = normal(generator);
       const double vy = normal(generator);
-      dBodySetLinearVel(body.body, vx + 50 * body.position()[2], vy, normal(generator));
+      dBodySetLinearVel(grain.body, vx + 50 * grain.position()[2], vy, normal(generator));
     }
     mean += measure(scene, world).number("granular_temperature_m2/s2") / kWorlds;
   }

@@ -21,7 +21,7 @@ namespace {
 constexpr double kBaseRadius = 0.03;  // m, radius of the base
 constexpr double kBase = 0.01;        // m, its height
 
-Grain pea() { return {"pea", {2e-3, 2e-3, 2e-3}, 2, 2, 0, 1200, "test"}; }
+GrainKind pea() { return {"pea", {2e-3, 2e-3, 2e-3}, 2, 2, 0, 1200, "test"}; }
 
 /// The centres of balls on a cone: their envelope is a parallel cone except for the grid's ripples.
 std::vector<Placement> on_a_cone(double degrees) {
@@ -97,16 +97,16 @@ TEST_CASE("a dish is closed but for its foot, and holds a grain within its rim")
   // One grain rolls towards the rim, one lies in the tray.
   World world(scene, {{0, {0, 0, 0.0225}, {1, 0, 0, 0}}, {0, {0.05, 0.05, 0.003}, {1, 0, 0, 0}}});
   world.open_outlet();  // the lid is solid all the way down
-  dBodySetLinearVel(world.bodies()[0].body, 0.1, 0, 0);
+  dBodySetLinearVel(world.grains()[0].body, 0.1, 0, 0);
   Stepper stepper(world, scene);
   for (int i = 0; i < 1500; ++i) {
     stepper.step();
-    REQUIRE(hopper.contains(world.bodies()[0].position()));
+    REQUIRE(hopper.contains(world.grains()[0].position()));
   }
-  const Point rolled = world.bodies()[0].position();
+  const Point rolled = world.grains()[0].position();
   CHECK(rolled[2] == supernormal::test::relative(0.022).epsilon(1e-2));
   CHECK(std::hypot(rolled[0], rolled[1]) < 0.03);
-  CHECK(world.bodies()[1].position()[2] == supernormal::test::relative(0.002).epsilon(1e-2));
+  CHECK(world.grains()[1].position()[2] == supernormal::test::relative(0.002).epsilon(1e-2));
   CHECK_FALSE(hopper.contains({0.01, 0, 0.01}));  // within the dish
 }
 

@@ -17,17 +17,17 @@ namespace fx = supernormal::effects;
 
 namespace {
 
-Grain ellipsoid() { return {"ellipsoid", {0.02, 0.03, 0.01}, 2, 2, 0, 1000, "typical"}; }
+GrainKind ellipsoid() { return {"ellipsoid", {0.02, 0.03, 0.01}, 2, 2, 0, 1000, "typical"}; }
 
-Scene scene_of(const Grain& grain, int count) {
+Scene scene_of(const GrainKind& kind, int count) {
   return {"test",
           1,
           Box{{0.2, 0.2}},
-          {{grain, count}},
+          {{kind, count}},
           {0, 0},
           {1, 1e-3, 0.1},
           {50, 0.2, 1e-10},
-          {fx::Gravity{{0, 0, -10}}, fx::MaxCorrectingVelocity{1}, fx::SurfaceLayer{1e-3 * grain.smallest_half_axis()}}};
+          {fx::Gravity{{0, 0, -10}}, fx::MaxCorrectingVelocity{1}, fx::SurfaceLayer{1e-3 * kind.smallest_half_axis()}}};
 }
 
 Placement upright(double x, double y, double z) { return {0, {x, y, z}, {1, 0, 0, 0}}; }
@@ -37,10 +37,10 @@ Placement upright(double x, double y, double z) { return {0, {x, y, z}, {1, 0, 0
 TEST_CASE("energy of a moving ellipsoid") {
   const Scene scene = scene_of(ellipsoid(), 1);
   const World world(scene, {upright(0.1, 0.1, 0.05)});
-  const Body& body = world.bodies().front();
+  const Grain& grain = world.grains().front();
   const double mass = 1000 * 4.0 / 3 * std::numbers::pi * 0.02 * 0.03 * 0.01;
-  dBodySetLinearVel(body.body, 1, 2, 2);
-  dBodySetAngularVel(body.body, 0, 0, 7);
+  dBodySetLinearVel(grain.body, 1, 2, 2);
+  dBodySetAngularVel(grain.body, 0, 0, 7);
   const double inertia = mass / 5 * (0.02 * 0.02 + 0.03 * 0.03);
   const Energy energy = measure_energy(world, scene);
   CHECK(energy.kinetic == supernormal::test::relative(0.5 * mass * 9 + 0.5 * inertia * 49).epsilon(1e-12));
@@ -51,18 +51,18 @@ TEST_CASE("energy of a moving ellipsoid") {
 TEST_CASE("the energy that grains gain and lose is watched over all steps") {
   const Scene scene = scene_of(ellipsoid(), 2);
   const World world(scene, {upright(0.05, 0.05, 0.05), upright(0.15, 0.15, 0.05)});
-  const Body& body = world.bodies().back();
+  const Grain& grain = world.grains().back();
   EnergyWatch watch(world, scene);
   // One of the two grains moves down by 20 mm, up by 5, down by 10, up by 8.
   for (const double height : {0.03, 0.035, 0.025, 0.033}) {
-    dBodySetPosition(body.body, 0.15, 0.15, height);
+    dBodySetPosition(grain.body, 0.15, 0.15, height);
     watch.after_step();
   }
-  const double weight = body.mass.mass * 10;
+  const double weight = grain.mass.mass * 10;
   CHECK(watch.lost() == supernormal::test::relative(weight * 0.025).epsilon(1e-12));
   CHECK(watch.gained() == supernormal::test::relative(weight * 0.008).epsilon(1e-12));
-  dBodySetLinearVel(body.body, 0, 0, 3);
-  CHECK(largest_kinetic_energy(world) == supernormal::test::relative(0.5 * body.mass.mass * 9).epsilon(1e-12));
+  dBodySetLinearVel(grain.body, 0, 0, 3);
+  CHECK(largest_kinetic_energy(world) == supernormal::test::relative(0.5 * grain.mass.mass * 9).epsilon(1e-12));
 }
 
 TEST_CASE("the deepest overlap is found, between grains and with walls") {
@@ -74,7 +74,7 @@ TEST_CASE("the deepest overlap is found, between grains and with walls") {
   CHECK(overlap.depth == supernormal::test::relative(3e-3).epsilon(1e-9));
   CHECK(overlap.relative_to_pair == supernormal::test::relative(0.3).epsilon(1e-9));
   CHECK(count_outside(world, scene) == 0);
-  dBodySetPosition(world.bodies()[0].body, 0.05, 0.1, -0.001);
+  dBodySetPosition(world.grains()[0].body, 0.05, 0.1, -0.001);
   CHECK(count_outside(world, scene) == 1);
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("nothing overlaps when all are apart") {
 
 TEST_CASE("the volume fraction is that of a known bed") {
   // One layer of four bodies that are nearly boxes: from z = 0.02 to 0.08 it fills 4 * 0.08^2 / 0.2^2 of the area.
-  const Grain box{"box", {0.04, 0.04, 0.04}, 200, 200, 0, 1000, "typical"};
+  const GrainKind box{"box", {0.04, 0.04, 0.04}, 200, 200, 0, 1000, "typical"};
   const Scene scene = scene_of(box, 4);
   const World world(scene,
                     {upright(0.05, 0.05, 0.05), upright(0.15, 0.05, 0.05), upright(0.05, 0.15, 0.05), upright(0.15, 0.15, 0.05)});
@@ -115,7 +115,7 @@ TEST_CASE("a dropped grain falls freely, comes to rest on the floor and touches 
   const Scene scene = scene_of(ellipsoid(), 1);
   const World world(scene, {upright(0.1, 0.1, 0.06)});
   Stepper stepper(world, scene);
-  const dReal* position = dBodyGetPosition(world.bodies()[0].body);
+  const dReal* position = dBodyGetPosition(world.grains()[0].body);
   constexpr int kFree = 90;  // steps, of the 100 ms that 0.05 m take
   for (int i = 0; i < kFree; ++i) stepper.step();
   CHECK(stepper.contacts() == 0);
@@ -136,16 +136,16 @@ TEST_CASE("the contacts of a frame carry the weight of the grains, and measuring
     Stepper stepper(world, scene);
     for (int i = 0; i < 500; ++i) stepper.step(measures);
     if (frame != nullptr) *frame = frame_of(0.5, {}, contents_of(world, scene), world, &stepper);
-    return world.bodies()[1].position();
+    return world.grains()[1].position();
   };
   Frame frame;
   CHECK(settle(true, &frame) == settle(false, nullptr));
   REQUIRE(frame.contacts.size() == 2);
-  const double weight = 10 * scene.grains[0].grain.density * 4 * std::numbers::pi / 3 * 0.02 * 0.03 * 0.01;
+  const double weight = 10 * scene.kinds[0].kind.density * 4 * std::numbers::pi / 3 * 0.02 * 0.03 * 0.01;
   for (const ContactState& contact : frame.contacts) {
     REQUIRE(contact.force.has_value());
     // On body 1, whichever of the two the grain is; the normal points into it.
-    const double sign = contact.body1 == kWall ? -1 : 1;
+    const double sign = contact.grain1 == kWall ? -1 : 1;
     CHECK(contact.normal[2] == doctest::Approx(sign));
     CHECK((*contact.force)[2] == doctest::Approx(sign * weight).epsilon(1e-3));
   }
@@ -154,13 +154,13 @@ TEST_CASE("the contacts of a frame carry the weight of the grains, and measuring
 TEST_CASE("friction stops a sliding grain and without friction it slides on") {
   for (const bool rough : {true, false}) {
     CAPTURE(rough);
-    Scene scene = scene_of(Grain{"puck", {0.02, 0.02, 0.002}, 2, 2, 0, 1000, "typical"}, 1);
+    Scene scene = scene_of(GrainKind{"puck", {0.02, 0.02, 0.002}, 2, 2, 0, 1000, "typical"}, 1);
     if (rough) scene.effects.emplace_back(fx::Friction{0.5, {}});
     const World world(scene, {upright(0.06, 0.1, 0.002)});
     Stepper stepper(world, scene);
-    dBodySetLinearVel(world.bodies()[0].body, 0.2, 0, 0);
+    dBodySetLinearVel(world.grains()[0].body, 0.2, 0, 0);
     for (int i = 0; i < 200; ++i) stepper.step();
-    const double x = dBodyGetPosition(world.bodies()[0].body)[0];
+    const double x = dBodyGetPosition(world.grains()[0].body)[0];
     if (rough) {
       CHECK(x - 0.06 < 0.2 * 0.2);  // it has stopped; v^2 / (2 mu g) is 4 mm without rocking
     } else {

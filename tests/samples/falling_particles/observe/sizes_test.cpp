@@ -138,20 +138,20 @@ TEST_CASE("sizes: draws follow the distribution as closely as their number can, 
 }
 
 TEST_CASE("sizes: a sieve size is the middle width of a grain, in m or relative to the catalogue's") {
-  Grain grain{"box", {3, 1, 2}, 2, 2, 0, 1, ""};
-  CHECK(grain.sieve_size() == 4);
+  GrainKind kind{"box", {3, 1, 2}, 2, 2, 0, 1, ""};
+  CHECK(kind.sieve_size() == 4);
   // A pea of the catalogue has 6 mm.
   const Scene in_metres = scene_of(scene_with_size(R"({ distribution = "uniform", smallest = 3e-3, largest = 9e-3 })"));
   const Scene relative_to_pea =
       scene_of(scene_with_size(R"({ distribution = "uniform", unit = "catalogue", smallest = 0.5, largest = 1.5 })"));
-  REQUIRE(in_metres.grains[0].scales.size() == 5);
+  REQUIRE(in_metres.kinds[0].scales.size() == 5);
   for (std::size_t i = 0; i < 5; ++i) {
-    CHECK(in_metres.grains[0].scales[i] == relative(relative_to_pea.grains[0].scales[i]).epsilon(1e-12));
+    CHECK(in_metres.kinds[0].scales[i] == relative(relative_to_pea.kinds[0].scales[i]).epsilon(1e-12));
   }
-  CHECK(in_metres.grains[1].scales.empty());
+  CHECK(in_metres.kinds[1].scales.empty());
   CHECK(in_metres.has_sizes());
-  const double largest = std::ranges::max(in_metres.grains[0].scales);
-  const double smallest = std::ranges::min(in_metres.grains[0].scales);
+  const double largest = std::ranges::max(in_metres.kinds[0].scales);
+  const double smallest = std::ranges::min(in_metres.kinds[0].scales);
   CHECK(in_metres.smallest_half_axis() == smallest * 3e-3);
   CHECK(largest * 3e-3 < in_metres.largest_bounding_radius());  // a die's
 }
@@ -170,8 +170,8 @@ TEST_CASE("sizes: attitudes and kinds are the same without them, and starts keep
     CHECK(one[i].scale == 1);
     if (one[i].kind == 1) CHECK(one[i].position == other[i].position);
     for (std::size_t j = 0; j < i; ++j) {
-      const Body& a = world.bodies()[i];
-      const Body& b = world.bodies()[j];
+      const Grain& a = world.grains()[i];
+      const Grain& b = world.grains()[j];
       const auto [ax, ay, az] = a.position();
       const auto [bx, by, bz] = b.position();
       CHECK(std::hypot(ax - bx, ay - by, az - bz) >= (a.bounding_radius() + b.bounding_radius()) * (1 - 1e-12));
@@ -185,23 +185,23 @@ TEST_CASE("sizes: the mass of a body goes with the third power of its scale, the
     Placement large{kind, {0.02, 0.02, 0.1}, {1, 0, 0, 0}, 1.3};
     Placement plain{kind, {0.02, 0.04, 0.1}, {1, 0, 0, 0}};
     const World world(scene, {large, plain});
-    const dMass& one = world.bodies()[0].mass;
-    const dMass& other = world.bodies()[1].mass;
+    const dMass& one = world.grains()[0].mass;
+    const dMass& other = world.grains()[1].mass;
     CHECK(one.mass == relative(std::pow(1.3, 3) * other.mass).epsilon(1e-9));
     for (const int i : {0, 5, 10}) CHECK(one.I[i] == relative(std::pow(1.3, 5) * other.I[i]).epsilon(1e-9));
-    CHECK(world.bodies()[0].smallest_half_axis() == 1.3 * world.bodies()[1].smallest_half_axis());
-    CHECK(world.bodies()[0].aabb()[5] - 0.1 == relative(1.3 * scene.grains[kind].grain.half_axes[2]).epsilon(1e-12));
+    CHECK(world.grains()[0].smallest_half_axis() == 1.3 * world.grains()[1].smallest_half_axis());
+    CHECK(world.grains()[0].aabb()[5] - 0.1 == relative(1.3 * scene.kinds[kind].kind.half_axes[2]).epsilon(1e-12));
   }
 }
 
 TEST_CASE("sizes: what was drawn is told by number and by mass") {
   Scene scene = scene_of(scene_with_size(R"({ distribution = "uniform", smallest = 3e-3, largest = 9e-3 })"));
-  scene.grains[0].scales = {1, 0.5, 1.5, 0.75, 1.25};
+  scene.kinds[0].scales = {1, 0.5, 1.5, 0.75, 1.25};
   const World world(scene, placements_of(scene));
   const std::vector<DrawnSizes> all = measure_sizes(world, scene);
   REQUIRE(all.size() == 1);
   const DrawnSizes& sizes = all[0];
-  CHECK(sizes.grain == "pea");
+  CHECK(sizes.kind == "pea");
   CHECK(sizes.number == 5);
   const double pea = 1200 * 4.0 / 3 * std::numbers::pi * 27e-9;
   CHECK(sizes.mass == relative(pea * (1 + 0.125 + 3.375 + 0.421875 + 1.953125)).epsilon(1e-9));
@@ -231,9 +231,9 @@ TEST_CASE("sizes: a large pea rests on the floor at its own radius, with its own
   const World world(scene, {{0, {0.02, 0.03, 4.6e-3}, {1, 0, 0, 0}, 1.5}});
   Stepper stepper(world, scene);
   for (int i = 0; i < 400; ++i) stepper.step(i == 399);
-  CHECK(world.bodies()[0].position()[2] == relative(4.5e-3).epsilon(3e-3));  // the surface layer is 2e-3 of a pea
+  CHECK(world.grains()[0].position()[2] == relative(4.5e-3).epsilon(3e-3));  // the surface layer is 2e-3 of a pea
   REQUIRE(stepper.measured_contacts().size() == 1);
-  CHECK(stepper.measured_contacts()[0].force()[2] == relative(9.81 * world.bodies()[0].mass.mass).epsilon(1e-3));
+  CHECK(stepper.measured_contacts()[0].force()[2] == relative(9.81 * world.grains()[0].mass.mass).epsilon(1e-3));
 }
 
 TEST_CASE("sizes: every mistake ends with one line") {

@@ -50,7 +50,7 @@ TEST_CASE("measurements: a pea on the lid of a hopper weighs on it, and later on
   const Scene on_floor = scene_with("kind = \"part_force\"\nsurfaces = [\"floor\"]\n", text);
   const Scene on_mesh = scene_with("kind = \"part_force\"\nsurfaces = [\"hopper\"]\n", text);
   World world(on_lid, {upright(kPea, 0, 0, 0.05 + 3e-3)});
-  const double weight = world.bodies()[0].mass.mass * 9.81;
+  const double weight = world.grains()[0].mass.mass * 9.81;
   Stepper stepper(world, on_lid);
   for (int step = 0; step < 400; ++step) stepper.step(true);
   CHECK(measure(on_lid, world, &stepper).number("force_z_N") == relative(-weight).epsilon(1e-3));
@@ -77,10 +77,10 @@ velocity = [0, 0, 0.01]
 )";
   const Scene scene = scene_with("kind = \"part_force\"\nsurfaces = [\"plate\"]\nabout = [0.015, 0.02, 0]\n", kSceneText + plate);
   World world(scene, {upright(kPea, 0.02, 0.02, 0.01 + 3e-3)});
-  const double weight = world.bodies()[0].mass.mass * 9.81;
+  const double weight = world.grains()[0].mass.mass * 9.81;
   Stepper stepper(world, scene);
   for (int step = 0; step < 400; ++step) stepper.step(true);
-  CHECK(world.bodies()[0].position()[2] == relative(0.012 + 3e-3).epsilon(1e-2));
+  CHECK(world.grains()[0].position()[2] == relative(0.012 + 3e-3).epsilon(1e-2));
   const MeasuredTable table = measure(scene, world, &stepper);
   CHECK(table.number("force_z_N") == relative(-weight).epsilon(1e-3));
   CHECK(table.number("torque_y_Nm") == relative(5e-3 * weight).epsilon(1e-2));

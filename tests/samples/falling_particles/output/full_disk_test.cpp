@@ -21,7 +21,7 @@ Scene scene_of_a_die() {
   Scene scene{};
   scene.name = "full";
   scene.container = Box{{0.1, 0.1}};
-  scene.grains = {{{"die", {0.008, 0.008, 0.008}, 20, 20, 0.001, 1200, "typical"}, 1}};
+  scene.kinds = {{{"die", {0.008, 0.008, 0.008}, 20, 20, 0.001, 1200, "typical"}, 1}};
   return scene;
 }
 
@@ -30,10 +30,10 @@ void write_picture(const PictureFormat& format, const Scene& scene, const Output
   const Contents contents{&scene, {0}, {}};
   const std::unique_ptr<Picture> picture = format.make(folder, format, contents);
   Frame frame;
-  frame.bodies = {{{0, 0, 0.1}, {1, 0, 0, 0}, {}, {}}};
+  frame.grains = {{{0, 0, 0.1}, {1, 0, 0, 0}, {}, {}}};
   picture->add(frame);
   frame.time = 0.1;
-  frame.bodies[0].position[2] = 0.08;
+  frame.grains[0].position[2] = 0.08;
   picture->add(frame);
   picture->finish("");
 }

@@ -70,7 +70,7 @@ class Reader {
 double of_fraction(std::uint32_t number) { return static_cast<std::int16_t>(static_cast<std::uint16_t>(number)) / 32767.0; }
 double of_upper_half(std::uint32_t number) { return std::bit_cast<float>(number << 16U); }
 
-BodyState body_at(double t, double phase) {
+GrainState grain_at(double t, double phase) {
   const double half = 2 * t + phase;
   return {{std::sin(t + phase) / 3, 1e3 + t, -1e-7 * phase},
           {std::cos(half), 0, 0.6 * std::sin(half), -0.8 * std::sin(half)},
@@ -80,7 +80,7 @@ BodyState body_at(double t, double phase) {
 
 Frame noisy_frame(int index) {
   Frame frame;
-  for (const double phase : {0.0, 0.5, 1.0, 2.0, 4.0}) frame.bodies.push_back(body_at(0.1 * index, phase));
+  for (const double phase : {0.0, 0.5, 1.0, 2.0, 4.0}) frame.grains.push_back(grain_at(0.1 * index, phase));
   return frame;
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("base 64 as in RFC 4648, section 10") {
 
 TEST_CASE("bodies: positions are floats to the last bit, attitudes fractions, motions within 0.4 %") {
   constexpr int kFrames = 6;
-  PackedBodies packed;
+  PackedGrains packed;
   for (int index = 0; index < kFrames; ++index) packed.add(noisy_frame(index));
   REQUIRE(packed.texts().size() == kFrames);
   std::vector<std::vector<std::int64_t>> numbers(13, std::vector<std::int64_t>(5));
@@ -111,14 +111,14 @@ TEST_CASE("bodies: positions are floats to the last bit, attitudes fractions, mo
     CHECK(reader.is_at_end());
     const Frame frame = noisy_frame(index);
     for (std::size_t k = 0; k < 5; ++k) {
-      const BodyState& body = frame.bodies[k];
+      const GrainState& grain = frame.grains[k];
       const auto number = [&](std::size_t i) { return static_cast<std::uint32_t>(numbers[i][k]); };
       for (std::size_t i = 0; i < 3; ++i) {
-        CHECK(std::bit_cast<float>(number(i)) == static_cast<float>(body.position[i]));
-        CHECK(of_upper_half(number(7 + i) & 0xffffU) == doctest::Approx(body.velocity[i]).epsilon(0.004));
-        CHECK(of_upper_half(number(10 + i) & 0xffffU) == doctest::Approx(body.angular_velocity[i]).epsilon(0.004));
+        CHECK(std::bit_cast<float>(number(i)) == static_cast<float>(grain.position[i]));
+        CHECK(of_upper_half(number(7 + i) & 0xffffU) == doctest::Approx(grain.velocity[i]).epsilon(0.004));
+        CHECK(of_upper_half(number(10 + i) & 0xffffU) == doctest::Approx(grain.angular_velocity[i]).epsilon(0.004));
       }
-      const auto& [w, x, y, z] = body.quaternion;
+      const auto& [w, x, y, z] = grain.quaternion;
       const std::array turned = {x, y, z, w};
       double along = 0;
       for (std::size_t i = 0; i < 4; ++i) along += of_fraction(number(3 + i) & 0xffffU) * turned[i];
@@ -128,13 +128,13 @@ TEST_CASE("bodies: positions are floats to the last bit, attitudes fractions, mo
 }
 
 TEST_CASE("bodies that are gone have no number for x, and those that come start from zeros") {
-  PackedBodies packed;
+  PackedGrains packed;
   Frame frame;
-  frame.bodies = {body_at(0, 0.5)};
+  frame.grains = {grain_at(0, 0.5)};
   packed.add(frame);
-  frame.bodies.push_back(body_at(0, 1));
+  frame.grains.push_back(grain_at(0, 1));
   packed.add(frame);
-  frame.bodies[0] = {{}, {1, 0, 0, 0}, {}, {}, false};
+  frame.grains[0] = {{}, {1, 0, 0, 0}, {}, {}, false};
   packed.add(frame);
   std::uint32_t gone = 0, come = 0;
   for (std::size_t index = 0; index < 3; ++index) {
@@ -147,25 +147,25 @@ TEST_CASE("bodies that are gone have no number for x, and those that come start 
     CHECK(reader.is_at_end());
     CHECK(std::isnan(std::bit_cast<float>(gone)) == (index == 2));
   }
-  CHECK(std::bit_cast<float>(come) == static_cast<float>(body_at(0, 1).position[0]));
+  CHECK(std::bit_cast<float>(come) == static_cast<float>(grain_at(0, 1).position[0]));
 }
 
 TEST_CASE("attitudes go on smoothly, although q and -q are the same") {
-  PackedBodies packed;
+  PackedGrains packed;
   Frame frame;
-  frame.bodies = {body_at(0, 0)};
+  frame.grains = {grain_at(0, 0)};
   packed.add(frame);
-  for (double& part : frame.bodies[0].quaternion) part = -part;
+  for (double& part : frame.grains[0].quaternion) part = -part;
   packed.add(frame);
   Reader reader(packed.texts()[1], 1);
   for (std::size_t i = 0; i < 13; ++i) CHECK(reader.differences(i < 3 ? 4 : 2)[0] == 0);
 }
 
 TEST_CASE("a motion that is no float's is the largest number, not an infinite one") {
-  PackedBodies packed;
+  PackedGrains packed;
   Frame frame;
-  frame.bodies = {body_at(0, 0)};
-  frame.bodies[0].velocity = {std::numeric_limits<float>::max(), -std::numeric_limits<float>::max(), 0};
+  frame.grains = {grain_at(0, 0)};
+  frame.grains[0].velocity = {std::numeric_limits<float>::max(), -std::numeric_limits<float>::max(), 0};
   packed.add(frame);
   Reader reader(packed.texts()[0], 1);
   for (std::size_t i = 0; i < 7; ++i) reader.differences(i < 3 ? 4 : 2);
@@ -178,7 +178,7 @@ TEST_CASE("contacts: bodies, points from a body, normals, depths and forces") {
     CAPTURE(has_forces);
     Frame frame = noisy_frame(3);
     const auto force = has_forces ? std::optional(Point{1, -2e-3, 0}) : std::nullopt;
-    const Point& centre = frame.bodies[2].position;
+    const Point& centre = frame.grains[2].position;
     frame.contacts = {{{centre[0] + 0.01, centre[1] - 0.02, centre[2]}, {0, 0.6, -0.8}, 1e-6, 2, 4, force},
                       {{centre[0], centre[1], centre[2] + 0.005}, {1, 0, 0}, 3e-4, kWall, 2, force}};
     PackedContacts packed(10'000);
@@ -212,7 +212,7 @@ TEST_CASE("contacts: bodies, points from a body, normals, depths and forces") {
 
 TEST_CASE("contacts of fewer frames are kept when they do not fit, but always those of the last one") {
   Frame frame = noisy_frame(1);
-  frame.contacts = {{frame.bodies[0].position, {0, 0, 1}, 1e-6, 0, kWall}};
+  frame.contacts = {{frame.grains[0].position, {0, 0, 1}, 1e-6, 0, kWall}};
   PackedContacts probe(10'000);
   probe.add(frame);
   const std::size_t size = probe.texts()[0].text.size();

@@ -13,9 +13,9 @@
 #include <string_view>
 
 #include "model/picture_names.hpp"
-#include "output/part_mesh.hpp"
 #include "output/picture.hpp"
 #include "output/result_names.hpp"
+#include "output/wall_mesh.hpp"
 #include "scenes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -30,8 +30,8 @@ Scene scene_of_two_kinds() {
   Scene scene{};
   scene.name = "pictures";
   scene.container = Box{{0.1, 0.1}};
-  scene.grains = {{{"bean", {0.006, 0.004, 0.003}, 2.5, 2.2, 0, 1200, "typical"}, 3},
-                  {{"die </script>", {0.008, 0.008, 0.008}, 20, 20, 0.001, 1200, "typical"}, 2}};
+  scene.kinds = {{{"bean", {0.006, 0.004, 0.003}, 2.5, 2.2, 0, 1200, "typical"}, 3},
+                 {{"die </script>", {0.008, 0.008, 0.008}, 20, 20, 0.001, 1200, "typical"}, 2}};
   return scene;
 }
 
@@ -41,12 +41,12 @@ Frame frame_at(std::size_t index) {
   const auto t = static_cast<double>(index);
   frame.time = 0.1 * t;
   frame.energy = {0.5 * t, 1 - t};
-  frame.part_places = {{}, {}, {{0.1 * t, 0.2, 0.3}, {std::cos(0.3 * t), 0, std::sin(0.3 * t), 0}, 1}};
+  frame.wall_places = {{}, {}, {{0.1 * t, 0.2, 0.3}, {std::cos(0.3 * t), 0, std::sin(0.3 * t), 0}, 1}};
   for (std::size_t k = 0; k < kBodies; ++k) {
     const double moved = k + 1 == kBodies ? 0 : t;
     const auto body = static_cast<double>(k);
     const double half = 0.4 * moved + body;
-    frame.bodies.push_back({{0.01 * body + 1.0 / 3, 0.02 * moved, 0.05 - 0.01 * moved},
+    frame.grains.push_back({{0.01 * body + 1.0 / 3, 0.02 * moved, 0.05 - 0.01 * moved},
                             {std::cos(half), 0, std::sin(half) * 0.6, std::sin(half) * 0.8},
                             {0, 0.2, -0.1},
                             {0, 0, 8 * body}});
@@ -56,18 +56,18 @@ Frame frame_at(std::size_t index) {
 }
 
 /// Floor, walls, and a plate that moves and turns.
-std::vector<ContainerPart> parts_of_scene(const Scene& scene) {
-  std::vector<ContainerPart> parts = parts_of(scene.container, 0.1);
-  Part plate{"plate", BoxShape{{0.02, 0.04, 0.01}}};
+std::vector<WallPicture> walls_of_scene(const Scene& scene) {
+  std::vector<WallPicture> walls = pictures_of(scene.container, 0.1);
+  Wall plate{"plate", BoxShape{{0.02, 0.04, 0.01}}};
   plate.motions = {{Translation{{1, 0, 0}}}};
-  parts.push_back(picture_of(plate, 1));
-  return parts;
+  walls.push_back(picture_of(plate, 1));
+  return walls;
 }
 
 /// A corner of the plate at a frame.
 Vector3 corner_at(std::size_t index) {
   const Frame frame = frame_at(index);
-  const auto& [p, q, scale] = frame.part_places[2];
+  const auto& [p, q, scale] = frame.wall_places[2];
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3(0.01, 0.02, 0.005) + Vector3(p[0], p[1], p[2]);
 }
 
@@ -77,7 +77,7 @@ class Written {
   explicit Written(std::string_view format, const std::vector<double>& scales = {})
       : scene_(scene_of_two_kinds()), out_(folder_.path(), "pictures", result_names()) {
     const PictureFormat& found = *find_picture_format(format);
-    const Contents contents{&scene_, {0, 1, 0, 1, 0}, parts_of_scene(scene_), scales};
+    const Contents contents{&scene_, {0, 1, 0, 1, 0}, walls_of_scene(scene_), scales};
     const std::unique_ptr<Picture> picture = found.make(out_, found, contents);
     for (std::size_t index = 0; index < kFrames; ++index) picture->add(frame_at(index));
     picture->finish(kSummary);
@@ -148,8 +148,8 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
     for (std::size_t index = 0; index < kFrames; ++index) {
       const Frame frame = frame_at(index);
       const auto node = static_cast<std::size_t>(channel.target_node);
-      const Point& position = node < kBodies ? frame.bodies[node].position : frame.part_places[node - kBodies].position;
-      const auto& [w, x, y, z] = node < kBodies ? frame.bodies[node].quaternion : frame.part_places[node - kBodies].quaternion;
+      const Point& position = node < kBodies ? frame.grains[node].position : frame.wall_places[node - kBodies].position;
+      const auto& [w, x, y, z] = node < kBodies ? frame.grains[node].quaternion : frame.wall_places[node - kBodies].quaternion;
       const std::array<double, 4> turned = {x, y, z, w};
       double along = 0;
       for (std::size_t i = 0; i < width; ++i) {
@@ -160,7 +160,7 @@ TEST_CASE("glb: a mesh a kind, and the tracks of the bodies that move") {
     }
   }
   // The one that stands still is placed, not animated.
-  CHECK(model.nodes[kBodies - 1].translation[0] == doctest::Approx(frame_at(0).bodies[kBodies - 1].position[0]).epsilon(1e-7));
+  CHECK(model.nodes[kBodies - 1].translation[0] == doctest::Approx(frame_at(0).grains[kBodies - 1].position[0]).epsilon(1e-7));
 }
 
 TEST_CASE("page: what it needs is in it, and names cannot end a script") {
@@ -209,12 +209,12 @@ TEST_CASE("lammps: diameters, quaternions with w last, roundness") {
       CHECK(numbers[0] == static_cast<double>(k + 1));
       CHECK(numbers[1] == (k % 2 == 1 ? 2 : 1));
       for (std::size_t i = 0; i < 3; ++i) {
-        CHECK(numbers[2 + i] == frame.bodies[k].position[i]);
-        CHECK(numbers[11 + i] == frame.bodies[k].quaternion[1 + i]);
-        CHECK(numbers[15 + i] == 2 * written.scene().grains[k % 2].grain.half_axes[i]);
+        CHECK(numbers[2 + i] == frame.grains[k].position[i]);
+        CHECK(numbers[11 + i] == frame.grains[k].quaternion[1 + i]);
+        CHECK(numbers[15 + i] == 2 * written.scene().kinds[k % 2].kind.half_axes[i]);
       }
-      CHECK(numbers[14] == frame.bodies[k].quaternion[0]);
-      CHECK(numbers[18] == 2 / written.scene().grains[k % 2].grain.delta);
+      CHECK(numbers[14] == frame.grains[k].quaternion[0]);
+      CHECK(numbers[18] == 2 / written.scene().kinds[k % 2].kind.delta);
     }
   }
 }
@@ -238,8 +238,8 @@ TEST_CASE("vtk: grains and contacts of every frame, also where there are none") 
     REQUIRE(positions.size() == 3 * kBodies);
     REQUIRE(quaternions.size() == 4 * kBodies);
     for (std::size_t k = 0; k < kBodies; ++k) {
-      for (std::size_t i = 0; i < 3; ++i) CHECK(positions[3 * k + i] == frame.bodies[k].position[i]);
-      for (std::size_t i = 0; i < 4; ++i) CHECK(quaternions[4 * k + i] == frame.bodies[k].quaternion[i]);
+      for (std::size_t i = 0; i < 3; ++i) CHECK(positions[3 * k + i] == frame.grains[k].position[i]);
+      for (std::size_t i = 0; i < 4; ++i) CHECK(quaternions[4 * k + i] == frame.grains[k].quaternion[i]);
     }
     const std::string contacts = written.text("vtk/contacts_00000" + std::to_string(index) + ".vtp");
     CHECK(read_array(contacts, "depth").size() == frame.contacts.size());
@@ -322,9 +322,9 @@ TEST_CASE("pictures show each body at its own size") {
     const std::vector<double> half_axes = read_array(grains, "half_axes");
     const std::vector<double> rounding = read_array(grains, "rounding");
     for (std::size_t k = 0; k < kBodies; ++k) {
-      const Grain& grain = written.scene().grains[k % 2].grain;
-      CHECK(half_axes[3 * k] == scales[k] * grain.half_axes[0]);
-      CHECK(rounding[k] == scales[k] * grain.rounding);
+      const GrainKind& kind = written.scene().kinds[k % 2].kind;
+      CHECK(half_axes[3 * k] == scales[k] * kind.half_axes[0]);
+      CHECK(rounding[k] == scales[k] * kind.rounding);
     }
     CHECK(grains.find("Name=\"grain\"") == std::string::npos);
   }

@@ -23,9 +23,9 @@ std::vector<Frame> frames() {
     const auto t = static_cast<double>(index);
     Frame& frame = all[index];
     frame.time = 0.1 * t;
-    frame.bodies.push_back(index < 2 ? BodyState{{0, 0, 0.1 - 0.01 * t}, {1, 0, 0, 0}, {}, {}}
-                                     : BodyState{{}, {1, 0, 0, 0}, {}, {}, false});
-    if (index > 0) frame.bodies.push_back({{0.05, 0.02 * t, 0.1}, {1, 0, 0, 0}, {}, {}});
+    frame.grains.push_back(index < 2 ? GrainState{{0, 0, 0.1 - 0.01 * t}, {1, 0, 0, 0}, {}, {}}
+                                     : GrainState{{}, {1, 0, 0, 0}, {}, {}, false});
+    if (index > 0) frame.grains.push_back({{0.05, 0.02 * t, 0.1}, {1, 0, 0, 0}, {}, {}});
   }
   return all;
 }
@@ -36,13 +36,13 @@ class PictureOfChanges {
   explicit PictureOfChanges(std::string_view name) : out_(folder_.path(), "changes", result_names()) {
     scene_.name = "changes";
     scene_.container = Open{};
-    scene_.grains = {{{"pea", {0.003, 0.003, 0.003}, 2, 2, 0, 1200, "typical"}, 1}};
+    scene_.kinds = {{{"pea", {0.003, 0.003, 0.003}, 2, 2, 0, 1200, "typical"}, 1}};
     scene_.sinks = {{"drain", HalfSpace{{0, 0, 0}, {0, 0, 1}}}};
     const PictureFormat& format = *find_picture_format(name);
     Contents contents{&scene_, {0}, {}};
     const std::unique_ptr<Picture> picture = format.make(out_, format, contents);
     for (const Frame& frame : frames()) {
-      contents.kind_of_body.resize(frame.bodies.size(), 0);
+      contents.kind_of_grain.resize(frame.grains.size(), 0);
       picture->add(frame);
     }
     picture->finish("");

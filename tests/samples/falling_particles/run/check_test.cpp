@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/input_error.hpp"
-#include "input/list_parts.hpp"
 #include "input/list_population.hpp"
+#include "input/list_walls.hpp"
 #include "observe/simulation.hpp"
 #include "run/forecast.hpp"
 #include "scene_text.hpp"
@@ -68,15 +68,15 @@ double seconds_of_step(const Scene& scene, int step) {
 
 TEST_CASE("check: lists name every key that a section allows") {
   for (const char* shape : {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"}) {
-    CHECK(list_parts().find("[[part]] shape = \"" + std::string(shape) + '"') != std::string::npos);
-    check_listed(list_parts(), "[[part]]\nname = \"p\"\nshape = \"" + std::string(shape) + "\"\n");
+    CHECK(list_walls().find("[[part]] shape = \"" + std::string(shape) + '"') != std::string::npos);
+    check_listed(list_walls(), "[[part]]\nname = \"p\"\nshape = \"" + std::string(shape) + "\"\n");
   }
   const std::string part = "[[part]]\nname = \"p\"\nshape = \"plane\"\n";
   for (const char* kind : {"velocity", "rotation", "vibration", "conveyor"}) {
-    CHECK(list_parts().find("[[part.motion]] kind = \"" + std::string(kind) + '"') != std::string::npos);
-    check_listed(list_parts(), part + "[[part.motion]]\nkind = \"" + kind + "\"\n");
+    CHECK(list_walls().find("[[part.motion]] kind = \"" + std::string(kind) + '"') != std::string::npos);
+    check_listed(list_walls(), part + "[[part.motion]]\nkind = \"" + kind + "\"\n");
   }
-  check_listed(list_parts(), part + "[part.drive]\n");
+  check_listed(list_walls(), part + "[part.drive]\n");
   check_listed(list_population(), "[[feeder]]\n");
   check_listed(list_population(), "[[sink]]\n");
 }

@@ -214,9 +214,9 @@ TEST_CASE("checkpoint: frames come back bit for bit, up to where the log was sav
   Frame frame;
   frame.time = 0.1;
   frame.energy = {1.0 / 3, 2.0 / 3};
-  frame.bodies = {{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}, {4, 5, 6}, {7, 8, 9}, true}, {{}, {1, 0, 0, 0}, {}, {}, false}};
+  frame.grains = {{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}, {4, 5, 6}, {7, 8, 9}, true}, {{}, {1, 0, 0, 0}, {}, {}, false}};
   frame.contacts = {{{1, 2, 3}, {0, 0, 1}, 1e-6, 0, kWall, Point{1, 2, 3}}, {{1, 2, 3}, {0, 0, 1}, 1e-6, 0, 1, {}}};
-  frame.part_places = {{{1, 2, 3}, {1, 0, 0, 0}, 0.5}};
+  frame.wall_places = {{{1, 2, 3}, {1, 0, 0, 0}, 0.5}};
   std::uint64_t kept = 0;
   {
     FrameLog log(path);
@@ -232,12 +232,12 @@ TEST_CASE("checkpoint: frames come back bit for bit, up to where the log was sav
   CHECK(frames[0].time == 0.1);
   CHECK(frames[1].time == 0.2);
   CHECK(frames[1].energy.kinetic == 1.0 / 3);
-  CHECK(frames[1].bodies[0].angular_velocity == Point{7, 8, 9});
-  CHECK(frames[1].bodies[0].is_present);
-  CHECK_FALSE(frames[1].bodies[1].is_present);
+  CHECK(frames[1].grains[0].angular_velocity == Point{7, 8, 9});
+  CHECK(frames[1].grains[0].is_present);
+  CHECK_FALSE(frames[1].grains[1].is_present);
   CHECK(frames[1].contacts[0].force == Point{1, 2, 3});
   CHECK_FALSE(frames[1].contacts[1].force);
-  CHECK(frames[1].part_places == frame.part_places);
+  CHECK(frames[1].wall_places == frame.wall_places);
   const auto ignore = [](const Frame&) {};
   CHECK_THROWS_WITH_AS(replay_frames(path, kept - 1, ignore), doctest::Contains("ends within a frame"), InputError);
   std::string bytes = read_file(path);

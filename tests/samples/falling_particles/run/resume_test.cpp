@@ -64,9 +64,9 @@ std::string end_of_run(const Scene& scene, int end, std::string& saved) {
 /// The attitudes of a world, taken out of it: ODE scales quaternions to 1 when they are set, which may change a last digit.
 std::vector<double> take_attitudes(WorldState& world) {
   std::vector<double> attitudes;
-  for (SavedBody& body : world.bodies) {
-    attitudes.insert(attitudes.end(), body.quaternion.begin(), body.quaternion.end());
-    body.quaternion = {};
+  for (SavedGrain& grain : world.grains) {
+    attitudes.insert(attitudes.end(), grain.quaternion.begin(), grain.quaternion.end());
+    grain.quaternion = {};
   }
   return attitudes;
 }
@@ -80,8 +80,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 std::vector<double> places_in(const World& world) {
   std::vector<double> places;
-  for (const Body& body : world.present()) {
-    for (const double x : world.place_of(body)) places.push_back(x);
+  for (const Grain& grain : world.present()) {
+    for (const double x : world.place_of(grain)) places.push_back(x);
   }
   return places;
 }
@@ -138,8 +138,8 @@ TEST_CASE("resume: grains that come from a feeder, some of which have gone into 
 
 TEST_CASE("resume: images in a periodic drum that turns") {
   Scene scene = sample("drum_periodic");
-  for (Part& part : scene.parts) {
-    for (PartMotion& motion : part.motions) motion.from = 0.02;  // s
+  for (Wall& wall : scene.walls) {
+    for (WallMotion& motion : wall.motions) motion.from = 0.02;  // s
   }
   check_resume(scene);
 }
@@ -161,7 +161,7 @@ TEST_CASE("resume: contacts before overlap, of grains that come from a feeder, b
 
 TEST_CASE("resume: a piston on its way") {
   Scene scene = sample("piston");
-  scene.parts.back().drive->from = 0.01;  // s
+  scene.walls.back().drive->from = 0.01;  // s
   check_resume(scene);
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("resume: grains on a terrain") {
 
 TEST_CASE("resume: a packing in a cell that shrinks") {
   Scene scene = sample("packing_superballs");
-  scene.grains[0].count = 120;
+  scene.kinds[0].count = 120;
   std::get<Periodic>(scene.container).side = 0.07;
   check_resume(scene);
 }
@@ -199,12 +199,12 @@ TEST_CASE("resume: grains that sleep") {
   Simulation resumed(scene, 1, saved);
   advance(resumed, scene, 2 * kEvery, 500);
   int asleep = 0;
-  for (const Body& body : resumed.world.present()) asleep += 1 - dBodyIsEnabled(body.body);
+  for (const Grain& grain : resumed.world.present()) asleep += 1 - dBodyIsEnabled(grain.body);
   CHECK(asleep > 0);
   CHECK(results_of(resumed) == expected);
   const std::string at_rest = resumed.save();
   const Simulation later(scene, 1, at_rest);
-  for (const Body& body : later.world.present()) asleep -= 1 - dBodyIsEnabled(body.body);
+  for (const Grain& grain : later.world.present()) asleep -= 1 - dBodyIsEnabled(grain.body);
   CHECK(asleep == 0);
 }
 

@@ -40,9 +40,9 @@ bool boxes_meet(dGeomID g1, dGeomID g2) {
 }
 
 Pairs all_pairs(const World& world) {
-  std::vector<dGeomID> geoms = world.walls().geoms();
+  std::vector<dGeomID> geoms = world.container_geoms().geoms();
   const std::size_t walls = geoms.size();
-  for (const Body& body : world.bodies()) geoms.push_back(body.geom);
+  for (const Grain& grain : world.grains()) geoms.push_back(grain.geom);
   Pairs pairs;
   for (std::size_t i = walls; i < geoms.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -63,10 +63,10 @@ World make_world(const Scene& scene) {
 /// Scatters grains in a box of these sides above the floor, close enough to meet.
 void scatter(const World& world, const Point& sides) {
   Random random(2);
-  for (const Body& body : world.bodies()) {
+  for (const Grain& grain : world.grains()) {
     const double x = sides[0] * random.uniform();
     const double y = sides[1] * random.uniform();
-    dBodySetPosition(body.body, x, y, sides[2] * random.uniform());
+    dBodySetPosition(grain.body, x, y, sides[2] * random.uniform());
   }
 }
 

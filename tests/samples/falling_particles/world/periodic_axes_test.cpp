@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "complaint.hpp"
-#include "model/container_parts.hpp"
+#include "model/container_walls.hpp"
 #include "observe/bed.hpp"
 #include "observe/container_picture.hpp"
 #include "observe/leaks.hpp"
@@ -31,7 +31,7 @@ std::string periodic_text(const std::string& lines) { return std::string(kSceneT
 
 double momentum(const World& world) {
   double sum = 0;
-  for (const Body& body : world.present()) sum += body.mass.mass * dBodyGetLinearVel(body.body)[0];
+  for (const Grain& grain : world.present()) sum += grain.mass.mass * dBodyGetLinearVel(grain.body)[0];
   return sum;
 }
 
@@ -43,9 +43,9 @@ TEST_CASE("a grain goes through a periodic boundary with its velocity, and meets
   scene.solver.iterations = 200;
   scene.periodic[0] = Period{0, 0.06};
   const World world(scene, {{0, {0.05, 0.025, 0.02}, {1, 0, 0, 0}}, {0, {0.02, 0.025, 0.02}, {1, 0, 0, 0}}});
-  CHECK(world.walls().geoms().size() == 3);  // the floor and the walls across y
-  const Body& moving = world.bodies()[0];
-  const Body& resting = world.bodies()[1];
+  CHECK(world.container_geoms().geoms().size() == 3);  // the floor and the walls across y
+  const Grain& moving = world.grains()[0];
+  const Grain& resting = world.grains()[1];
   dBodySetLinearVel(moving.body, 0.5, 0, 0);
   const double before = momentum(world);
   Stepper stepper(world, scene);
@@ -77,7 +77,7 @@ TEST_CASE("the stress of a periodic bed is that of its weight, and its floor bea
   const Scene scene = scene_with("kind = \"stress\"\nlower = [0, 0, 0]\nupper = [0.05, 0.06, 0.2]\n", text);
   Random random(1);
   const World world(scene, place(scene, random));
-  REQUIRE(world.walls().geoms().size() == 1);
+  REQUIRE(world.container_geoms().geoms().size() == 1);
   Stepper stepper(world, scene);
   LeakWatch leaks(world, scene);
   constexpr int kSettling = 1600, kSamples = 100;
@@ -88,12 +88,12 @@ TEST_CASE("the stress of a periodic bed is that of its weight, and its floor bea
     if (step <= kSettling) continue;
     stress += measure(scene, world, &stepper).number("contact_zz_Pa") / kSamples;
     for (const MeasuredContact& contact : stepper.measured_contacts()) {
-      if (body_of(contact.geom.g1) == nullptr || body_of(contact.geom.g2) == nullptr)
+      if (grain_of(contact.geom.g1) == nullptr || grain_of(contact.geom.g2) == nullptr)
         floor += std::abs(contact.force()[2]) / kSamples;
     }
-    for (const Body& body : world.present()) moment += body.mass.mass * kGravity * body.position()[2] / kSamples;
+    for (const Grain& grain : world.present()) moment += grain.mass.mass * kGravity * grain.position()[2] / kSamples;
   }
-  for (const Body& body : world.present()) weight += body.mass.mass * kGravity;
+  for (const Grain& grain : world.present()) weight += grain.mass.mass * kGravity;
   CHECK(leaks.count() == 0);
   CHECK(floor == relative(weight).epsilon(0.02));
   // In equilibrium the integral of the stress is the sum of weight times height.
@@ -122,10 +122,10 @@ TEST_CASE("a drum that is periodic along its axis has no ends, and keeps its gra
       replaced(scene_in("kind = \"drum\"\ndiameter = 0.12\nlength = 0.05\nsegments = 32\nrpm = 60"), "count = 2", "count = 20") +
       "[periodic]\ny = [0, 0.05]\n";
   const Scene scene = scene_of(text);
-  REQUIRE(scene.parts.size() == 1);
-  CHECK(scene.parts[0].name == "drum");
+  REQUIRE(scene.walls.size() == 1);
+  CHECK(scene.walls[0].name == "drum");
   double least = 0, most = 0;
-  for (const auto& vertex : std::get<MeshShape>(scene.parts[0].shape).vertices) {
+  for (const auto& vertex : std::get<MeshShape>(scene.walls[0].shape).vertices) {
     least = std::min<double>(least, vertex[1]);
     most = std::max<double>(most, vertex[1]);
   }
@@ -141,7 +141,7 @@ TEST_CASE("a drum that is periodic along its axis has no ends, and keeps its gra
   }
   CHECK(leaks.count() == 0);
   double x = 0;
-  for (const Body& body : world.present()) x += body.position()[0] / static_cast<double>(world.bodies().size());
+  for (const Grain& grain : world.present()) x += grain.position()[0] / static_cast<double>(world.grains().size());
   CHECK(x < -0.003);  // it is carried up on the side to which the floor moves
 }
 
@@ -178,7 +178,7 @@ size = [0.02, 0.02, 0.02]
     CHECK(population.present().grains == 160 - population.taken().grains);
     CHECK(population.present().mass + population.taken().mass == relative(population.fed().mass).epsilon(1e-12));
     std::vector<Point>& end = ends.emplace_back();
-    for (const Body& body : world.present()) end.push_back(body.position());
+    for (const Grain& grain : world.present()) end.push_back(grain.position());
   }
   CHECK(ends[0] == ends[1]);
 }
@@ -201,7 +201,7 @@ TEST_CASE("a feeder that has not started changes nothing") {
       stepper.step();
     }
     std::vector<Point>& end = ends.emplace_back();
-    for (const Body& body : world.bodies()) end.push_back(body.position());
+    for (const Grain& grain : world.grains()) end.push_back(grain.position());
   }
   CHECK(ends[0] == ends[1]);
 }
@@ -210,16 +210,16 @@ TEST_CASE("pictures of a periodic box show the walls that it has") {
   const Box box{{0.2, 0.3}};
   PeriodicAxes axes;
   axes[1] = Period{0, 0.3};
-  const std::vector<ContainerPart> parts = parts_of(box, 0.5, axes);
-  REQUIRE(parts.size() == 2);
-  CHECK(parts[1].mesh.triangles.size() == 4);
-  for (const auto& [a, b, c] : parts[1].mesh.triangles) {
-    const auto& vertices = parts[1].mesh.vertices;
+  const std::vector<WallPicture> walls = pictures_of(box, 0.5, axes);
+  REQUIRE(walls.size() == 2);
+  CHECK(walls[1].mesh.triangles.size() == 4);
+  for (const auto& [a, b, c] : walls[1].mesh.triangles) {
+    const auto& vertices = walls[1].mesh.vertices;
     CHECK(vertices[a][0] == vertices[b][0]);  // across x
     CHECK(vertices[a][0] == vertices[c][0]);
   }
   axes[0] = Period{0, 0.2};
-  CHECK(parts_of(box, 0.5, axes).size() == 1);
+  CHECK(pictures_of(box, 0.5, axes).size() == 1);
 }
 
 TEST_CASE("a scene that repeats along an axis says what is wrong with it") {

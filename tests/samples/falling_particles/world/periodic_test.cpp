@@ -22,10 +22,10 @@ namespace {
 
 constexpr double kSide = 0.04;  // m
 
-Grain bean() { return {"bean", {6e-3, 4e-3, 3e-3}, 2, 2, 0, 1000, "test"}; }
+GrainKind bean() { return {"bean", {6e-3, 4e-3, 3e-3}, 2, 2, 0, 1000, "test"}; }
 
-Scene weightless(double side, const Grain& grain, int count) {
-  Scene scene = scene_of(Periodic{side}, {{grain, count}});
+Scene weightless(double side, const GrainKind& kind, int count) {
+  Scene scene = scene_of(Periodic{side}, {{kind, count}});
   scene.effects.clear();
   return scene;
 }
@@ -34,10 +34,10 @@ struct Motion {
   std::array<double, 3> position, velocity, spin;
 };
 
-Motion motion_of(const Body& body) {
-  const dReal* v = dBodyGetLinearVel(body.body);
-  const dReal* w = dBodyGetAngularVel(body.body);
-  return {body.position(), {v[0], v[1], v[2]}, {w[0], w[1], w[2]}};
+Motion motion_of(const Grain& grain) {
+  const dReal* v = dBodyGetLinearVel(grain.body);
+  const dReal* w = dBodyGetAngularVel(grain.body);
+  return {grain.position(), {v[0], v[1], v[2]}, {w[0], w[1], w[2]}};
 }
 
 /// Lets two beans meet off-centre, `offset` away from where the cell's boundary does not matter.
@@ -48,8 +48,8 @@ std::vector<Motion> collide_at(double offset, bool rough) {
   const double middle = kSide / 2 + offset;
   const World world(scene, {{0, {middle - 7.2e-3, middle, middle}, {0.9, 0.1, 0.2, 0.3}},
                             {0, {middle + 7.2e-3, middle + 2e-3, middle + 1e-3}, {0.8, -0.3, 0.4, 0.1}}});
-  dBodySetLinearVel(world.bodies()[0].body, 0.5, 0, 0);
-  dBodySetLinearVel(world.bodies()[1].body, -0.5, 0, 0.1);
+  dBodySetLinearVel(world.grains()[0].body, 0.5, 0, 0);
+  dBodySetLinearVel(world.grains()[1].body, -0.5, 0, 0.1);
   Stepper stepper(world, scene);
   std::size_t contacts = 0;
   for (int i = 0; i < 20; ++i) {
@@ -57,7 +57,7 @@ std::vector<Motion> collide_at(double offset, bool rough) {
     contacts += stepper.contacts();
   }
   CHECK(contacts > 0);
-  return {motion_of(world.bodies()[0]), motion_of(world.bodies()[1])};
+  return {motion_of(world.grains()[0]), motion_of(world.grains()[1])};
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ TEST_CASE("a simple cubic lattice fills pi / 6 and has six contacts a grain, thr
   const double spacing = 0.01 * (1 - kShrink);
   const Scene scene = weightless(kPerAxis * spacing, ball(), kPerAxis * kPerAxis * kPerAxis);
   std::vector<Placement> placements;
-  for (int i = 0; i < scene.bodies(); ++i) {
+  for (int i = 0; i < scene.grains_at_start(); ++i) {
     const std::array<int, 3> index = {i % 3, i / 3 % 3, i / 9};
     placements.push_back({0, {(index[0] + 0.3) * spacing, (index[1] + 0.6) * spacing, index[2] * spacing}, {1, 0, 0, 0}});
   }
@@ -112,7 +112,7 @@ TEST_CASE("a simple cubic lattice fills pi / 6 and has six contacts a grain, thr
 }
 
 TEST_CASE("a contact counts once for the compression, however many points it has and wherever the boundary cuts it") {
-  const Grain brick = {"brick", {6e-3, 5e-3, 4e-3}, 40, 40, 0, 1000, "test"};
+  const GrainKind brick = {"brick", {6e-3, 5e-3, 4e-3}, 40, 40, 0, 1000, "test"};
   constexpr double kDepth = 1e-5;
   for (const double place : {0.5, 0.0, 0.97}) {  // of the cell's side
     CAPTURE(place);

@@ -22,7 +22,7 @@ TEST_CASE("grains start apart from one another and from the walls") {
   std::array<int, 2> counts{};
   for (const Placement& p : placements) {
     ++counts[p.kind];
-    const double radius = scene.grains[p.kind].grain.bounding_radius();
+    const double radius = scene.kinds[p.kind].kind.bounding_radius();
     for (std::size_t axis : {0U, 1U}) {
       CHECK(p.position[axis] >= radius);
       CHECK(p.position[axis] <= std::get<Box>(scene.container).width[axis] - radius);
@@ -34,21 +34,21 @@ TEST_CASE("grains start apart from one another and from the walls") {
       if (&q == &p) break;
       const double distance =
           std::hypot(p.position[0] - q.position[0], p.position[1] - q.position[1], p.position[2] - q.position[2]);
-      CHECK(distance >= (radius + scene.grains[q.kind].grain.bounding_radius()) * (1 - 1e-12));
+      CHECK(distance >= (radius + scene.kinds[q.kind].kind.bounding_radius()) * (1 - 1e-12));
     }
   }
   CHECK(counts == std::array<int, 2>{300, 2});
 }
 
 TEST_CASE("small grains among large ones start in cells of their own size, and touch nothing") {
-  const Grain boulder{"boulder", {0.1, 0.1, 0.1}, 2, 2, 0, 2500, "test"};
+  const GrainKind boulder{"boulder", {0.1, 0.1, 0.1}, 2, 2, 0, 2500, "test"};
   const Scene scene = scene_of(Box{{0.41, 0.41}}, {{boulder, 1}, {lentil(), 2000}});
   Random random(1);
   const std::vector<Placement> placements = place(scene, random);
   REQUIRE(placements.size() == 2001);
   // A cell of the boulder holds 4096 lentils, in cells of a sixteenth of its edges.
   CHECK(filled_lattice(scene).top() == supernormal::test::relative(0.001 + 0.204).epsilon(1e-12));
-  const auto radius = [&](const Placement& p) { return scene.grains[p.kind].grain.bounding_radius(); };
+  const auto radius = [&](const Placement& p) { return scene.kinds[p.kind].kind.bounding_radius(); };
   for (const Placement& p : placements) {
     const auto [x, y, z] = p.position;
     CHECK(std::min({x, y, z, 0.41 - x, 0.41 - y, 0.205 - z}) >= radius(p) - 1e-12);
@@ -93,7 +93,7 @@ TEST_CASE("random numbers are uniform") {
 
 TEST_CASE("the bounding radius holds the grain and no more") {
   const auto radius = [](std::array<double, 3> axes, double delta, double epsilon, double rounding) {
-    return Grain{"grain", axes, delta, epsilon, rounding, 1, ""}.bounding_radius();
+    return GrainKind{"grain", axes, delta, epsilon, rounding, 1, ""}.bounding_radius();
   };
   CHECK(radius({3, 4, 12}, 2, 2, 0) == 12);  // an ellipsoid: the longest half-axis
   CHECK(radius({3, 4, 12}, 1.5, 1.1, 0) == 12);

@@ -26,8 +26,8 @@ namespace {
 
 constexpr double kStepOfChanges = 1e-3;  // s
 
-Grain pea() { return {"pea", {3e-3, 3e-3, 3e-3}, 2, 2, 0, 1200, "test"}; }
-Grain die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; }
+GrainKind pea() { return {"pea", {3e-3, 3e-3, 3e-3}, 2, 2, 0, 1200, "test"}; }
+GrainKind die() { return {"die", {4e-3, 4e-3, 4e-3}, 8, 8, 1e-3, 1190, "test"}; }
 
 /// Grains fall from a region past a plane into a sink: nothing is in the way.
 Scene falling_scene(std::vector<Feeder> feeders) {
@@ -103,25 +103,25 @@ TEST_CASE("the fractions of a mixture hold to a grain at any time, by number and
 
 TEST_CASE("a feeder brings sizes and compounds as their kinds say") {
   Scene scene = falling_scene({feeder(kilograms(0.1))});
-  scene.grains[0].size = SizeDistribution::uniform({0.5, 1.5}, SizeDistribution::By::Number);
-  scene.grains[0].is_fed = true;
-  scene.grains[1].grain = make_compound("pair", {{{{2e-3, 2e-3, 2e-3}}, 1190}, {{{2e-3, 2e-3, 2e-3}}, 1190, {5e-3, 0, 0}}}, "test");
+  scene.kinds[0].size = SizeDistribution::uniform({0.5, 1.5}, SizeDistribution::By::Number);
+  scene.kinds[0].is_fed = true;
+  scene.kinds[1].kind = make_compound("pair", {{{{2e-3, 2e-3, 2e-3}}, 1190}, {{{2e-3, 2e-3, 2e-3}}, 1190, {5e-3, 0, 0}}}, "test");
   Plant plant(scene);
   plant.run_until(1.5);
   CHECK(plant.population.fed().mass == relative(0.15).epsilon(0.005));
   double sum = 0;
   double number = 0;
-  for (const Body& body : plant.world.bodies()) {
-    if (body.grain->parts.empty()) {
-      CHECK(body.scale >= 0.5);
-      CHECK(body.scale <= 1.5);
-      CHECK(body.mass.mass == relative(std::pow(body.scale, 3) * mass_of(pea())).epsilon(1e-9));
-      sum += body.scale;
+  for (const Grain& grain : plant.world.grains()) {
+    if (grain.kind->components.empty()) {
+      CHECK(grain.scale >= 0.5);
+      CHECK(grain.scale <= 1.5);
+      CHECK(grain.mass.mass == relative(std::pow(grain.scale, 3) * mass_of(pea())).epsilon(1e-9));
+      sum += grain.scale;
       ++number;
     } else {
-      CHECK(body.scale == 1);
-      CHECK(body.mass.mass == relative(mass_of(*body.grain)).epsilon(1e-12));
-      if (body.is_present()) CHECK(body.geoms().size() == 2);
+      CHECK(grain.scale == 1);
+      CHECK(grain.mass.mass == relative(mass_of(*grain.kind)).epsilon(1e-12));
+      if (grain.is_present()) CHECK(grain.geoms().size() == 2);
     }
   }
   REQUIRE(number > 100);
@@ -163,22 +163,22 @@ TEST_CASE("grains come without overlap, with the velocity that they are given, w
   Plant plant(scene);
   for (; plant.population.fed().grains < 100; ++plant.steps, plant.stepper.step()) {
     REQUIRE(plant.steps < 1000);
-    const std::size_t before = plant.world.bodies().size();
+    const std::size_t before = plant.world.grains().size();
     plant.population.before_step((plant.steps + 1) * kStepOfChanges);
-    for (std::size_t i = before; i < plant.world.bodies().size(); ++i) {
-      const Body& body = plant.world.bodies()[i];
-      CHECK(dBodyGetLinearVel(body.body)[0] == 0.1);
-      CHECK(dBodyGetLinearVel(body.body)[2] == -0.5);
+    for (std::size_t i = before; i < plant.world.grains().size(); ++i) {
+      const Grain& grain = plant.world.grains()[i];
+      CHECK(dBodyGetLinearVel(grain.body)[0] == 0.1);
+      CHECK(dBodyGetLinearVel(grain.body)[2] == -0.5);
       dReal aabb[6];
-      dGeomGetAABB(body.geom, aabb);
+      dGeomGetAABB(grain.geom, aabb);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         CHECK(aabb[2 * axis] >= dense.region.corner[axis]);
         CHECK(aabb[2 * axis + 1] <= dense.region.corner[axis] + dense.region.size[axis]);
       }
-      for (const Body& other : plant.world.present()) {
-        if (&other == &body) continue;
+      for (const Grain& other : plant.world.present()) {
+        if (&other == &grain) continue;
         snProximity proximity;
-        REQUIRE(snGeomProximity(body.geom, other.geom, &proximity) == 1);
+        REQUIRE(snGeomProximity(grain.geom, other.geom, &proximity) == 1);
         CHECK(proximity.gap > 0);
       }
     }
@@ -194,8 +194,8 @@ TEST_CASE("a feeder whose region is full catches up, or says what is wrong") {
   // A tube that is closed below the region until a plate moves away. A sink empties it.
   scene.container = Box{{0.02, 0.02}};
   scene.sinks = {{"floor", Region{{0, 0, 0}, {0.02, 0.02, 0.02}}}};
-  scene.parts = {{"plate", BoxShape{{0.1, 0.1, 0.004}}, {{0.01, 0.01, 0.057}, Eigen::Quaterniond::Identity()}}};
-  scene.parts[0].motions = {{Translation{{1, 0, 0}}, 0.3}};
+  scene.walls = {{"plate", BoxShape{{0.1, 0.1, 0.004}}, {{0.01, 0.01, 0.057}, Eigen::Quaterniond::Identity()}}};
+  scene.walls[0].motions = {{Translation{{1, 0, 0}}, 0.3}};
   scene.feeders[0].patience = 1;
   {
     Plant plant(scene);
@@ -223,7 +223,7 @@ TEST_CASE("a feeder whose region is full catches up, or says what is wrong") {
 
 TEST_CASE("mass is conserved through feeders and sinks, and grains that are gone keep their index") {
   Scene scene = falling_scene({feeder(kilograms(0.05))});
-  scene.grains[0].count = 1;
+  scene.kinds[0].count = 1;
   scene.sinks.insert(scene.sinks.begin(), {"side", Region{{0, -1, 0.02}, {1, 2, 0.03}}});
   Plant plant(scene, {{0, {0, 0, 0.3}, {1, 0, 0, 0}}});
   plant.run_until(1);
@@ -237,14 +237,14 @@ TEST_CASE("mass is conserved through feeders and sinks, and grains that are gone
   for (std::size_t sink = 0; sink < 2; ++sink) {
     for (std::size_t kind = 0; kind < 2; ++kind) CHECK(population.taken(sink)[kind].grains > 5);
   }
-  CHECK(plant.world.bodies().size() == came);
-  CHECK(!plant.world.bodies()[0].is_present());  // the first to fall through
-  CHECK(plant.world.bodies().back().is_present());
+  CHECK(plant.world.grains().size() == came);
+  CHECK(!plant.world.grains()[0].is_present());  // the first to fall through
+  CHECK(plant.world.grains().back().is_present());
   std::size_t there = 0;
-  for (const Body& body : plant.world.present()) {
+  for (const Grain& grain : plant.world.present()) {
     ++there;
-    CHECK(&plant.world.bodies()[plant.world.index_of(body)] == &body);
-    CHECK(body_of(body.geom) == &body);
+    CHECK(&plant.world.grains()[plant.world.index_of(grain)] == &grain);
+    CHECK(grain_of(grain.geom) == &grain);
   }
   CHECK(there == population.present().grains);
   CHECK(plant.leaks.count() == 0);  // below the plane is in the sink

@@ -39,7 +39,7 @@ unsigned long long contacts_ahead(const World& world) {
 /// Throws a ball at a wall; whether it has left the container.
 bool leaves(const Scene& scene, const Point& velocity) {
   const World world(scene, {{0, {0.025, 0.025, 0.02}, {1, 0, 0, 0}}});
-  dBodySetLinearVel(world.bodies()[0].body, velocity[0], velocity[1], velocity[2]);
+  dBodySetLinearVel(world.grains()[0].body, velocity[0], velocity[1], velocity[2]);
   Stepper stepper(world, scene);
   LeakWatch leaks(world, scene);
   for (int k = 1; k <= 20; ++k) {
@@ -94,7 +94,7 @@ TEST_CASE("speculative contacts: where a scene repeats, a ball bounces as high a
       const double height = 0.5;  // m
       const World world(scene, {{0, {x, 0.025, 5e-3 + height}, {1, 0, 0, 0}}});
       Stepper stepper(world, scene);
-      dBodyID body = world.bodies()[0].body;
+      dBodyID body = world.grains()[0].body;
       const auto rises = [&] { return dBodyGetLinearVel(body)[2] > 0; };
       for (int k = 0; k * step < 1 && !rises(); ++k) stepper.step();
       REQUIRE(rises());
@@ -142,10 +142,10 @@ TEST_CASE("a spring holds a grain on a wall whose rotation needs chords") {
   Scene scene = scene_of(std::string(kSceneText) +
                          "[[part]]\nname = \"plate\"\nshape = \"box\"\nsize = [0.5, 0.5, 0.1]\nposition = [0.025, 0.025, 0.05]\n"
                          "[[part.motion]]\nkind = \"rotation\"\naxis = [0, 1, 0]\npoint = [0.025, 0.025, 0.05]\nrpm = 1e-3\n");
-  scene.grains.resize(1);
+  scene.kinds.resize(1);
   scene.effects = {fx::Gravity{{0, 0, -9.81}}, fx::Friction{0.4, {}}, fx::Compliance{1e3, 0.05, {}}};
   const World world(scene, {{0, {0.025, 0.025, 0.103}, {1, 0, 0, 0}}});
   Stepper stepper(world, scene);
   for (int k = 0; k < 400; ++k) stepper.step();
-  CHECK(world.bodies()[0].position()[2] > 0.1025);
+  CHECK(world.grains()[0].position()[2] > 0.1025);
 }

@@ -1,5 +1,5 @@
 // Tests of containers that are made of parts: where their walls are and how they move, and what is said of mistakes.
-#include "model/container_parts.hpp"
+#include "model/container_walls.hpp"
 
 #include <doctest/doctest.h>
 
@@ -51,28 +51,28 @@ wall_height = 0.05
 speed = 0.4
 drop_length = 0.1)";
 
-const Part& find(const std::vector<Part>& parts, const std::string& name) {
-  const auto found = std::ranges::find(parts, name, &Part::name);
-  REQUIRE(found != parts.end());
+const Wall& find(const std::vector<Wall>& walls, const std::string& name) {
+  const auto found = std::ranges::find(walls, name, &Wall::name);
+  REQUIRE(found != walls.end());
   return *found;
 }
 
 /// Velocity of the surface of a part at a point of the world, at the start.
-Vector3 surface_velocity(const Part& part, const Vector3& point) {
-  const PartVelocity v = conveyor_velocity(part.start, part.start, part.motions, 1, 1.001);
-  return v.linear + v.angular.cross(point - part.start.position);
+Vector3 surface_velocity(const Wall& wall, const Vector3& point) {
+  const WallVelocity v = conveyor_velocity(wall.start, wall.start, wall.motions, 1, 1.001);
+  return v.linear + v.angular.cross(point - wall.start.position);
 }
 
 /// The largest extent of a box of parts along an axis that is below or above a point of it.
-double face(const Part& part, int axis, int side) {
-  return part.start.position[axis] + side * std::get<BoxShape>(part.shape).size[axis] / 2;
+double face(const Wall& wall, int axis, int side) {
+  return wall.start.position[axis] + side * std::get<BoxShape>(wall.shape).size[axis] / 2;
 }
 
 }  // namespace
 
 TEST_CASE("the shell of a drum is around its axis, at its radius, and looks inwards; the ends look at one another") {
   const Scene scene = scene_of(scene_in(kDrum));
-  const Part& shell = find(scene.parts, "drum");
+  const Wall& shell = find(scene.walls, "drum");
   const auto& mesh = std::get<MeshShape>(shell.shape);
   const auto corner = [&](unsigned int index) -> Vector3 {
     const auto& [x, y, z] = mesh.vertices[index];
@@ -84,8 +84,8 @@ TEST_CASE("the shell of a drum is around its axis, at its radius, and looks inwa
     const Vector3 normal = (corner(b) - corner(a)).cross(corner(c) - corner(a)).normalized();
     CHECK(normal.dot(middle - corner(a)) == relative(0.05).epsilon(1e-5));
   }
-  CHECK((find(scene.parts, "near_end").start.rotation * Vector3::UnitZ() - Vector3::UnitY()).norm() < 1e-15);
-  CHECK((find(scene.parts, "far_end").start.rotation * Vector3::UnitZ() + Vector3::UnitY()).norm() < 1e-15);
+  CHECK((find(scene.walls, "near_end").start.rotation * Vector3::UnitZ() - Vector3::UnitY()).norm() < 1e-15);
+  CHECK((find(scene.walls, "far_end").start.rotation * Vector3::UnitZ() + Vector3::UnitY()).norm() < 1e-15);
   CHECK(contains(scene.container, {0, 0.01, 0.001}));
   CHECK_FALSE(contains(scene.container, {0.04, 0.01, 0.001}));
   CHECK_FALSE(contains(scene.container, {0, 0.06, 0.05}));
@@ -95,7 +95,7 @@ TEST_CASE("grains in a drum that turns stay in it, and its flat sides stand wher
   for (const bool is_smooth : {false, true}) {
     CAPTURE(is_smooth);
     Scene scene = scene_of(Drum{0.08, 0.04, 32, 60, is_smooth, 0.1}, {{lentil(), 60}});
-    scene.parts = parts_in(scene.container);
+    scene.walls = walls_in(scene.container);
     Random random(1);
     const World world(scene, place(scene, random));
     Stepper stepper(world, scene);
@@ -106,38 +106,38 @@ TEST_CASE("grains in a drum that turns stay in it, and its flat sides stand wher
     }
     CHECK(leaks.count() == 0);
     // It has turned once since 0.1 s.
-    const PartState state = world.parts()->state(0);
+    const WallState state = world.walls()->state(0);
     CHECK((state.pose.rotation * Vector3::UnitX() - Vector3::UnitX()).norm() < 1e-12);
     // A positive speed moves the floor towards -x: the bed leans on that side.
     double x = 0;
-    for (const Body& body : world.bodies()) x += body.position()[0] / static_cast<double>(world.bodies().size());
+    for (const Grain& grain : world.grains()) x += grain.position()[0] / static_cast<double>(world.grains().size());
     CHECK(x < -0.008);
   }
 }
 
 TEST_CASE("all parts of a tray shake together, and grains fit between its walls") {
   const Scene scene = scene_of(scene_in(kTray));
-  REQUIRE(scene.parts.size() == 5);
-  for (const Part& part : scene.parts) CHECK(std::get<Vibration>(part.motions.at(0).kind).amplitude == Vector3(0, 0, 0.001));
-  CHECK(face(find(scene.parts, "tray_floor"), 2, 1) == doctest::Approx(0));
-  CHECK(face(find(scene.parts, "tray_left"), 0, 1) == doctest::Approx(0));
-  CHECK(face(find(scene.parts, "tray_right"), 0, -1) == doctest::Approx(0.05));
-  CHECK(face(find(scene.parts, "tray_front"), 1, 1) == doctest::Approx(0));
-  CHECK(face(find(scene.parts, "tray_back"), 1, -1) == doctest::Approx(0.06));
+  REQUIRE(scene.walls.size() == 5);
+  for (const Wall& wall : scene.walls) CHECK(std::get<Vibration>(wall.motions.at(0).kind).amplitude == Vector3(0, 0, 0.001));
+  CHECK(face(find(scene.walls, "tray_floor"), 2, 1) == doctest::Approx(0));
+  CHECK(face(find(scene.walls, "tray_left"), 0, 1) == doctest::Approx(0));
+  CHECK(face(find(scene.walls, "tray_right"), 0, -1) == doctest::Approx(0.05));
+  CHECK(face(find(scene.walls, "tray_front"), 1, 1) == doctest::Approx(0));
+  CHECK(face(find(scene.walls, "tray_back"), 1, -1) == doctest::Approx(0.06));
   CHECK(contains(scene.container, {0.01, 0.01, -0.001}));
   CHECK_FALSE(contains(scene.container, {0.01, 0.01, -0.003}));
 }
 
 TEST_CASE("the lower half of a shear cell moves, the upper one stands, and the lid presses on the plan") {
   const Scene scene = scene_of(scene_in(kCell));
-  for (const Part& part : scene.parts) {
-    CAPTURE(part.name);
-    CHECK(part.moves() == !part.name.starts_with("upper"));
+  for (const Wall& wall : scene.walls) {
+    CAPTURE(wall.name);
+    CHECK(wall.moves() == !wall.name.starts_with("upper"));
   }
-  CHECK(std::get<Translation>(find(scene.parts, "lower_left").motions.at(0).kind).velocity == Vector3(0.05, 0, 0));
-  CHECK(face(find(scene.parts, "lower_left"), 2, 1) == doctest::Approx(0.02));
-  CHECK(face(find(scene.parts, "upper_left"), 2, -1) == doctest::Approx(0.02));
-  const Part& lid = find(scene.parts, "lid");
+  CHECK(std::get<Translation>(find(scene.walls, "lower_left").motions.at(0).kind).velocity == Vector3(0.05, 0, 0));
+  CHECK(face(find(scene.walls, "lower_left"), 2, 1) == doctest::Approx(0.02));
+  CHECK(face(find(scene.walls, "upper_left"), 2, -1) == doctest::Approx(0.02));
+  const Wall& lid = find(scene.walls, "lid");
   CHECK(lid.drive->force == doctest::Approx(500 * 0.05 * 0.06));
   CHECK(lid.drive->axis == Vector3(0, 0, -1));
   CHECK(face(lid, 2, -1) == doctest::Approx(0.11));
@@ -145,9 +145,9 @@ TEST_CASE("the lower half of a shear cell moves, the upper one stands, and the l
 
 TEST_CASE("the belt and its rollers have one speed where they meet") {
   const Scene scene = scene_of(scene_in(kBelt));
-  CHECK((surface_velocity(find(scene.parts, "belt"), {0.1, 0.03, 0.1}) - Vector3(0.4, 0, 0)).norm() < 1e-12);
+  CHECK((surface_velocity(find(scene.walls, "belt"), {0.1, 0.03, 0.1}) - Vector3(0.4, 0, 0)).norm() < 1e-12);
   for (const double x : {0.0, 0.2}) {
-    const Part& roller = find(scene.parts, x == 0 ? "first_roller" : "last_roller");
+    const Wall& roller = find(scene.walls, x == 0 ? "first_roller" : "last_roller");
     CHECK((surface_velocity(roller, {x, 0.03, 0.1}) - Vector3(0.4, 0, 0)).norm() < 1e-12);
     CHECK((surface_velocity(roller, {x, 0.03, 0.08}) + Vector3(0.4, 0, 0)).norm() < 1e-12);
     CHECK(std::abs((roller.start.rotation * Vector3::UnitZ()).y()) == doctest::Approx(1));
@@ -165,7 +165,7 @@ TEST_CASE("a mistake in a container that moves is told with its name, its value 
       {kDrum, {"segments = 48", "segments = 3", {"container.segments is 3", "from 8"}}},
       {kDrum, {"segments = 48", "segments = 48\nturns_at = 1", {"container.turns_at is 1", "before time.duration"}}},
       {kDrum, {"diameter = 0.1", "diameter = 0.03", {"the scene has 7 grains", "up to 0"}}},
-      {kDrum, {"length = 0.05", "length = 0.01", {"container.length is 0.01", "fits in any attitude"}}},
+      {kDrum, {"length = 0.05", "length = 0.01", {"container.length is 0.01", "fits in any orientation"}}},
       {kTray, {"frequency = 30", "frequency = 300", {"container.frequency is 300", "ten time.step"}}},
       {kTray, {"amplitude = 0.001", "amplitude = -1", {"container.amplitude is -1", "(0, 1000] m"}}},
       {kTray, {"direction = [0, 0, 1]", "direction = [0, 0, 0]", {"container.direction", "a direction, not 0"}}},
@@ -189,9 +189,9 @@ TEST_CASE("the scenes that show parts are valid, and their grains start") {
     const Scene scene = load_scene(SUPERNORMAL_SAMPLES "/scenes/" + std::string(name) + ".toml");
     Random random(scene.seed);
     const World world(scene, place(scene, random));
-    CHECK(world.parts() != nullptr);
+    CHECK(world.walls() != nullptr);
     Stepper stepper(world, scene);
     for (int i = 0; i < 20; ++i) stepper.step();
-    for (const Body& body : world.bodies()) CHECK(contains(scene.container, body.position()));
+    for (const Grain& grain : world.grains()) CHECK(contains(scene.container, grain.position()));
   }
 }

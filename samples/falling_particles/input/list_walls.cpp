@@ -1,12 +1,12 @@
-#include "list_parts.hpp"
+#include "list_walls.hpp"
 
 namespace falling_particles {
 
-std::string list_parts() {
+std::string list_walls() {
   return R"([[part]]
   parameters  name: letters, digits, _ - and .
               position: m, each in [-1000, 1000]; the origin without it
-              axis, angle: the attitude, a turn by angle degrees in [-360, 360] about axis; none without them
+              axis, angle: the orientation, a rotation by angle degrees in [-360, 360] about axis; none without them
               friction: in (0, 100], of grains on this part; as for walls without it
               restitution: in (0, 1], of grains on this part; as for walls without it
   cost        its contacts; a part that moves has a body more

@@ -1,4 +1,4 @@
-#include "part.hpp"
+#include "wall.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ double radius_of(const MeshShape& mesh) {
 
 }  // namespace
 
-double bounding_radius(const PartShape& shape) {
+double bounding_radius(const WallShape& shape) {
   return std::visit([](const auto& kind) { return radius_of(kind); }, shape);
 }
 

@@ -1,4 +1,4 @@
-#include "container_parts.hpp"
+#include "container_walls.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -8,23 +8,23 @@
 namespace falling_particles {
 namespace {
 
-/// A box from one corner to the other.
-Part box(std::string name, const Vector3& lower, const Vector3& upper, std::vector<PartMotion> motions = {}) {
+/// A box between two opposite corners.
+Wall box(std::string name, const Vector3& lower, const Vector3& upper, std::vector<WallMotion> motions = {}) {
   return {std::move(name), BoxShape{upper - lower}, {(lower + upper) / 2, Eigen::Quaterniond::Identity()}, std::move(motions)};
 }
 
-/// Walls outside a rectangle that begins at the origin, from one height to another.
+/// Four walls around a rectangle with its corner at the origin, from z = `bottom` to z = `top`.
 void add_walls(const std::string& prefix, const std::array<double, 2>& width, double thickness, double bottom, double top,
-               const std::vector<PartMotion>& motions, std::vector<Part>& parts) {
+               const std::vector<WallMotion>& motions, std::vector<Wall>& walls) {
   const auto [x, y] = width;
   const double t = thickness;
-  parts.push_back(box(prefix + "_left", {-t, -t, bottom}, {0, y + t, top}, motions));
-  parts.push_back(box(prefix + "_right", {x, -t, bottom}, {x + t, y + t, top}, motions));
-  parts.push_back(box(prefix + "_front", {-t, -t, bottom}, {x + t, 0, top}, motions));
-  parts.push_back(box(prefix + "_back", {-t, y, bottom}, {x + t, y + t, top}, motions));
+  walls.push_back(box(prefix + "_left", {-t, -t, bottom}, {0, y + t, top}, motions));
+  walls.push_back(box(prefix + "_right", {x, -t, bottom}, {x + t, y + t, top}, motions));
+  walls.push_back(box(prefix + "_front", {-t, -t, bottom}, {x + t, 0, top}, motions));
+  walls.push_back(box(prefix + "_back", {-t, y, bottom}, {x + t, y + t, top}, motions));
 }
 
-/// The inner side of the shell around the y-axis, which reaches beyond the ends.
+/// The inner side of the drum's shell around the y-axis. It extends beyond both ends.
 MeshShape shell_of(const Drum& drum) {
   MeshShape mesh;
   const double beyond = 0.1 * drum.radius();
@@ -44,13 +44,13 @@ MeshShape shell_of(const Drum& drum) {
   return mesh;
 }
 
-PartPose facing(const Vector3& position, double angle_about_x) {
+WallPose facing(const Vector3& position, double angle_about_x) {
   return {position, Eigen::Quaterniond(Eigen::AngleAxisd(angle_about_x, Vector3::UnitX()))};
 }
 
-std::vector<Part> parts_of(const Drum& drum) {
+std::vector<Wall> walls_of(const Drum& drum) {
   const Rotation turn{Vector3::UnitY(), {0, 0, drum.radius()}, drum.rpm};
-  PartMotion motion{turn, drum.turns_at};
+  WallMotion motion{turn, drum.turns_at};
   if (drum.is_smooth) motion.kind = Conveyor{Vector3::Zero(), turn};
   const PlaneShape end{drum.outer_radius()};
   return {{"drum", shell_of(drum), {{0, 0, drum.radius()}, Eigen::Quaterniond::Identity()}, {motion}},
@@ -58,38 +58,38 @@ std::vector<Part> parts_of(const Drum& drum) {
           {"far_end", end, facing({0, drum.length, drum.radius()}, std::numbers::pi / 2), {motion}}};
 }
 
-std::vector<Part> parts_of(const Tray& tray) {
+std::vector<Wall> walls_of(const Tray& tray) {
   const double t = tray.thickness;
   const Vector3 amplitude = tray.amplitude * Vector3(tray.direction[0], tray.direction[1], tray.direction[2]);
-  const std::vector<PartMotion> motions = {{Vibration{amplitude, tray.frequency, tray.phase}, tray.shakes_at}};
-  std::vector<Part> parts = {box("tray_floor", {-t, -t, -t}, {tray.width[0] + t, tray.width[1] + t, 0}, motions)};
-  add_walls("tray", tray.width, t, -t, tray.wall_height, motions, parts);
-  return parts;
+  const std::vector<WallMotion> motions = {{Vibration{amplitude, tray.frequency, tray.phase}, tray.shakes_at}};
+  std::vector<Wall> walls = {box("tray_floor", {-t, -t, -t}, {tray.width[0] + t, tray.width[1] + t, 0}, motions)};
+  add_walls("tray", tray.width, t, -t, tray.wall_height, motions, walls);
+  return walls;
 }
 
-std::vector<Part> parts_of(const ShearCell& cell) {
+std::vector<Wall> walls_of(const ShearCell& cell) {
   const auto [x, y] = cell.width;
   const double t = cell.thickness;
-  const std::vector<PartMotion> shear = {{Translation{{cell.speed, 0, 0}}, cell.shears_at}};
-  std::vector<Part> parts = {box("lower_floor", {-t, -t, -t}, {x + t, y + t, 0}, shear)};
-  add_walls("lower", cell.width, t, 0, cell.cut, shear, parts);
-  add_walls("upper", cell.width, t, cell.cut, cell.height, {}, parts);
-  Part lid = box("lid", {0, 0, cell.lid}, {x, y, cell.lid + t});
+  const std::vector<WallMotion> shear = {{Translation{{cell.speed, 0, 0}}, cell.shears_at}};
+  std::vector<Wall> walls = {box("lower_floor", {-t, -t, -t}, {x + t, y + t, 0}, shear)};
+  add_walls("lower", cell.width, t, 0, cell.cut, shear, walls);
+  add_walls("upper", cell.width, t, cell.cut, cell.height, {}, walls);
+  Wall lid = box("lid", {0, 0, cell.lid}, {x, y, cell.lid + t});
   lid.drive = Drive{-Vector3::UnitZ(), cell.pressure * x * y, cell.lid_mass};
   lid.drive->from = cell.presses_at;
   lid.drive->travel = {0, cell.lid - cell.cut};
-  parts.push_back(std::move(lid));
-  return parts;
+  walls.push_back(std::move(lid));
+  return walls;
 }
 
-std::vector<Part> parts_of(const ConveyorBelt& belt) {
+std::vector<Wall> walls_of(const ConveyorBelt& belt) {
   const double t = belt.thickness;
   const double top = belt.height + belt.wall_height;
   const double middle = belt.height - t / 2;
-  const PartMotion running{Conveyor{{belt.speed, 0, 0}, {Vector3::UnitY(), Vector3::Zero(), 0}}, belt.starts_at};
-  const auto roller = [&](const char* name, double x) -> Part {
+  const WallMotion running{Conveyor{{belt.speed, 0, 0}, {Vector3::UnitY(), Vector3::Zero(), 0}}, belt.starts_at};
+  const auto roller = [&](const char* name, double x) -> Wall {
     const Vector3 position(x, belt.width / 2, middle);
-    const PartMotion turning{Conveyor{Vector3::Zero(), {Vector3::UnitY(), position, belt.roller_rpm()}}, belt.starts_at};
+    const WallMotion turning{Conveyor{Vector3::Zero(), {Vector3::UnitY(), position, belt.roller_rpm()}}, belt.starts_at};
     return {name, CylinderShape{t / 2, belt.width}, facing(position, std::numbers::pi / 2), {turning}};
   };
   return {box("belt", {0, 0, belt.height - t}, {belt.length, belt.width, belt.height}, {running}),
@@ -104,12 +104,12 @@ std::vector<Part> parts_of(const ConveyorBelt& belt) {
 
 }  // namespace
 
-std::vector<Part> parts_in(const Container& container) {
-  const auto parts = [](const auto& kind) -> std::vector<Part> {
-    if constexpr (requires { parts_of(kind); }) return parts_of(kind);
+std::vector<Wall> walls_in(const Container& container) {
+  const auto walls = [](const auto& kind) -> std::vector<Wall> {
+    if constexpr (requires { walls_of(kind); }) return walls_of(kind);
     return {};
   };
-  return std::visit(parts, container);
+  return std::visit(walls, container);
 }
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-#include "part_mesh.hpp"
+#include "wall_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kChordError = 0.01;    // of the smallest half-axis
 constexpr unsigned int kSegments = 64;  // of a circle
-constexpr double kSharp = 0.87;         // cosine of 30 degrees between two triangles, above which their edge is not drawn
+constexpr double kSharp = 0.87;         // cosine of 30 degrees between two triangles; if it is larger, their edge is not drawn
 
 std::array<float, 3> vertex(const Vector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -81,7 +81,7 @@ Vector3 normal_of(const Mesh& mesh, const std::array<unsigned int, 3>& triangle)
   return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
 }
 
-/// The edges of one triangle alone, or between two that are bent.
+/// The edges that have one triangle only, or two triangles with an angle between them.
 std::vector<std::array<unsigned int, 2>> sharp_edges(const Mesh& mesh) {
   std::map<std::array<unsigned int, 2>, std::vector<Vector3>> normals;
   for (const auto& triangle : mesh.triangles) {
@@ -99,17 +99,15 @@ std::vector<std::array<unsigned int, 2>> sharp_edges(const Mesh& mesh) {
 
 }  // namespace
 
-ContainerPart picture_of(const Part& part, double extent) {
-  ContainerPart picture{part.name,
-                        part.moves() ? ContainerPart::Role::Moving : ContainerPart::Role::Still,
-                        std::visit(Mesher{extent}, part.shape),
-                        {}};
+WallPicture picture_of(const Wall& wall, double extent) {
+  WallPicture picture{
+      wall.name, wall.moves() ? WallPicture::Role::Moving : WallPicture::Role::Still, std::visit(Mesher{extent}, wall.shape), {}};
   // Smooth bodies have no edges, however sharply their triangles bend.
-  if (!std::holds_alternative<SmoothShape>(part.shape)) picture.edges = sharp_edges(picture.mesh);
-  const auto* const mesh = std::get_if<MeshShape>(&part.shape);
+  if (!std::holds_alternative<SmoothShape>(wall.shape)) picture.edges = sharp_edges(picture.mesh);
+  const auto* const mesh = std::get_if<MeshShape>(&wall.shape);
   picture.two_sided = mesh != nullptr && mesh->two_sided;
-  if (part.moves()) return picture;
-  for (auto& corner : picture.mesh.vertices) corner = vertex(part.start(Vector3(corner[0], corner[1], corner[2])));
+  if (wall.moves()) return picture;
+  for (auto& corner : picture.mesh.vertices) corner = vertex(wall.start(Vector3(corner[0], corner[1], corner[2])));
   return picture;
 }
 

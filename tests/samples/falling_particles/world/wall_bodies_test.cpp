@@ -19,27 +19,27 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kStep = 2e-4;
 
-Grain light_ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2000, "test"}; }
-Grain brick() { return {"brick", {0.01, 0.01, 4e-3}, 20, 20, 0, 2000, "test"}; }
+GrainKind light_ball() { return {"ball", {5e-3, 5e-3, 5e-3}, 2, 2, 0, 2000, "test"}; }
+GrainKind brick() { return {"brick", {0.01, 0.01, 4e-3}, 20, 20, 0, 2000, "test"}; }
 
-PartMotion motion(decltype(PartMotion::kind) kind) { return {std::move(kind)}; }
+WallMotion motion(decltype(WallMotion::kind) kind) { return {std::move(kind)}; }
 
 /// One grain over parts.
-Scene scene_on(std::vector<Part> parts, const Grain& grain, std::vector<fx::Effect> effects) {
-  Scene scene = scene_of(Open{{{-0.1, -0.1, 0}, {0.2, 0.2, 1}}, {{-1, -1, -1}, {2, 2, 3}}}, {{grain, 1}});
-  scene.parts = std::move(parts);
+Scene scene_on(std::vector<Wall> walls, const GrainKind& kind, std::vector<fx::Effect> effects) {
+  Scene scene = scene_of(Open{{{-0.1, -0.1, 0}, {0.2, 0.2, 1}}, {{-1, -1, -1}, {2, 2, 3}}}, {{kind, 1}});
+  scene.walls = std::move(walls);
   scene.effects = std::move(effects);
   scene.effects.emplace_back(fx::Gravity{{0, 0, -kGravity}});
   scene.time = {2, kStep, 0.1};
   return scene;
 }
 
-Part plane(std::vector<PartMotion> motions) { return {"floor", PlaneShape{}, {}, std::move(motions)}; }
+Wall plane(std::vector<WallMotion> motions) { return {"floor", PlaneShape{}, {}, std::move(motions)}; }
 
 Placement at(double z) { return {0, {0, 0, z}, {1, 0, 0, 0}}; }
 
-double height(const World& world) { return world.bodies()[0].position()[2]; }
-double speed(const World& world, int axis) { return dBodyGetLinearVel(world.bodies()[0].body)[axis]; }
+double height(const World& world) { return world.grains()[0].position()[2]; }
+double speed(const World& world, int axis) { return dBodyGetLinearVel(world.grains()[0].body)[axis]; }
 
 /// A plate that vibrates with a phase such that it starts in the middle, upwards.
 Vibration shaking(double amplitude, double frequency) { return {{0, 0, amplitude}, frequency, 0}; }
@@ -94,7 +94,7 @@ TEST_CASE("a brick on a conveyor has its speed after v / (mu g), and the conveyo
   constexpr double kSpeed = 0.4;
   for (const bool is_plane : {true, false}) {
     CAPTURE(is_plane);
-    Part belt = plane({motion(Conveyor{{kSpeed, 0, 0}, {Vector3::UnitZ(), Vector3::Zero(), 0}})});
+    Wall belt = plane({motion(Conveyor{{kSpeed, 0, 0}, {Vector3::UnitZ(), Vector3::Zero(), 0}})});
     if (!is_plane) {
       belt.shape = BoxShape{{1, 1, 0.02}};
       belt.start.position.z() = -0.01;
@@ -111,7 +111,7 @@ TEST_CASE("a brick on a conveyor has its speed after v / (mu g), and the conveyo
     CHECK(time == relative(kSpeed / (mu * kGravity)).epsilon(0.01));
     for (int i = 0; i < 500; ++i) stepper.step();
     CHECK(speed(world, 0) == relative(kSpeed).epsilon(1e-3));
-    CHECK(world.parts()->state(0).pose.position == belt.start.position);
+    CHECK(world.walls()->state(0).pose.position == belt.start.position);
   }
 }
 
@@ -126,39 +126,39 @@ TEST_CASE("friction of its own is that of the part alone") {
   REQUIRE(found.size() == 2);
   CHECK(found[1].coefficient == 0.1);
   const World world(scene, {});
-  const auto material = [&](std::size_t part) { return world.parts()->side_of(world.parts()->geoms()[part], 0).material; };
+  const auto material = [&](std::size_t wall) { return world.walls()->side_of(world.walls()->geoms()[wall], 0).material; };
   CHECK(found[1].on == fx::MaterialSelector::between(0, material(0)));
   CHECK(material(0) != material(1));
 }
 
 TEST_CASE("a part is where the function of time says, whatever the step") {
-  const std::vector<PartMotion> motions = {motion(Rotation{Vector3(1, 2, 2).normalized(), {0.1, 0, 0}, 50}),
+  const std::vector<WallMotion> motions = {motion(Rotation{Vector3(1, 2, 2).normalized(), {0.1, 0, 0}, 50}),
                                            motion(shaking(0.01, 7)), motion(Translation{{0.1, 0, 0}})};
-  Part part{"paddle", BoxShape{{0.1, 0.02, 0.05}}, {{0.2, 0.3, 0.5}, Eigen::Quaterniond::Identity()}, motions};
-  const PartPose wanted = pose_at(part.start, motions, 0.5);
+  Wall wall{"paddle", BoxShape{{0.1, 0.02, 0.05}}, {{0.2, 0.3, 0.5}, Eigen::Quaterniond::Identity()}, motions};
+  const WallPose wanted = pose_at(wall.start, motions, 0.5);
   for (const double step : {1e-4, 1e-3, 1.0 / 300}) {
-    Scene scene = scene_on({part}, light_ball(), {});
+    Scene scene = scene_on({wall}, light_ball(), {});
     scene.time.step = step;
     const World world(scene, {at(0.9)});
     Stepper stepper(world, scene);
     const auto steps = std::lround(0.5 / step);
     for (int i = 0; i < steps; ++i) stepper.step();
-    const PartPose pose = world.parts()->state(0).pose;
+    const WallPose pose = world.walls()->state(0).pose;
     CHECK((pose.position - wanted.position).norm() < 1e-14);
     CHECK(pose.rotation.angularDistance(wanted.rotation) < 1e-7);  // its arccosine
-    const dReal* p = dGeomGetPosition(world.parts()->geoms()[0]);
+    const dReal* p = dGeomGetPosition(world.walls()->geoms()[0]);
     CHECK((Vector3(p[0], p[1], p[2]) - wanted.position).norm() < 1e-14);
   }
 }
 
 TEST_CASE("a sleeping grain is woken by a plate that begins to move, and sleeps on one that stands") {
-  PartMotion later = motion(Translation{{0, 0, 0.05}});
+  WallMotion later = motion(Translation{{0, 0, 0.05}});
   later.from = 0.3;
   const Scene scene = scene_on({plane({later})}, light_ball(), {fx::AutoDisable{0.01, 1, 0, 10}, fx::SurfaceLayer{1e-5}});
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   for (int i = 0; i * kStep < 0.299; ++i) stepper.step();
-  CHECK(dBodyIsEnabled(world.bodies()[0].body) == 0);
+  CHECK(dBodyIsEnabled(world.grains()[0].body) == 0);
   for (int i = 0; i * kStep < 0.2; ++i) stepper.step();
   CHECK(speed(world, 2) == relative(0.05).epsilon(1e-3));
   CHECK(height(world) == relative(5e-3 + 0.05 * 0.199).epsilon(0.01));
@@ -177,8 +177,8 @@ TEST_CASE("a grain on the floor of a drum that turns has the drum's velocity, al
   for (const bool surface_only : {false, true}) {
     CAPTURE(surface_only);
     const Rotation turn{Vector3::UnitY(), {0, 0, -0.5}, 12};
-    const std::vector<PartMotion> motions = {surface_only ? motion(Conveyor{Vector3::Zero(), turn}) : motion(turn)};
-    Part roller{"roller",
+    const std::vector<WallMotion> motions = {surface_only ? motion(Conveyor{Vector3::Zero(), turn}) : motion(turn)};
+    Wall roller{"roller",
                 CylinderShape{0.5, 0.4},
                 {{0, 0, -0.5}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitX()))},
                 motions};
@@ -194,17 +194,17 @@ TEST_CASE("a grain on the floor of a drum that turns has the drum's velocity, al
 namespace {
 
 /// m, by how much a grain that has come to ride on a part that turns about z leaves its distance from the axis in two seconds.
-double drift(const Part& part, const Grain& grain, double step, const Vector3& axis_velocity) {
-  Scene scene = scene_on({part}, grain, {fx::Friction{1, {}}, fx::SurfaceLayer{1e-5}});
+double drift(const Wall& wall, const GrainKind& kind, double step, const Vector3& axis_velocity) {
+  Scene scene = scene_on({wall}, kind, {fx::Friction{1, {}}, fx::SurfaceLayer{1e-5}});
   scene.time.step = step;
   scene.solver.iterations = 100;
-  const World world(scene, {{0, {0.05, 0.01, grain.half_axes[2]}, {1, 0, 0, 0}}});
+  const World world(scene, {{0, {0.05, 0.01, kind.half_axes[2]}, {1, 0, 0, 0}}});
   Stepper stepper(world, scene);
   int steps = 0;
   const auto distance_at = [&](double end) {
     for (const long last = std::lround(end / step); steps < last; ++steps) stepper.step();
     const double time = steps * step;
-    const Point p = world.bodies()[0].position();
+    const Point p = world.grains()[0].position();
     return std::hypot(p[0] - time * axis_velocity.x(), p[1] - time * axis_velocity.y());
   };
   const double before = distance_at(0.3);
@@ -217,7 +217,7 @@ TEST_CASE("a grain that rides on a part that turns stays at its distance from th
   const Rotation turn{Vector3::UnitZ(), {0, 0, 0}, 60};
   for (const double step : {2e-3, 5e-4}) {
     CAPTURE(step);
-    Part table = plane({motion(turn)});
+    Wall table = plane({motion(turn)});
     CHECK(drift(table, brick(), step, {0, 0, 0}) < 1e-6);
     table.start.position = {0.3, -0.2, 0};  // the axis is elsewhere
     CHECK(drift(table, brick(), step, {0, 0, 0}) < 1e-6);
@@ -231,7 +231,7 @@ TEST_CASE("a grain that rides on a part that turns stays at its distance from th
 TEST_CASE("a ball rests on every shape, where its surface is, and is lifted with it") {
   const MeshShape square{
       {{{-0.1F, -0.1F, 0.02F}, {0.1F, -0.1F, 0.02F}, {0.1F, 0.1F, 0.02F}, {-0.1F, 0.1F, 0.02F}}, {{0, 1, 2}, {0, 2, 3}}}};
-  const std::vector<std::pair<PartShape, double>> shapes = {
+  const std::vector<std::pair<WallShape, double>> shapes = {
       {PlaneShape{}, 0},
       {BoxShape{{0.1, 0.1, 0.04}}, 0.02},
       {CylinderShape{0.05, 0.04}, 0.02},
@@ -244,8 +244,8 @@ TEST_CASE("a ball rests on every shape, where its surface is, and is lifted with
     const auto& shape = shape_and_top.first;
     const double top = shape_and_top.second;
     CAPTURE(shape.index());
-    const Part part{"part", shape, {{0, 0, 0.3}, Eigen::Quaterniond::Identity()}, {motion(Translation{{0, 0, 0.1}})}};
-    const Scene scene = scene_on({part}, light_ball(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
+    const Wall wall{"part", shape, {{0, 0, 0.3}, Eigen::Quaterniond::Identity()}, {motion(Translation{{0, 0, 0.1}})}};
+    const Scene scene = scene_on({wall}, light_ball(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
     const World world(scene, {at(0.3 + top + 5e-3)});
     Stepper stepper(world, scene);
     for (int i = 0; i < 500; ++i) stepper.step();
@@ -266,14 +266,14 @@ double load_on(const World& world, Stepper& stepper, dGeomID wall, int steps) {
       if (contact.geom.g2 == wall) sum += contact.force()[2];
     }
   }
-  CHECK(world.bodies().size() == 1);
+  CHECK(world.grains().size() == 1);
   return sum / steps;
 }
 
-Part piston(double z) {
-  Part part{"lid", BoxShape{{0.1, 0.1, 0.02}}, {{0, 0, z}, Eigen::Quaterniond::Identity()}};
-  part.drive = Drive{{0, 0, -1}, 3, 0.25};
-  return part;
+Wall piston(double z) {
+  Wall wall{"lid", BoxShape{{0.1, 0.1, 0.02}}, {{0, 0, z}, Eigen::Quaterniond::Identity()}};
+  wall.drive = Drive{{0, 0, -1}, 3, 0.25};
+  return wall;
 }
 
 }  // namespace
@@ -283,26 +283,26 @@ TEST_CASE("the floor below a piston carries the weights and the force") {
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   for (int i = 0; i < 2000; ++i) stepper.step();
-  const double grain = world.bodies()[0].mass.mass * kGravity;
-  CHECK(load_on(world, stepper, world.parts()->geoms()[0], 200) == relative(grain + 3 + 0.25 * kGravity).epsilon(1e-3));
-  CHECK(load_on(world, stepper, world.parts()->geoms()[1], 200) == relative(-3 - 0.25 * kGravity).epsilon(1e-3));
-  const PartState state = world.parts()->state(1);
+  const double grain = world.grains()[0].mass.mass * kGravity;
+  CHECK(load_on(world, stepper, world.walls()->geoms()[0], 200) == relative(grain + 3 + 0.25 * kGravity).epsilon(1e-3));
+  CHECK(load_on(world, stepper, world.walls()->geoms()[1], 200) == relative(-3 - 0.25 * kGravity).epsilon(1e-3));
+  const WallState state = world.walls()->state(1);
   CHECK(state.pose.position.head<2>().norm() < 1e-15);
   CHECK(state.pose.rotation.angularDistance(Eigen::Quaterniond::Identity()) == 0);
   CHECK(std::abs(state.pose.position.z() - 0.02) < 5e-5);  // two surface layers of 1e-5, and what the solver leaves
 }
 
 TEST_CASE("a piston is held until its time, falls with its damping, and stops where its travel ends") {
-  Part part = piston(0.5);
-  part.drive->from = 0.1;
-  part.drive->damping = 5;
-  part.drive->travel = {0, 0.2};
-  const Scene scene = scene_on({plane({}), part}, light_ball(), {});
+  Wall wall = piston(0.5);
+  wall.drive->from = 0.1;
+  wall.drive->damping = 5;
+  wall.drive->travel = {0, 0.2};
+  const Scene scene = scene_on({plane({}), wall}, light_ball(), {});
   const World world(scene, {at(5e-3)});
   Stepper stepper(world, scene);
   const auto run = [&](double seconds) {
     for (int i = 0; i < std::lround(seconds / kStep); ++i) stepper.step();
-    return world.parts()->state(1);
+    return world.walls()->state(1);
   };
   CHECK(run(0.1).pose.position.z() == 0.5);
   // v = F / c (1 - exp(-c t / m)), with the weight in F.
@@ -312,13 +312,13 @@ TEST_CASE("a piston is held until its time, falls with its damping, and stops wh
 }
 
 TEST_CASE("a piston that tips a grain off its centre neither tilts nor leaves its axis, and turns as it is told") {
-  Part part = piston(0.025);
-  part.motions = {motion(Rotation{Vector3::UnitZ(), {0, 0, 0}, 30})};
-  const Scene scene = scene_on({plane({}), part}, brick(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
+  Wall wall = piston(0.025);
+  wall.motions = {motion(Rotation{Vector3::UnitZ(), {0, 0, 0}, 30})};
+  const Scene scene = scene_on({plane({}), wall}, brick(), {fx::Friction{0.5, {}}, fx::SurfaceLayer{1e-5}});
   const World world(scene, {{0, {0.03, 0.02, 4e-3}, {1, 0, 0, 0}}});
   Stepper stepper(world, scene);
   for (int i = 0; i < 2500; ++i) stepper.step();
-  const PartState state = world.parts()->state(1);
+  const WallState state = world.walls()->state(1);
   CHECK(state.pose.position.head<2>().norm() < 1e-15);
   CHECK((state.pose.rotation * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-13);
   CHECK(state.pose.position.z() == relative(0.018).epsilon(0.01));

@@ -1,4 +1,4 @@
-// The parts that a scene may name, as text.
+// The list of the keys of [[part]].
 #pragma once
 
 #include <string>
@@ -6,6 +6,6 @@
 namespace falling_particles {
 
 /// The shapes, motions and drives of [[part]] with their parameters, units and ranges, for users.
-std::string list_parts();
+std::string list_walls();
 
 }  // namespace falling_particles

@@ -1,4 +1,4 @@
-#include "made_up_bed.hpp"
+#include "synthetic_bed.hpp"
 
 #include <supernormal/supernormal.h>
 
@@ -16,16 +16,16 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kPairsPerGrain = 3.5;  // whose bounding boxes meet in a bed of mixed grains
-constexpr double kRest = 0.1;           // of a step: broad phase, contact joints, watches
-constexpr double kPatience = 0.5;       // s, for each of the two times
+constexpr double kPairsPerGrain = 3.5;  // pairs whose bounding boxes meet, in a bed of mixed grains
+constexpr double kRest = 0.1;           // of a step: broad phase, contact joints, monitors
+constexpr double kLongestTiming = 0.5;  // s, for each of the two timings
 
-/// Runs `work` again and again, at least three times; the least of its seconds.
+/// Runs `work` at least three times, and returns the least of its times (s).
 template <typename Work>
 double time_of(const Work& work) {
   double least = INFINITY;
   const double start = processor_time();
-  for (int i = 0; i < 3 || (i < 100 && processor_time() - start < kPatience); ++i) {
+  for (int i = 0; i < 3 || (i < 100 && processor_time() - start < kLongestTiming); ++i) {
     const double before = processor_time();
     work();
     least = std::min(least, processor_time() - before);
@@ -33,18 +33,18 @@ double time_of(const Work& work) {
   return least;
 }
 
-/// The kinds of the scene in the ratio of their numbers, or of what its feeders bring.
+/// The relative numbers of the kinds in the scene, or in the mixtures of its feeders.
 std::vector<double> shares_of_kinds(const Scene& scene) {
   std::vector<double> shares;
-  for (const GrainCount& kind : scene.grains) shares.push_back(kind.count);
-  if (scene.bodies() > 0) return shares;
+  for (const GrainCount& entry : scene.kinds) shares.push_back(entry.count);
+  if (scene.grains_at_start() > 0) return shares;
   for (const Feeder& feeder : scene.feeders) {
     for (const FedKind& fed : feeder.mixture) shares[fed.kind] += fed.fraction;
   }
   return shares;
 }
 
-/// In a row along x, none near another.
+/// Places grains in a row along x, far apart.
 std::vector<Placement> row_of(const Scene& scene, int grains) {
   const std::vector<double> shares = shares_of_kinds(scene);
   double sum = 0;
@@ -53,22 +53,22 @@ std::vector<Placement> row_of(const Scene& scene, int grains) {
   std::vector<double> given(shares.size(), 0);
   std::vector<Placement> row;
   for (int i = 0; i < grains; ++i) {
-    std::size_t next = 0;  // the kind that is most behind
+    std::size_t next = 0;  // the kind that is most below its share
     for (std::size_t kind = 0; kind < shares.size(); ++kind) {
       const auto behind = [&](std::size_t k) { return shares[k] / sum * (i + 1) - given[k]; };
       if (behind(kind) > behind(next)) next = kind;
     }
     ++given[next];
     const double distance = 2.1 * scene.largest_bounding_radius();
-    row.push_back({next, {i * distance, 0, 0}, random.rotation(), scene.grains[next].scale(0)});
+    row.push_back({next, {i * distance, 0, 0}, random.rotation(), scene.kinds[next].scale(0)});
   }
   return row;
 }
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-/// A point of contact halfway between two grains.
-dContactGeom contact_of(const Body& one, const Body& other) {
+/// A contact point halfway between two grains.
+dContactGeom contact_of(const Grain& one, const Grain& other) {
   dContactGeom contact{};
   const Point a = one.position();
   const Point b = other.position();
@@ -84,13 +84,13 @@ dContactGeom contact_of(const Body& one, const Body& other) {
 }
 
 double time_solver(World& world, double step) {
-  const std::vector<Body>& bodies = world.bodies();
+  const std::vector<Grain>& grains = world.grains();
   ContactJoints joints(world);
   return time_of([&] {
     std::vector<dContactGeom> contacts;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t k = 1; k <= static_cast<std::size_t>(kContactsPerGrain) && i + k < bodies.size(); ++k) {
-        contacts.push_back(contact_of(bodies[i], bodies[i + k]));
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      for (std::size_t k = 1; k <= static_cast<std::size_t>(kContactsPerGrain) && i + k < grains.size(); ++k) {
+        contacts.push_back(contact_of(grains[i], grains[i + k]));
       }
     }
     joints.replace(contacts);
@@ -100,7 +100,7 @@ double time_solver(World& world, double step) {
 }
 
 /// m, between the closest geoms of two grains.
-double gap_of(const Body& one, const Body& other) {
+double gap_of(const Grain& one, const Grain& other) {
   double gap = INFINITY;
   for (dGeomID a : one.geoms()) {
     for (dGeomID b : other.geoms()) {
@@ -112,8 +112,8 @@ double gap_of(const Body& one, const Body& other) {
   return gap;
 }
 
-/// Moves the grain along x until it touches the other.
-void bring_together(const Body& one, const Body& other) {
+/// Moves the grain `other` along x until it touches `one`.
+void bring_together(const Grain& one, const Grain& other) {
   for (int i = 0; i < 5; ++i) {
     const Point p = other.position();
     dBodySetPosition(other.body, p[0] - gap_of(one, other), p[1], p[2]);
@@ -121,13 +121,13 @@ void bring_together(const Body& one, const Body& other) {
 }
 
 double time_pair(const World& world) {
-  const std::vector<Body>& bodies = world.bodies();
-  const std::size_t pairs = std::min<std::size_t>(bodies.size() / 2, 100);
-  for (std::size_t i = 0; i < pairs; ++i) bring_together(bodies[2 * i], bodies[2 * i + 1]);
+  const std::vector<Grain>& grains = world.grains();
+  const std::size_t pairs = std::min<std::size_t>(grains.size() / 2, 100);
+  for (std::size_t i = 0; i < pairs; ++i) bring_together(grains[2 * i], grains[2 * i + 1]);
   const double seconds = time_of([&] {
     for (std::size_t i = 0; i < pairs; ++i) {
-      for (dGeomID a : bodies[2 * i].geoms()) {
-        for (dGeomID b : bodies[2 * i + 1].geoms()) {
+      for (dGeomID a : grains[2 * i].geoms()) {
+        for (dGeomID b : grains[2 * i + 1].geoms()) {
           std::array<dContactGeom, kContactsPerPair> found;
           dCollide(a, b, kContactsPerPair, found.data(), sizeof(dContactGeom));
         }
@@ -140,12 +140,12 @@ double time_pair(const World& world) {
 }  // namespace
 
 BedTimes time_bed(const Scene& scene, int grains) {
-  Scene still = scene;  // nothing but its grains and effects
+  Scene still = scene;  // only its grains and effects
   still.container = Box{{1, 1}};
-  still.parts.clear();
+  still.walls.clear();
   still.feeders.clear();
   still.periodic = {};
-  std::erase_if(still.effects,  // awake
+  std::erase_if(still.effects,  // all grains stay awake
                 [](const auto& effect) { return std::holds_alternative<supernormal::effects::AutoDisable>(effect); });
   World world(still, row_of(scene, grains));
   BedTimes times;

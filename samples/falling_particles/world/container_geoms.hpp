@@ -1,4 +1,4 @@
-// The walls of a container as geoms of ODE.
+// The geoms of a container, in ODE.
 #pragma once
 
 #include <ode/ode.h>
@@ -10,22 +10,22 @@
 
 namespace falling_particles {
 
-/// The geoms of a container.
-class Walls {
+/// The ODE geoms of a container: box, hopper or terrain. Other containers have none (model/container_walls.hpp).
+class ContainerGeoms {
  public:
-  /// The geoms collide with those that have a bit of `collide_bits`, and have `category_bits`. The space must outlive this
-  /// object. A box has no walls across axes that are periodic.
-  Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
-        const PeriodicAxes& periodic = {});
-  ~Walls();
-  Walls(const Walls&) = delete;
-  Walls& operator=(const Walls&) = delete;
+  /// The geoms have `category_bits` and collide with geoms that have a bit of `collide_bits`. The space must outlive this object. A
+  /// box has no geoms across periodic axes.
+  ContainerGeoms(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
+                 const PeriodicAxes& periodic = {});
+  ~ContainerGeoms();
+  ContainerGeoms(const ContainerGeoms&) = delete;
+  ContainerGeoms& operator=(const ContainerGeoms&) = delete;
 
   const std::vector<dGeomID>& geoms() const { return geoms_; }
 
   /// Whether a lid closes a hopper's outlet.
   bool has_lid() const { return lid_ != nullptr; }
-  /// Takes the lid off a hopper's outlet; call it once.
+  /// Removes the lid of a hopper's outlet. Call it once.
   void open_outlet();
 
  private:
@@ -36,15 +36,15 @@ class Walls {
   void add(const Hopper& hopper);
   void add(const Terrain& terrain);
   static void add(const Periodic&) {}  // it has no walls
-  template <typename MadeOfParts>
-  static void add(const MadeOfParts&) {}
+  template <typename MadeOfWalls>
+  static void add(const MadeOfWalls&) {}
 
   dSpaceID space_;
   PeriodicAxes periodic_;
   std::vector<dGeomID> geoms_;
   dGeomID lid_ = nullptr;                     // one of geoms_
-  std::deque<Mesh> meshes_;                   // ODE refers to them
-  std::vector<dTriMeshDataID> mesh_data_;     // meshes of a hopper and its dish
+  std::deque<Mesh> meshes_;                   // ODE keeps pointers to them
+  std::vector<dTriMeshDataID> mesh_data_;     // of the meshes of a hopper and its dish
   dHeightfieldDataID ground_data_ = nullptr;  // samples of a terrain
 };
 

@@ -1,4 +1,4 @@
-#include "part_bodies.hpp"
+#include "wall_bodies.hpp"
 
 #include <supernormal/supernormal.h>
 
@@ -6,24 +6,24 @@
 #include <stdexcept>
 #include <string>
 
-#include "model/part_material.hpp"
+#include "model/wall_material.hpp"
 #include "to_vector.hpp"
 
 namespace falling_particles {
 namespace {
 
-void set_velocity(dBodyID body, const PartVelocity& velocity) {
+void set_velocity(dBodyID body, const WallVelocity& velocity) {
   dBodySetLinearVel(body, velocity.linear.x(), velocity.linear.y(), velocity.linear.z());
   dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
 }
 
-void set_pose(dBodyID body, const PartPose& pose) {
+void set_pose(dBodyID body, const WallPose& pose) {
   dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
   const dQuaternion q = {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()};
   dBodySetQuaternion(body, q);
 }
 
-/// A body that neither sleeps by itself nor is braked.
+/// A body without automatic sleep and without damping.
 dBodyID create_body(dWorldID world) {
   const dBodyID body = dBodyCreate(world);
   dBodySetAutoDisableFlag(body, 0);
@@ -34,46 +34,46 @@ dBodyID create_body(dWorldID world) {
 
 }  // namespace
 
-PartPose PartBodies::Entry::part_pose() const {
-  PartPose moved = pose;
+WallPose WallBodies::Entry::wall_pose() const {
+  WallPose moved = pose;
   if (driven != nullptr) moved.position += position * axis();
   return moved;
 }
 
-PartVelocity PartBodies::Entry::part_velocity() const {
-  PartVelocity moved = velocity;
+WallVelocity WallBodies::Entry::wall_velocity() const {
+  WallVelocity moved = velocity;
   if (driven != nullptr) moved.linear += speed * axis() + velocity.angular.cross(position * axis());
   return moved;
 }
 
-Vector3 PartBodies::Entry::axis() const { return pose.rotation * part->start.rotation.conjugate() * part->drive->axis; }
+Vector3 WallBodies::Entry::axis() const { return pose.rotation * wall->start.rotation.conjugate() * wall->drive->axis; }
 
-PartBodies::PartBodies(dWorldID world, const std::vector<Part>& parts, double step, unsigned long category_bits,
+WallBodies::WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits,
                        unsigned long collide_bits)
     : world_(world), step_(step) {
-  entries_.reserve(parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Part& part = parts[i];
+  entries_.reserve(walls.size());
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Wall& wall = walls[i];
     Entry& entry = entries_.emplace_back();
-    entry.pose = entry.next = part.start;
-    entry.part = &part;
-    entry.geom = create_geom(part.shape);
-    entry.material = material_of_part(parts, i);
+    entry.pose = entry.next = wall.start;
+    entry.wall = &wall;
+    entry.geom = create_geom(wall.shape);
+    entry.material = material_of_wall(walls, i);
     dGeomSetCategoryBits(entry.geom, category_bits);
     dGeomSetCollideBits(entry.geom, collide_bits);
     geoms_.push_back(entry.geom);
     index_of_[entry.geom] = i;
     place(entry);
-    if (!part.moves()) continue;
+    if (!wall.moves()) continue;
     entry.carrier = create_body(world);
     dBodySetKinematic(entry.carrier);
     set_pose(entry.carrier, entry.pose);
     dBodyDisable(entry.carrier);
-    if (part.drive) add_drive(entry, *part.drive);
+    if (wall.drive) add_drive(entry, *wall.drive);
   }
 }
 
-PartBodies::~PartBodies() {
+WallBodies::~WallBodies() {
   for (const Entry& entry : entries_) {
     if (entry.slider != nullptr) dJointDestroy(entry.slider);
     if (entry.driven != nullptr) dBodyDestroy(entry.driven);
@@ -83,7 +83,7 @@ PartBodies::~PartBodies() {
   for (const dTriMeshDataID data : mesh_data_) dGeomTriMeshDataDestroy(data);
 }
 
-dGeomID PartBodies::create_geom(const PartShape& shape) {
+dGeomID WallBodies::create_geom(const WallShape& shape) {
   if (std::holds_alternative<PlaneShape>(shape)) return dCreatePlane(nullptr, 0, 0, 1, 0);
   if (const auto* box = std::get_if<BoxShape>(&shape)) return dCreateBox(nullptr, box->size.x(), box->size.y(), box->size.z());
   if (const auto* cylinder = std::get_if<CylinderShape>(&shape))
@@ -98,7 +98,7 @@ dGeomID PartBodies::create_geom(const PartShape& shape) {
   return create_geom(std::get<MeshShape>(shape));
 }
 
-dGeomID PartBodies::create_geom(const MeshShape& mesh) {
+dGeomID WallBodies::create_geom(const MeshShape& mesh) {
   const TwoSidedMesh* const sheets =
       mesh.two_sided ? two_sided_.emplace_back(std::make_unique<const TwoSidedMesh>(mesh)).get() : nullptr;
   const auto& triangles = sheets == nullptr ? mesh.triangles : sheets->triangles();
@@ -110,12 +110,12 @@ dGeomID PartBodies::create_geom(const MeshShape& mesh) {
   return geom;
 }
 
-void PartBodies::add_drive(Entry& entry, const Drive& drive) {
+void WallBodies::add_drive(Entry& entry, const Drive& drive) {
   entry.driven = create_body(world_);
-  // The joint takes every turn; a body that hardly turns by itself leaves the solver less to do: in shear_cell.toml grains overlap
-  // by 5.7 % of the smallest half-axis in the end, and by 7.0 % with an inertia of m r^2.
+  // The joint prevents all rotation. A body with a large inertia hardly rotates by itself, and leaves less work to the solver: in
+  // shear_cell.toml the final overlap of grains is 5.7 % of the smallest half-axis, and 7.0 % with an inertia of m r^2.
   constexpr double kHeavy = 1e3;
-  const double radius = bounding_radius(entry.part->shape);
+  const double radius = bounding_radius(entry.wall->shape);
   const double inertia = kHeavy * drive.mass * (std::isfinite(radius) ? radius * radius : 1);
   dMass mass;
   dMassSetParameters(&mass, drive.mass, 0, 0, 0, inertia, inertia, inertia, 0, 0, 0);
@@ -128,16 +128,16 @@ void PartBodies::add_drive(Entry& entry, const Drive& drive) {
   if (std::isfinite(drive.travel[1])) dJointSetSliderParam(entry.slider, dParamHiStop, drive.travel[1]);
 }
 
-void PartBodies::before_step() {
+void WallBodies::before_step() {
   const double now = static_cast<double>(steps_) * step_;
   const double then = static_cast<double>(steps_ + 1) * step_;
   for (Entry& entry : entries_) {
     if (entry.carrier == nullptr) continue;
-    const std::span<const PartMotion> motions = entry.part->motions;
-    entry.next = pose_at(entry.part->start, motions, then);
+    const std::span<const WallMotion> motions = entry.wall->motions;
+    entry.next = pose_at(entry.wall->start, motions, then);
     entry.velocity = mean_velocity(entry.pose, entry.next, step_);
-    entry.excess = falling_particles::chord_excess(entry.part->start, entry.pose, entry.next, motions, now, then);
-    PartVelocity surface = conveyor_velocity(entry.part->start, entry.pose, motions, now, then);
+    entry.excess = falling_particles::chord_excess(entry.wall->start, entry.pose, entry.next, motions, now, then);
+    WallVelocity surface = conveyor_velocity(entry.wall->start, entry.pose, motions, now, then);
     surface.linear += entry.velocity.linear;
     surface.angular += entry.velocity.angular;
     set_velocity(entry.carrier, surface);
@@ -147,9 +147,9 @@ void PartBodies::before_step() {
   }
 }
 
-// Damping is implicit in the velocity, and exact at rest: it never turns a velocity around, whatever the step.
-void PartBodies::push(Entry& entry, double now) {
-  const Drive& drive = *entry.part->drive;
+// Damping is implicit in the velocity, so that it never reverses a velocity, whatever the step.
+void WallBodies::push(Entry& entry, double now) {
+  const Drive& drive = *entry.wall->drive;
   const double slack = 1e-6 * step_;  // times of steps are rounded
   entry.is_held = now + slack < drive.from;
   if (entry.is_held) return;
@@ -161,7 +161,7 @@ void PartBodies::push(Entry& entry, double now) {
   dBodyAddForce(entry.driven, force.x(), force.y(), force.z());
 }
 
-void PartBodies::after_step() {
+void WallBodies::after_step() {
   ++steps_;
   for (Entry& entry : entries_) {
     if (entry.carrier == nullptr || !(entry.is_moving || entry.driven != nullptr)) continue;
@@ -171,17 +171,17 @@ void PartBodies::after_step() {
   }
 }
 
-void PartBodies::put(const Entry& entry) {
+void WallBodies::put(const Entry& entry) {
   set_pose(entry.carrier, entry.pose);
   if (entry.driven != nullptr) {
-    set_pose(entry.driven, entry.part_pose());
-    set_velocity(entry.driven, entry.part_velocity());
+    set_pose(entry.driven, entry.wall_pose());
+    set_velocity(entry.driven, entry.wall_velocity());
   }
   place(entry);
 }
 
-// What the solver has left of a step across the axis is dropped: the part is on its axis, and has not tilted.
-void PartBodies::slide(Entry& entry) {
+// The solver's residual motion across the axis is discarded: the wall stays on its axis and does not tilt.
+void WallBodies::slide(Entry& entry) {
   if (entry.is_held) return;
   const Vector3 axis = entry.axis();
   const Vector3 lever = to_vector(dBodyGetPosition(entry.driven)) - to_vector(dBodyGetPosition(entry.carrier));
@@ -189,8 +189,8 @@ void PartBodies::slide(Entry& entry) {
   entry.speed = axis.dot(to_vector(dBodyGetLinearVel(entry.driven)) - entry.velocity.linear);
 }
 
-void PartBodies::place(const Entry& entry) {
-  const PartPose pose = entry.part_pose();
+void WallBodies::place(const Entry& entry) {
+  const WallPose pose = entry.wall_pose();
   if (dGeomGetClass(entry.geom) == dPlaneClass) {
     const Vector3 normal = pose.rotation * Vector3::UnitZ();
     dGeomPlaneSetParams(entry.geom, normal.x(), normal.y(), normal.z(), normal.dot(pose.position));
@@ -201,12 +201,12 @@ void PartBodies::place(const Entry& entry) {
   dGeomSetQuaternion(entry.geom, q);
 }
 
-bool PartBodies::is_moving(dGeomID geom) const {
+bool WallBodies::is_moving(dGeomID geom) const {
   const auto found = index_of_.find(geom);
   return found != index_of_.end() && entries_[found->second].is_moving;
 }
 
-supernormal::effects::Side PartBodies::side_of(dGeomID geom, supernormal::effects::Material otherwise) const {
+supernormal::effects::Side WallBodies::side_of(dGeomID geom, supernormal::effects::Material otherwise) const {
   const auto found = index_of_.find(geom);
   if (found == index_of_.end()) return {otherwise, dGeomGetBody(geom)};
   const Entry& entry = entries_[found->second];
@@ -214,27 +214,27 @@ supernormal::effects::Side PartBodies::side_of(dGeomID geom, supernormal::effect
   return {entry.material, entry.is_moving ? body : nullptr};
 }
 
-Vector3 PartBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const {
+Vector3 WallBodies::chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const {
   const auto found = index_of_.find(geom);
   if (found == index_of_.end() || !entries_[found->second].excess) return Vector3::Zero();
   const Entry& entry = entries_[found->second];
   return entry.excess->at(centre - entry.pose.position, velocity);
 }
 
-PartState PartBodies::state(std::size_t index) const { return {entries_[index].part_pose(), entries_[index].part_velocity()}; }
+WallState WallBodies::state(std::size_t index) const { return {entries_[index].wall_pose(), entries_[index].wall_velocity()}; }
 
-PartsState PartBodies::save() const {
-  PartsState state{steps_, {}};
-  state.parts.reserve(entries_.size());
-  for (const Entry& entry : entries_) state.parts.push_back({entry.pose, entry.velocity, entry.position, entry.speed});
+WallsState WallBodies::save() const {
+  WallsState state{steps_, {}};
+  state.walls.reserve(entries_.size());
+  for (const Entry& entry : entries_) state.walls.push_back({entry.pose, entry.velocity, entry.position, entry.speed});
   return state;
 }
 
-void PartBodies::restore(const PartsState& state) {
+void WallBodies::restore(const WallsState& state) {
   steps_ = state.steps;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     Entry& entry = entries_[i];
-    const PartsState::OfPart& saved = state.parts[i];
+    const WallsState::OfWall& saved = state.walls[i];
     entry.pose = saved.pose;
     entry.velocity = saved.velocity;
     entry.position = saved.position;

@@ -1,4 +1,4 @@
-#include "walls.hpp"
+#include "container_geoms.hpp"
 
 #include <cstddef>
 #include <numbers>
@@ -11,8 +11,8 @@ namespace {
 
 static_assert(sizeof(unsigned int) == sizeof(dTriIndex));
 
-/// Reorders the samples for ODE, which lays them out along its x and z, y up: turned by 90 degrees about x, y is up in the world
-/// too, but z runs against the world's y.
+/// Reorders the samples for ODE, whose heightfields extend along x and z with y upwards. Rotated by 90 degrees about x, y points
+/// upwards in the world too, but z points along the world's -y.
 std::vector<double> rows_along_z(const Terrain& terrain) {
   const std::size_t n = terrain.samples_per_side();
   std::vector<double> heights;
@@ -25,8 +25,8 @@ std::vector<double> rows_along_z(const Terrain& terrain) {
 
 }  // namespace
 
-Walls::Walls(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
-             const PeriodicAxes& periodic)
+ContainerGeoms::ContainerGeoms(dSpaceID space, const Container& container, unsigned long category_bits, unsigned long collide_bits,
+                               const PeriodicAxes& periodic)
     : space_(space), periodic_(periodic) {
   std::visit([this](const auto& kind) { this->add(kind); }, container);
   for (dGeomID geom : geoms_) {
@@ -35,20 +35,20 @@ Walls::Walls(dSpaceID space, const Container& container, unsigned long category_
   }
 }
 
-Walls::~Walls() {
+ContainerGeoms::~ContainerGeoms() {
   for (dGeomID geom : geoms_) dGeomDestroy(geom);
   for (dTriMeshDataID data : mesh_data_) dGeomTriMeshDataDestroy(data);
   if (ground_data_ != nullptr) dGeomHeightfieldDataDestroy(ground_data_);
 }
 
-void Walls::open_outlet() {
+void ContainerGeoms::open_outlet() {
   std::erase(geoms_, lid_);
   dGeomDestroy(lid_);
   lid_ = nullptr;
 }
 
-void Walls::add_sides(const Rectangle& plan, const PeriodicAxes& periodic) {
-  // A plane's solid side is the one opposite to its normal: a x + b y + c z < d.
+void ContainerGeoms::add_sides(const Rectangle& plan, const PeriodicAxes& periodic) {
+  // A plane is solid on the side opposite to its normal: a x + b y + c z < d.
   if (!periodic[0]) {
     add_plane(1, 0, 0, plan.corner[0]);
     add_plane(-1, 0, 0, -(plan.corner[0] + plan.width[0]));
@@ -59,7 +59,7 @@ void Walls::add_sides(const Rectangle& plan, const PeriodicAxes& periodic) {
   }
 }
 
-void Walls::add_mesh(Mesh mesh) {
+void ContainerGeoms::add_mesh(Mesh mesh) {
   const Mesh& kept = meshes_.emplace_back(std::move(mesh));
   dTriMeshDataID data = mesh_data_.emplace_back(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildSingle(data, kept.vertices.data(), sizeof(kept.vertices[0]), static_cast<int>(kept.vertices.size()),
@@ -67,12 +67,12 @@ void Walls::add_mesh(Mesh mesh) {
   geoms_.push_back(dCreateTriMesh(space_, data, nullptr, nullptr, nullptr));
 }
 
-void Walls::add(const Box& box) {
+void ContainerGeoms::add(const Box& box) {
   add_plane(0, 0, 1, 0);
   add_sides(box.plan(), periodic_);
 }
 
-void Walls::add(const Hopper& hopper) {
+void ContainerGeoms::add(const Hopper& hopper) {
   add_plane(0, 0, 1, 0);
   add_sides({{-hopper.tray_width / 2, -hopper.tray_width / 2}, {hopper.tray_width, hopper.tray_width}});
   add_plane(0, 0, 1, hopper.clearance);
@@ -81,7 +81,7 @@ void Walls::add(const Hopper& hopper) {
   if (hopper.dish) add_mesh(make_mesh(*hopper.dish, hopper.segments));
 }
 
-void Walls::add(const Terrain& terrain) {
+void ContainerGeoms::add(const Terrain& terrain) {
   const Rectangle plan = terrain.plan();
   add_sides(plan);
   const int samples = static_cast<int>(terrain.samples_per_side());

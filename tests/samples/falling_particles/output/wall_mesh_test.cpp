@@ -1,5 +1,5 @@
 // Tests of what pictures show of parts: closed surfaces of the right size, seen from outside.
-#include "output/part_mesh.hpp"
+#include "output/wall_mesh.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "model/container_parts.hpp"
+#include "model/container_walls.hpp"
 
 using namespace falling_particles;
 
@@ -42,16 +42,16 @@ bool is_closed(const Mesh& mesh) {
 
 TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volumes") {
   constexpr double kPi = std::numbers::pi;
-  const std::vector<std::tuple<PartShape, double, std::size_t>> shapes = {
+  const std::vector<std::tuple<WallShape, double, std::size_t>> shapes = {
       {BoxShape{{0.1, 0.2, 0.3}}, 0.006, 12},
       {CylinderShape{0.1, 0.5}, kPi * 0.01 * 0.5, 128},
       {SmoothShape{{0.1, 0.2, 0.3}, 2, 2, 0, 0}, 4.0 / 3 * kPi * 0.006, 0},
   };
   for (const auto& [shape, wanted, edges] : shapes) {
-    Part part{"part", shape};
-    part.motions = {{Translation{{1, 0, 0}}}};
-    const ContainerPart picture = picture_of(part, 1);
-    CHECK(picture.role == ContainerPart::Role::Moving);
+    Wall wall{"part", shape};
+    wall.motions = {{Translation{{1, 0, 0}}}};
+    const WallPicture picture = picture_of(wall, 1);
+    CHECK(picture.role == WallPicture::Role::Moving);
     CHECK(is_closed(picture.mesh));
     CHECK(volume(picture.mesh) == doctest::Approx(wanted).epsilon(0.02));
     CHECK(picture.edges.size() == edges);
@@ -59,9 +59,9 @@ TEST_CASE("pictures of parts are closed, look outwards, and have the parts' volu
 }
 
 TEST_CASE("the picture of a part that stands is where it stands, and that of a plane looks along its normal") {
-  Part wall{"wall", PlaneShape{}, {{0, 0, 2}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()))}};
-  const ContainerPart picture = picture_of(wall, 0.4);
-  CHECK(picture.role == ContainerPart::Role::Still);
+  Wall wall{"wall", PlaneShape{}, {{0, 0, 2}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3::UnitY()))}};
+  const WallPicture picture = picture_of(wall, 0.4);
+  CHECK(picture.role == WallPicture::Role::Still);
   REQUIRE(picture.mesh.triangles.size() == 2);
   const auto& [a, b, c] = picture.mesh.triangles[0];
   const Vector3 p = corner(picture.mesh, a);
@@ -75,9 +75,9 @@ TEST_CASE("the picture of a part that stands is where it stands, and that of a p
 
 TEST_CASE("the ends of a drum are shown as discs as wide as the drum") {
   const Drum drum{.diameter = 0.2, .length = 0.1, .segments = 24, .rpm = 10, .is_smooth = false, .turns_at = 0};
-  const std::vector<Part> parts = parts_in(drum);
+  const std::vector<Wall> walls = walls_in(drum);
   for (const std::size_t end : {1U, 2U}) {
-    const ContainerPart picture = picture_of(parts[end], 0.7);
+    const WallPicture picture = picture_of(walls[end], 0.7);
     double radius = 0;
     for (const auto& [x, y, z] : picture.mesh.vertices) radius = std::max(radius, Vector3(x, y, z).norm());
     CHECK(radius == doctest::Approx(drum.outer_radius()).epsilon(1e-6));

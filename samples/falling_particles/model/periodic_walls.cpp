@@ -1,4 +1,4 @@
-#include "periodic_parts.hpp"
+#include "periodic_walls.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 namespace falling_particles {
 namespace {
 
-constexpr double kAlong = 1e-9;     // of a unit vector: what is along an axis, or across it
+constexpr double kAlong = 1e-9;     // of a unit vector: tolerance for being along an axis, or across it
 constexpr double kRounding = 1e-9;  // m
 
 bool is_along(const Vector3& direction, std::size_t axis) {
@@ -18,78 +18,78 @@ bool is_along(const Vector3& direction, std::size_t axis) {
 }
 bool is_across(const Vector3& direction, std::size_t axis) { return std::abs(direction[static_cast<Eigen::Index>(axis)]) < kAlong; }
 
-/// The ends of a part along an axis at the start, m; a plane has none unless it is across the axis.
+/// The ends (m) of a wall along an axis at the start. A plane has none unless it is across the axis.
 struct Ends {
   double lower, upper;
 };
 
 Ends around(double centre, double half) { return {centre - half, centre + half}; }
 
-Ends ends_of(const Part& part, std::size_t axis) {
+Ends ends_of(const Wall& wall, std::size_t axis) {
   const auto i = static_cast<Eigen::Index>(axis);
-  const double centre = part.start.position[i];
-  const Eigen::Matrix3d turn = part.start.rotation.toRotationMatrix();
-  if (std::holds_alternative<PlaneShape>(part.shape)) return is_along(turn.col(2), axis) ? around(centre, 0) : around(0, INFINITY);
-  if (const auto* box = std::get_if<BoxShape>(&part.shape)) {
+  const double centre = wall.start.position[i];
+  const Eigen::Matrix3d turn = wall.start.rotation.toRotationMatrix();
+  if (std::holds_alternative<PlaneShape>(wall.shape)) return is_along(turn.col(2), axis) ? around(centre, 0) : around(0, INFINITY);
+  if (const auto* box = std::get_if<BoxShape>(&wall.shape)) {
     return around(centre, turn.row(i).cwiseAbs().dot(box->size.transpose()) / 2);
   }
-  if (const auto* cylinder = std::get_if<CylinderShape>(&part.shape)) {
+  if (const auto* cylinder = std::get_if<CylinderShape>(&wall.shape)) {
     const double along = std::abs(turn(i, 2));
     const double across = std::sqrt(std::max(0.0, 1 - along * along));
     return around(centre, along * cylinder->length / 2 + across * cylinder->radius);
   }
-  if (const auto* mesh = std::get_if<MeshShape>(&part.shape)) {
+  if (const auto* mesh = std::get_if<MeshShape>(&wall.shape)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Ends ends{kInfinity, -kInfinity};
     for (const auto& [x, y, z] : mesh->vertices) {
-      const double place = part.start(Vector3(x, y, z))[i];
+      const double place = wall.start(Vector3(x, y, z))[i];
       ends = {std::min(ends.lower, place), std::max(ends.upper, place)};
     }
     return ends;
   }
-  return around(centre, bounding_radius(part.shape));
+  return around(centre, bounding_radius(wall.shape));
 }
 
-/// The part's own axis that lies along an axis of the world, if there is one.
-std::optional<Eigen::Index> own_axis(const Part& part, std::size_t axis) {
-  const Eigen::Matrix3d turn = part.start.rotation.toRotationMatrix();
+/// The axis of the wall's frame that lies along an axis of the world; empty if there is none.
+std::optional<Eigen::Index> own_axis(const Wall& wall, std::size_t axis) {
+  const Eigen::Matrix3d turn = wall.start.rotation.toRotationMatrix();
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (is_along(turn.col(k), axis)) return k;
   }
   return std::nullopt;
 }
 
-/// Moves the ends of a part outwards.
-void lengthen(Part& part, std::size_t axis, const Ends& to) {
+/// Moves the ends of a wall outwards.
+void lengthen(Wall& wall, std::size_t axis, const Ends& to) {
   const auto i = static_cast<Eigen::Index>(axis);
-  if (auto* mesh = std::get_if<MeshShape>(&part.shape)) {
+  if (auto* mesh = std::get_if<MeshShape>(&wall.shape)) {
     const double middle = (to.lower + to.upper) / 2;
     for (std::array<float, 3>& vertex : mesh->vertices) {
-      Vector3 place = part.start(Vector3(vertex[0], vertex[1], vertex[2]));
+      Vector3 place = wall.start(Vector3(vertex[0], vertex[1], vertex[2]));
       place[i] = place[i] < middle ? to.lower : to.upper;
-      const Vector3 own = part.start.rotation.conjugate() * (place - part.start.position);
+      const Vector3 own = wall.start.rotation.conjugate() * (place - wall.start.position);
       vertex = {static_cast<float>(own.x()), static_cast<float>(own.y()), static_cast<float>(own.z())};
     }
     return;
   }
-  const std::optional<Eigen::Index> own = own_axis(part, axis);
+  const std::optional<Eigen::Index> own = own_axis(wall, axis);
   if (!own) return;
-  if (auto* box = std::get_if<BoxShape>(&part.shape)) {
+  if (auto* box = std::get_if<BoxShape>(&wall.shape)) {
     box->size[*own] = to.upper - to.lower;
-  } else if (auto* cylinder = std::get_if<CylinderShape>(&part.shape)) {
+  } else if (auto* cylinder = std::get_if<CylinderShape>(&wall.shape)) {
     cylinder->length = to.upper - to.lower;
   }
-  part.start.position[i] = (to.lower + to.upper) / 2;
+  wall.start.position[i] = (to.lower + to.upper) / 2;
 }
 
-/// Whether a mesh is a prism along the axis: its vertices are at its two ends, the same across the axis at each.
-bool is_prism(const Part& part, const MeshShape& mesh, std::size_t axis) {
-  const Ends ends = ends_of(part, axis);
-  const double tolerance = 1e-5 * (ends.upper - ends.lower);  // vertices are floats
+/// Whether a mesh is a prism along the axis. All its vertices are at its two ends, and both ends have the same section.
+bool is_prism(const Wall& wall, const MeshShape& mesh, std::size_t axis) {
+  const Ends ends = ends_of(wall, axis);
+  const double tolerance = 1e-5 * (ends.upper - ends.lower);  // vertices are in single precision
   const auto i = static_cast<Eigen::Index>(axis);
   std::array<std::vector<Vector3>, 2> sections;
   for (const auto& [x, y, z] : mesh.vertices) {
-    Vector3 place = part.start(Vector3(x, y, z));
+    Vector3 place = wall.start(Vector3(x, y, z));
     const bool is_low = place[i] - ends.lower < tolerance;
     if (!is_low && ends.upper - place[i] > tolerance) return false;
     place[i] = 0;
@@ -103,26 +103,26 @@ bool is_prism(const Part& part, const MeshShape& mesh, std::size_t axis) {
   return std::ranges::all_of(sections[0], is_in(sections[1])) && std::ranges::all_of(sections[1], is_in(sections[0]));
 }
 
-std::optional<std::string> find_end_of_shape(const Part& part, std::size_t axis) {
-  const Eigen::Matrix3d turn = part.start.rotation.toRotationMatrix();
-  if (std::holds_alternative<PlaneShape>(part.shape)) {
+std::optional<std::string> find_end_of_shape(const Wall& wall, std::size_t axis) {
+  const Eigen::Matrix3d turn = wall.start.rotation.toRotationMatrix();
+  if (std::holds_alternative<PlaneShape>(wall.shape)) {
     return is_across(turn.col(2), axis) ? std::nullopt : std::optional<std::string>("the plane is not parallel to the axis");
   }
-  if (std::holds_alternative<BoxShape>(part.shape)) {
-    return own_axis(part, axis) ? std::nullopt : std::optional<std::string>("no edge of the box is along the axis");
+  if (std::holds_alternative<BoxShape>(wall.shape)) {
+    return own_axis(wall, axis) ? std::nullopt : std::optional<std::string>("no edge of the box is along the axis");
   }
-  if (std::holds_alternative<CylinderShape>(part.shape)) {
+  if (std::holds_alternative<CylinderShape>(wall.shape)) {
     return is_along(turn.col(2), axis) ? std::nullopt : std::optional<std::string>("the cylinder is not along the axis");
   }
-  if (const auto* mesh = std::get_if<MeshShape>(&part.shape)) {
-    return is_prism(part, *mesh, axis) ? std::nullopt : std::optional<std::string>("the mesh is no prism along the axis");
+  if (const auto* mesh = std::get_if<MeshShape>(&wall.shape)) {
+    return is_prism(wall, *mesh, axis) ? std::nullopt : std::optional<std::string>("the mesh is no prism along the axis");
   }
   return "a smooth body ends";
 }
 
-/// The way (m) that a vibration takes along the axis is added to `way`.
-std::optional<std::string> find_end_of_motion(const Part& part, const PartMotion& motion, std::size_t axis, double& way) {
-  const bool is_plane = std::holds_alternative<PlaneShape>(part.shape);
+/// Adds the displacement (m) of a vibration along the axis to `way`.
+std::optional<std::string> find_end_of_motion(const Wall& wall, const WallMotion& motion, std::size_t axis, double& way) {
+  const bool is_plane = std::holds_alternative<PlaneShape>(wall.shape);
   const auto turns_across = [axis](const Rotation& turn) { return turn.rpm != 0 && !is_along(turn.axis, axis); };
   if (const auto* translation = std::get_if<Translation>(&motion.kind)) {
     if (is_plane || is_across(translation->velocity, axis)) return std::nullopt;
@@ -140,37 +140,37 @@ std::optional<std::string> find_end_of_motion(const Part& part, const PartMotion
 
 }  // namespace
 
-void open_container(const PeriodicAxes& axes, double reach, std::size_t of_container, std::vector<Part>& parts) {
+void open_container(const PeriodicAxes& axes, double reach, std::size_t of_container, std::vector<Wall>& walls) {
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     if (!axes[axis]) continue;
     const Period& period = *axes[axis];
-    const auto closes = [&](const Part& part) {
-      const Ends ends = ends_of(part, axis);
+    const auto closes = [&](const Wall& wall) {
+      const Ends ends = ends_of(wall, axis);
       return ends.upper < period.lower + kRounding || ends.lower > period.upper() - kRounding;
     };
-    const auto end = parts.begin() + static_cast<std::ptrdiff_t>(of_container);
-    const auto kept = std::remove_if(parts.begin(), end, closes);
-    of_container = static_cast<std::size_t>(kept - parts.begin());
-    parts.erase(kept, end);
+    const auto end = walls.begin() + static_cast<std::ptrdiff_t>(of_container);
+    const auto kept = std::remove_if(walls.begin(), end, closes);
+    of_container = static_cast<std::size_t>(kept - walls.begin());
+    walls.erase(kept, end);
     for (std::size_t i = 0; i < of_container; ++i) {
       double way = reach;
-      for (const PartMotion& motion : parts[i].motions) find_end_of_motion(parts[i], motion, axis, way);
-      const Ends ends = ends_of(parts[i], axis);
+      for (const WallMotion& motion : walls[i].motions) find_end_of_motion(walls[i], motion, axis, way);
+      const Ends ends = ends_of(walls[i], axis);
       if (std::isfinite(ends.lower)) {
-        lengthen(parts[i], axis, {std::min(ends.lower, period.lower - way), std::max(ends.upper, period.upper() + way)});
+        lengthen(walls[i], axis, {std::min(ends.lower, period.lower - way), std::max(ends.upper, period.upper() + way)});
       }
     }
   }
 }
 
-std::optional<std::string> find_end(const Part& part, std::size_t axis, const Period& period, double reach) {
-  if (std::optional<std::string> end = find_end_of_shape(part, axis)) return end;
+std::optional<std::string> find_end(const Wall& wall, std::size_t axis, const Period& period, double reach) {
+  if (std::optional<std::string> end = find_end_of_shape(wall, axis)) return end;
   double way = reach;
-  for (const PartMotion& motion : part.motions) {
-    if (std::optional<std::string> end = find_end_of_motion(part, motion, axis, way)) return end;
+  for (const WallMotion& motion : wall.motions) {
+    if (std::optional<std::string> end = find_end_of_motion(wall, motion, axis, way)) return end;
   }
-  if (part.drive && !is_across(part.drive->axis, axis)) return "its drive takes it along the axis";
-  const Ends ends = ends_of(part, axis);
+  if (wall.drive && !is_across(wall.drive->axis, axis)) return "its drive takes it along the axis";
+  const Ends ends = ends_of(wall, axis);
   const Ends needed{period.lower - way, period.upper() + way};
   if (ends.lower <= needed.lower + kRounding && ends.upper >= needed.upper - kRounding) return std::nullopt;
   return "it reaches from " + shortest(ends.lower) + " to " + shortest(ends.upper) + " m and must from " + shortest(needed.lower) +

@@ -1,4 +1,4 @@
-#include "load_parts.hpp"
+#include "load_walls.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 
 #include "load_mesh.hpp"
 #include "load_motion.hpp"
-#include "model/container_parts.hpp"
-#include "model/part_material.hpp"
+#include "model/container_walls.hpp"
 #include "model/two_sided_mesh.hpp"
+#include "model/wall_material.hpp"
 #include "supernormal/shapes/superovoid.hpp"
 
 namespace falling_particles {
@@ -21,7 +21,7 @@ namespace {
 
 const std::vector<std::string> kShapes = {"plane", "box", "cylinder", "mesh", "ellipsoid", "superellipsoid", "superovoid"};
 
-/// The keys that describe a shape.
+/// The keys of a shape.
 std::vector<std::string> keys_of_shape(const std::string& shape) {
   if (shape == "box") return {"size"};
   if (shape == "cylinder") return {"radius", "length"};
@@ -69,8 +69,8 @@ SmoothShape read_smooth(const TomlTable& table, const std::string& shape) {
   return body;
 }
 
-/// Triangles that are there with their corners in both orders. As they are, each pushes what is behind it out in front: grains sink
-/// in from both sides until they are halfway through.
+/// The number of triangles that occur in both windings. In a single-sided mesh each of them pushes grains behind it to its front,
+/// so that grains sink in from both sides up to the middle.
 std::size_t count_two_sided(const Mesh& mesh) {
   const auto from_lowest = [](std::array<unsigned int, 3> corners) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -116,7 +116,7 @@ MeshShape read_mesh(const TomlTable& table, const std::string& scene_path) {
   return mesh;
 }
 
-PartShape read_shape(const TomlTable& table, const std::string& scene_path) {
+WallShape read_shape(const TomlTable& table, const std::string& scene_path) {
   const std::string shape = table.choice("shape", kShapes);
   table.refuse_unknown_keys(with_common_keys(keys_of_shape(shape)));
   if (shape == "plane") return PlaneShape{};
@@ -129,8 +129,8 @@ PartShape read_shape(const TomlTable& table, const std::string& scene_path) {
   return read_smooth(table, shape);
 }
 
-PartPose read_pose(const TomlTable& table) {
-  PartPose pose;
+WallPose read_pose(const TomlTable& table) {
+  WallPose pose;
   if (table.has("position")) pose.position = read_vector(table, "position", Interval::closed(-kLargestLength, kLargestLength, "m"));
   if (!table.has("axis") && !table.has("angle")) return pose;
   const double angle = table.number("angle", Interval::closed(-360, 360, "degrees about part.axis"));
@@ -138,21 +138,21 @@ PartPose read_pose(const TomlTable& table) {
   return pose;
 }
 
-/// A name stands in a line of parts.csv.
-std::string read_name(const TomlTable& table, const std::vector<Part>& parts) {
+/// Reads a name, which must fit into a field of parts.csv.
+std::string read_name(const TomlTable& table, const std::vector<Wall>& walls) {
   const std::string name = table.text("name");
   const auto is_allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
   if (!std::ranges::all_of(name, is_allowed)) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\"; allowed: letters, digits, _, - and .");
   }
-  if (std::ranges::find(parts, name, &Part::name) != parts.end()) {
+  if (std::ranges::find(walls, name, &Wall::name) != walls.end()) {
     table.fail("name", table.full_name("name") + " is \"" + name + "\", which another part has; allowed: a name of its own");
   }
   return name;
 }
 
-/// m^2, the area that a part shows along the axis of its drive, which turns with the part; 0 where it must be said.
-double plan_area(const PartShape& shape, const Vector3& axis) {
+/// m^2, the projected area of a wall along the axis of its drive, in the wall's frame; 0 if the scene must give the area.
+double plan_area(const WallShape& shape, const Vector3& axis) {
   if (const auto* box = std::get_if<BoxShape>(&shape)) {
     const Vector3& s = box->size;
     return Vector3(s.y() * s.z(), s.z() * s.x(), s.x() * s.y()).dot(axis.cwiseAbs());
@@ -165,7 +165,7 @@ double plan_area(const PartShape& shape, const Vector3& axis) {
   return 0;
 }
 
-void read_pressure(const TomlTable& table, const Part& part, Drive& drive) {
+void read_pressure(const TomlTable& table, const Wall& wall, Drive& drive) {
   if (table.has("force") == table.has("pressure")) {
     table.fail(table.has("force") ? "force" : "", table.full_name("force") + " and " + table.full_name("pressure") +
                                                       (table.has("force") ? " are both given" : " are missing") +
@@ -176,24 +176,24 @@ void read_pressure(const TomlTable& table, const Part& part, Drive& drive) {
     if (table.has("area")) table.fail("area", table.full_name("area") + " is given besides force; allowed: with pressure");
     return;
   }
-  double area = plan_area(part.shape, part.start.rotation.conjugate() * drive.axis);
+  double area = plan_area(wall.shape, wall.start.rotation.conjugate() * drive.axis);
   if (area == 0 || table.has("area")) area = table.number("area", Interval::positive(1e6, "m^2, on which the pressure acts"));
   drive.force = area * table.number("pressure", Interval::closed(-1e9, 1e9, "Pa, along part.drive.axis"));
 }
 
-std::optional<Drive> read_drive(const TomlTable& part_table, const Part& part) {
+std::optional<Drive> read_drive(const TomlTable& part_table, const Wall& wall) {
   const auto table =
       part_table.find_table("drive", {"axis", "force", "pressure", "area", "mass", "damping", "from", "until", "travel"});
   if (!table) return std::nullopt;
-  for (const PartMotion& motion : part.motions) {
+  for (const WallMotion& motion : wall.motions) {
     if (std::holds_alternative<Conveyor>(motion.kind)) {
       part_table.fail("drive", "part.drive besides a motion of kind \"conveyor\"; allowed: with the other kinds");
     }
   }
   Drive drive{};
   drive.axis = read_direction(*table, "axis");
-  read_pressure(*table, part, drive);
-  // ODE squares moments of inertia, a thousand times mass times radius squared: far below, they are no numbers.
+  read_pressure(*table, wall, drive);
+  // ODE squares the moment of inertia, a thousand times mass times radius squared. Far smaller masses give NaN.
   drive.mass = table->number("mass", Interval::closed(1e-12, 1e6, "kg"));
   if (table->has("damping")) drive.damping = table->number("damping", Interval::closed(0, 1e9, "N s/m"));
   const auto [from, until] = read_times(*table);
@@ -210,31 +210,31 @@ std::optional<Drive> read_drive(const TomlTable& part_table, const Part& part) {
   return drive;
 }
 
-Part read_part(const TomlTable& table, const std::vector<Part>& parts, const Time& time, const std::string& scene_path) {
-  Part part{read_name(table, parts), read_shape(table, scene_path)};
-  part.start = read_pose(table);
-  if (table.has("motion")) part.motions = read_motions(table, time);
-  part.drive = read_drive(table, part);
-  if (table.has("friction")) part.friction = table.number("friction", Interval::positive(100, ""));
-  if (table.has("restitution")) part.restitution = table.number("restitution", Interval::positive(1, ""));
-  return part;
+Wall read_wall(const TomlTable& table, const std::vector<Wall>& walls, const Time& time, const std::string& scene_path) {
+  Wall wall{read_name(table, walls), read_shape(table, scene_path)};
+  wall.start = read_pose(table);
+  if (table.has("motion")) wall.motions = read_motions(table, time);
+  wall.drive = read_drive(table, wall);
+  if (table.has("friction")) wall.friction = table.number("friction", Interval::positive(100, ""));
+  if (table.has("restitution")) wall.restitution = table.number("restitution", Interval::positive(1, ""));
+  return wall;
 }
 
 }  // namespace
 
-std::vector<Part> load_parts(const TomlTable& root, const Scene& scene, const std::string& scene_path) {
-  std::vector<Part> parts = parts_in(scene.container);
-  if (!root.has("part")) return parts;
+std::vector<Wall> load_walls(const TomlTable& root, const Scene& scene, const std::string& scene_path) {
+  std::vector<Wall> walls = walls_in(scene.container);
+  if (!root.has("part")) return walls;
   if (std::holds_alternative<Periodic>(scene.container)) {
     root.fail("part", "part in a periodic container; allowed: in any other container");
   }
-  for (const TomlTable& table : root.tables("part", all_keys())) parts.push_back(read_part(table, parts, scene.time, scene_path));
-  const auto own = std::ranges::count_if(parts, [](const Part& part) { return part.friction || part.restitution; });
-  if (own > kMostPartMaterials) {
+  for (const TomlTable& table : root.tables("part", all_keys())) walls.push_back(read_wall(table, walls, scene.time, scene_path));
+  const auto own = std::ranges::count_if(walls, [](const Wall& wall) { return wall.friction || wall.restitution; });
+  if (own > kMostWallMaterials) {
     root.fail("part", "the scene has " + std::to_string(own) + " parts with friction or restitution of their own; allowed: up to " +
-                          std::to_string(kMostPartMaterials));
+                          std::to_string(kMostWallMaterials));
   }
-  return parts;
+  return walls;
 }
 
 }  // namespace falling_particles

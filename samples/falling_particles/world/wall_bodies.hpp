@@ -1,0 +1,122 @@
+// The walls of a scene in an ODE world.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <supernormal/effects.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "model/two_sided_mesh.hpp"
+#include "model/wall.hpp"
+
+namespace falling_particles {
+
+/// The pose and velocity of a wall.
+struct WallState {
+  WallPose pose;
+  WallVelocity velocity;  ///< mean of the last step, without the motion of a conveyor's surface
+};
+
+/// The state of the walls between two steps, as far as it is no function of time.
+struct WallsState {
+  struct OfWall {
+    WallPose pose;               ///< of the carrier
+    WallVelocity velocity = {};  ///< of the carrier in the last step
+    double position = 0;         ///< m, of a driven wall along its axis
+    double speed = 0;            ///< m/s
+
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(pose, velocity, position, speed);
+    }
+  };
+  long steps = 0;
+  std::vector<OfWall> walls;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(steps, walls);
+  }
+};
+
+/// The geoms of the walls, and the bodies that give contacts their velocities. The geoms have no bodies, since ODE's planes can
+/// have none. A moving wall has a kinematic body beside its geom, with the mean velocity of the step. After the step the geom and
+/// this body are set to the exact pose. A driven wall has a second body with mass, on a slider joint to the kinematic body.
+class WallBodies {
+ public:
+  /// The walls and the world must outlive this object. The geoms have `category_bits` and collide with geoms that have a bit of
+  /// `collide_bits`. `step`: s. Throws std::runtime_error when the library refuses a shape.
+  WallBodies(dWorldID world, const std::vector<Wall>& walls, double step, unsigned long category_bits, unsigned long collide_bits);
+  ~WallBodies();
+  WallBodies(const WallBodies&) = delete;
+  WallBodies& operator=(const WallBodies&) = delete;
+
+  const std::vector<dGeomID>& geoms() const { return geoms_; }  ///< in the order of the walls
+
+  /// Sets the velocities of the bodies. Call it before the collision of a step.
+  void before_step();
+  /// Moves the walls to their poses at the end of the step. Call it after the step.
+  void after_step();
+
+  /// Whether the geom belongs to a wall that moves, or whose surface moves, in this step.
+  bool is_moving(dGeomID geom) const;
+  /// The body and material of the geom's wall; the body is null while the wall does not move. For other geoms: the geom's own body
+  /// and `otherwise`.
+  supernormal::effects::Side side_of(dGeomID geom, supernormal::effects::Material otherwise) const;
+
+  /// m/s; the velocity that a grain at `centre` (m) with `velocity` (m/s) needs at its contacts with the wall in this step, in
+  /// addition to the velocity of the wall's body (ChordExcess). Zero if the geom belongs to no wall.
+  Vector3 chord_excess(dGeomID geom, const Vector3& centre, const Vector3& velocity) const;
+
+  const Wall& wall(std::size_t index) const { return *entries_[index].wall; }
+  std::size_t count() const { return entries_.size(); }
+  WallState state(std::size_t index) const;
+
+  WallsState save() const;
+  /// Restores a state of the same walls in a world that has made no step.
+  void restore(const WallsState& state);
+
+ private:
+  struct Entry {
+    WallPose pose;                           // of the carrier
+    WallPose next;                           // of the carrier at the end of the step
+    WallVelocity velocity = {};              // of the carrier in this step
+    std::optional<ChordExcess> excess = {};  // in this step
+    double position = 0;                     // m, of the driven body along its axis
+    double speed = 0;                        // m/s
+    const Wall* wall = nullptr;
+    dGeomID geom = nullptr;
+    dBodyID carrier = nullptr;  // kinematic; null for a wall that stands
+    dBodyID driven = nullptr;   // with mass; null for a wall that is not driven
+    dJointID slider = nullptr;
+    supernormal::effects::Material material = 0;
+    bool is_moving = false;
+    bool is_held = true;
+
+    WallPose wall_pose() const;          // with the displacement of the driven body
+    WallVelocity wall_velocity() const;  // with the speed of the driven body; mean of the last step
+    Vector3 axis() const;                // of the drive, in the world's frame
+  };
+  dGeomID create_geom(const WallShape& shape);
+  dGeomID create_geom(const MeshShape& mesh);
+  void add_drive(Entry& entry, const Drive& drive);
+  void push(Entry& entry, double now);
+  void slide(Entry& entry);
+  static void put(const Entry& entry);
+  static void place(const Entry& entry);
+
+  dWorldID world_;
+  double step_;
+  long steps_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<dGeomID> geoms_;
+  std::unordered_map<dGeomID, std::size_t> index_of_;
+  std::vector<dTriMeshDataID> mesh_data_;
+  std::vector<std::unique_ptr<const TwoSidedMesh>> two_sided_;
+};
+
+}  // namespace falling_particles
