@@ -3,12 +3,11 @@
 //     impacts PAIRS SEED        PAIRS of each kind of motion
 //
 // Prints a line for each kind, and each pair that was missed. Exit code 0: none was missed, late or early; 1: some were.
-#include <charconv>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 
 #include "random_motions.hpp"
+#include "whole_number.hpp"
 
 namespace {
 
@@ -34,12 +33,6 @@ void add(const MotionKind& kind, int index, const MovingPair& pair, Tally& tally
               verdict.overlap_before, verdict.gap, pair.unit, verdict.earlier, impact.time, pair.horizon);
 }
 
-int number(const char* text) {
-  int value = 0;
-  const auto end = std::from_chars(text, text + std::strlen(text), value);
-  return end.ec == std::errc() && *end.ptr == '\0' ? value : -1;
-}
-
 /// Returns how many pairs were wrong.
 long run(int pairs, int seed) {
   std::printf("%-22s %8s %8s %8s %14s %12s %8s %6s\n", "motion", "pairs", "hits", "apart", "not converged", "evaluations", "most",
@@ -59,8 +52,8 @@ long run(int pairs, int seed) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int pairs = argc == 3 ? number(argv[1]) : -1;
-  const int seed = argc == 3 ? number(argv[2]) : -1;
+  const int pairs = argc == 3 ? whole_number(argv[1]) : -1;
+  const int seed = argc == 3 ? whole_number(argv[2]) : -1;
   if (pairs < 1 || seed < 0) {
     std::fprintf(stderr, "impacts PAIRS SEED: PAIRS is a number from 1, SEED one from 0\n");
     return 2;

@@ -71,6 +71,9 @@ class Random {
 
   double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11U) * 0x1p-53); }
 
+  /// A number in [low, high] whose logarithm is evenly distributed.
+  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+
   Vec direction() {
     while (true) {
       const Vec v = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
@@ -127,6 +130,12 @@ inline snStatistics statistics() {
 
 /// Whether the last refusal says this.
 inline bool refused_with(const std::string& text) { return std::string(snLastError()).find(text) != std::string::npos; }
+
+/// The exponent of an ellipsoid, of a brick, or of what is in between.
+inline double any_exponent(Random& random) {
+  constexpr double kExponents[] = {2, 4, 8, 20, 60};
+  return kExponents[static_cast<int>(random.uniform(0, 5))];
+}
 
 /// Draws an ellipsoid or a superellipsoid with half-axes in 0.5...1.5.
 inline dGeomID random_body(Random& random, dSpaceID space = nullptr) {

@@ -192,12 +192,29 @@ void MeshContactsAhead::add_overlaps(const Search& search) {
   }
 }
 
+/// The sweep of a body that is apart from the surface overlaps it by no more than its radius, but for the back of a sheet and what
+/// is beside its border: there a contact of the sweep is none of the body.
 void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
   // The swept body refers to the shape without owning it.
   const Rounded swept(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &search.body.shape), search.near);
   const std::span<const MeshContact> contacts = contacts_.find(swept, search.body.pose, search.triangles, search.settings);
   evaluations_ += contacts_.evaluations();
-  for (const MeshContact& contact : contacts) add(search, without_sweep(contact.proximity, search.near), contact.triangle, way);
+  const bool is_beyond = std::any_of(contacts.begin(), contacts.end(),
+                                     [&](const MeshContact& contact) { return contact.proximity.gap < -search.near; });
+  const bool is_apart = is_beyond && is_apart_now(search);
+  for (const MeshContact& contact : contacts) {
+    Proximity there = without_sweep(contact.proximity, search.near);
+    if (is_apart && there.gap < -kSameGap * search.near) continue;
+    if (is_apart) there.gap = std::max(there.gap, 0.0);
+    add(search, there, contact.triangle, way);
+  }
+}
+
+/// Whether the body, where it is on its way, overlaps no triangle.
+bool MeshContactsAhead::is_apart_now(const Search& search) {
+  const Proximity nearest = find_nearest_triangle(search.body.shape, search.body.pose, search.triangles, search.settings).proximity;
+  evaluations_ += nearest.evaluations;
+  return nearest.status != Status::InvalidInput && nearest.gap > 0;
 }
 
 void MeshContactsAhead::add(const Search& search, const Proximity& there, int triangle, const Vector3& way) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ode/collider_fixture.hpp"
+#include "ode/core_pose.hpp"
 #include "supernormal/proximity/solve.hpp"
 #include "supernormal/shapes/ellipsoid.hpp"
 #include "supernormal/shapes/polytope.hpp"
@@ -17,21 +18,10 @@
 
 using namespace supernormal::test;
 using supernormal::Ellipsoid;
-using supernormal::Matrix3;
 using supernormal::Polytope;
-using supernormal::Pose;
 using supernormal::Vector3;
 
 namespace {
-
-Vector3 to_eigen(const dReal* v) { return {v[0], v[1], v[2]}; }
-
-Pose pose_of(dGeomID geom) {
-  const dReal* const R = dGeomGetRotation(geom);
-  Matrix3 rotation;
-  rotation << R[0], R[1], R[2], R[4], R[5], R[6], R[8], R[9], R[10];
-  return {to_eigen(dGeomGetPosition(geom)), rotation};
-}
 
 snProximity proximity(dGeomID g1, dGeomID g2) {
   snProximity answer;

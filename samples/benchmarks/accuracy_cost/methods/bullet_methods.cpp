@@ -1,59 +1,30 @@
-#include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
+#include "hosts/bullet/smooth_shape.hpp"
 #include "method.hpp"
 
 namespace accuracy_cost {
 namespace {
 
 using supernormal::Vector3;
+using supernormal::bullet_host::from_bullet;
+using supernormal::bullet_host::SmoothShape;
+using supernormal::bullet_host::to_bullet;
 
-btVector3 to_bullet(const Vector3& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
-
-Vector3 from_bullet(const btVector3& v) {
-  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
-}
-
-btTransform to_bullet(const supernormal::Pose& pose) {
-  btMatrix3x3 basis;
-  for (int row = 0; row < 3; ++row) basis[row] = to_bullet(Vector3(pose.rotation.row(row).transpose()));
-  return btTransform(basis, to_bullet(pose.position));
-}
-
-/// A Supernormal shape as a Bullet shape without a margin.
-class BulletShape final : public btConvexInternalShape {
+/// One of our shapes, which it refers to, as a shape of Bullet.
+class BulletShape final : public SmoothShape {
  public:
-  explicit BulletShape(const supernormal::Shape& shape) : shape_(shape) {
-    m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
-    m_collisionMargin = 0;
-  }
+  explicit BulletShape(const supernormal::Shape& shape)
+      : SmoothShape(std::shared_ptr<const supernormal::Shape>(std::shared_ptr<const supernormal::Shape>(), &shape)) {}
 
   int evaluations() const { return evaluations_; }
 
   btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
     ++evaluations_;
-    supernormal::Jet jet;
-    shape_.evaluate(from_bullet(direction), supernormal::Order::Point, jet);  // any length: the point is the same
-    return to_bullet(jet.r);
+    return SmoothShape::localGetSupportingVertexWithoutMargin(direction);
   }
-  btVector3 localGetSupportingVertex(const btVector3& direction) const override {
-    return localGetSupportingVertexWithoutMargin(direction);
-  }
-  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions, btVector3* points, int count) const override {
-    for (int i = 0; i < count; ++i) points[i] = localGetSupportingVertexWithoutMargin(directions[i]);
-  }
-  void getAabb(const btTransform& /*pose*/, btVector3& low, btVector3& high) const override {
-    const Vector3 half = shape_.half_extents();
-    low = to_bullet(-half);
-    high = to_bullet(half);
-  }
-  void calculateLocalInertia(btScalar /*mass*/, btVector3& inertia) const override { inertia.setZero(); }
-  const char* getName() const override { return "Supernormal"; }
 
  private:
-  const supernormal::Shape& shape_;
   mutable int evaluations_ = 0;
 };
 

@@ -1,0 +1,290 @@
+#include "ode/colliders/fly_bys.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ode/core_pose.hpp"
+#include "ode/mesh_fixture.hpp"
+#include "support/ode_world.hpp"
+#include "ode/terrain.hpp"
+#include "supernormal/supernormal.hpp"
+
+namespace supernormal::test {
+namespace {
+
+Vec any_half_axes(Random& random, double size) {
+  const double second = size * random.uniform(0.3, 1);
+  return {size, second, size * random.uniform(0.3, 1)};
+}
+
+/// Gives a geom that is turned a body, which keeps the turn.
+dBodyID add_turned(const World& world, dGeomID geom, const dMass& mass) {
+  dQuaternion attitude;
+  dGeomGetQuaternion(geom, attitude);
+  const dBodyID body = world.add(geom, mass);
+  dBodySetQuaternion(body, attitude);
+  return body;
+}
+
+struct Superellipsoids {
+  Superellipsoids(dSpaceID space, Random& random, double size) {
+    const Vec half_axes = any_half_axes(random, size);
+    const double delta = any_exponent(random);
+    const double epsilon = any_exponent(random);
+    shape = std::make_shared<Superellipsoid>(to_eigen(half_axes), delta, epsilon);
+    geom =
+        snCreateSuperellipsoid(space, dReal(half_axes[0]), dReal(half_axes[1]), dReal(half_axes[2]), dReal(delta), dReal(epsilon));
+    random.turn(geom);
+  }
+
+  std::shared_ptr<const Shape> shape;
+  dGeomID geom;
+};
+
+/// A triangle as a shape, which refers to the corners beside it.
+struct Triangle {
+  explicit Triangle(const std::array<Vector3, 3>& about_middle) : corners(about_middle), shape(corners) {}
+  ~Triangle() = default;
+  Triangle(const Triangle&) = delete;
+  Triangle(Triangle&&) = delete;
+  Triangle& operator=(const Triangle&) = delete;
+  Triangle& operator=(Triangle&&) = delete;
+
+  std::array<Vector3, 3> corners;
+  Polytope shape;
+};
+
+/// What is passed, around the origin of a world that outlives it.
+class PassedBody {
+ public:
+  struct Part {
+    std::shared_ptr<const Shape> shape;  ///< convex
+    Pose pose;
+  };
+
+  PassedBody(const World& world, Random& random, Passed passed, double size) {
+    switch (passed) {
+      case Passed::Box: {
+        const Vec half = any_half_axes(random, size);
+        geom_ = dCreateBox(world.space(), dReal(2 * half[0]), dReal(2 * half[1]), dReal(2 * half[2]));
+        random.turn(geom_);
+        add_body(world, random, std::make_shared<Box>(to_eigen(half)));
+        break;
+      }
+      case Passed::Ours: {
+        const Superellipsoids body(world.space(), random, size);
+        geom_ = body.geom;
+        add_body(world, random, body.shape);
+        break;
+      }
+      case Passed::ClosedMesh: {
+        const Vec half = any_half_axes(random, size);
+        add_mesh(world, random, box_arrays(half[0], half[1], half[2]));
+        break;
+      }
+      case Passed::Sheet:
+        add_mesh(world, random, floor_arrays(3, 3, size / 2));
+        break;
+      case Passed::Heightfield:
+        add_terrain(world, random, size);
+        break;
+    }
+  }
+
+  const std::vector<Part>& parts() const { return parts_; }
+  double thickness() const { return thickness_; }  ///< m; the smallest half-extent; infinite for a surface, which has none
+  double radius() const { return radius_; }        ///< m; of a ball about the origin that holds it
+  double speed() const {
+    const dBodyID body = dGeomGetBody(geom_);
+    return body == nullptr ? 0 : norm(to_vec(dBodyGetLinearVel(body)));
+  }
+
+ private:
+  void add_body(const World& world, Random& random, std::shared_ptr<const Shape> shape) {
+    thickness_ = shape->half_extents().minCoeff();
+    radius_ = shape->bounding_radius();
+    if (random.uniform(0, 1) < 0.5) {
+      dMass mass;
+      dMassSetBox(&mass, 1000, dReal(radius_), dReal(radius_), dReal(radius_));
+      add_turned(world, geom_, mass);
+    }
+    parts_.push_back({std::move(shape), pose_of(geom_)});
+  }
+
+  void add_mesh(const World& world, Random& random, const MeshArrays& arrays) {
+    mesh_ = std::make_unique<MeshGeom>(arrays, world.space());
+    geom_ = *mesh_;
+    random.turn(geom_);
+    const Pose pose = pose_of(geom_);
+    const auto at = [&](dTriIndex k) {
+      const auto& [x, y, z] = arrays.vertices[k];
+      return Vector3(pose.position + pose.rotation * Vector3(double{x}, double{y}, double{z}));
+    };
+    for (const auto& [a, b, c] : arrays.triangles) add_triangle({at(a), at(b), at(c)});
+  }
+
+  void add_terrain(const World& world, Random& random, double size) {
+    constexpr int kSamples = 7;
+    const double cell = size * random.uniform(0.3, 1);
+    const auto seed = static_cast<unsigned>(random.uniform(0, 1e6));
+    const Terrain::Layout layout{kSamples, kSamples, (kSamples - 1) * cell, (kSamples - 1) * cell};
+    terrain_ = std::make_unique<Terrain>(layout, rough(seed, cell * random.uniform(0, 1)));
+    terrain_geom_.emplace(terrain_->create(false, world.space()));
+    geom_ = *terrain_geom_;
+    const auto at = [&](int i, int j) { return to_eigen(terrain_->vertex(i, j)); };
+    for (int i = 0; i + 1 < kSamples; ++i) {
+      for (int j = 0; j + 1 < kSamples; ++j) {
+        add_triangle({at(i, j), at(i + 1, j), at(i, j + 1)});
+        add_triangle({at(i + 1, j + 1), at(i + 1, j), at(i, j + 1)});
+      }
+    }
+  }
+
+  void add_triangle(const std::array<Vector3, 3>& v) {
+    for (const Vector3& corner : v) radius_ = std::max(radius_, corner.norm());
+    const Vector3 middle = (v[0] + v[1] + v[2]) / 3;
+    const auto triangle = std::make_shared<Triangle>(std::array<Vector3, 3>{v[0] - middle, v[1] - middle, v[2] - middle});
+    parts_.push_back({std::shared_ptr<const Shape>(triangle, &triangle->shape), {middle, Matrix3::Identity()}});
+  }
+
+  std::vector<Part> parts_;
+  double thickness_ = std::numeric_limits<double>::infinity();
+  double radius_ = 0;
+  dGeomID geom_ = nullptr;
+  std::unique_ptr<MeshGeom> mesh_;
+  std::unique_ptr<Terrain> terrain_;
+  std::optional<Geom> terrain_geom_;
+};
+
+/// A body on a straight line.
+class Line {
+ public:
+  struct Nearest {
+    double off = 0;  ///< m; how far the line is off the origin
+    double way = 0;  ///< m; where on the line the gap is the least
+  };
+
+  Line(const Shape& shape, Matrix3 rotation, const Vec& along, const Vec& beside)
+      : shape_(shape), rotation_(std::move(rotation)), along_(to_eigen(along)), beside_(to_eigen(beside)) {}
+
+  /// The line that is nearest to what is passed without a gap below `clearance` (m), for one that comes nearer from outside.
+  Nearest nearest(double clearance, const PassedBody& passed) const {
+    const Vector3 across = along_.cross(beside_);
+    Nearest found{-std::numeric_limits<double>::infinity(), 0};
+    for (const PassedBody::Part& part : passed.parts()) {
+      const double reach = part.shape->bounding_radius() + shape_.bounding_radius() + std::abs(clearance);
+      const double middle = beside_.dot(part.pose.position);
+      if (std::abs(across.dot(part.pose.position)) > reach || middle + reach <= found.off) continue;
+      // The least gap on the way is convex in the distance off: it is halved until the outermost one with a gap below is known.
+      double inside = std::max(found.off, middle - reach);
+      double outside = middle + reach;
+      bool is_met = false;
+      for (int halving = 0; halving < 50; ++halving) {
+        const double off = 0.5 * (inside + outside);
+        const LeastGap least = least_gap(part, off, clearance);
+        is_met = is_met || least.is_below;
+        (least.is_below || least.slope < 0 ? inside : outside) = off;
+      }
+      if (is_met) found = {outside, least_gap(part, outside, -std::numeric_limits<double>::infinity()).way};
+    }
+    return found;
+  }
+
+ private:
+  struct LeastGap {
+    double way;     // m; where it is, or where a gap is below what was asked for
+    bool is_below;  // whether one is
+    double slope;   // of the least gap over the distance off
+  };
+
+  /// Halves the part of the way that has the least gap: the gap to a convex part is convex, and falls where the normal, which
+  /// points to the body, points back. Ends at a gap below `enough` (m).
+  LeastGap least_gap(const PassedBody::Part& part, double off, double enough) const {
+    const double middle = along_.dot(part.pose.position);
+    const double reach = part.shape->bounding_radius() + shape_.bounding_radius();
+    double low = middle - reach;
+    double high = middle + reach;
+    for (int halving = 0;; ++halving) {
+      const double way = 0.5 * (low + high);
+      const Vector3 place = off * beside_ + way * along_;
+      const Proximity there = find_proximity(*part.shape, part.pose, shape_, {place, rotation_});
+      const bool is_below = there.gap < enough;
+      if (is_below || halving == 50) return {way, is_below, there.normal.dot(beside_)};
+      (there.normal.dot(along_) > 0 ? high : low) = way;
+    }
+  }
+
+  const Shape& shape_;
+  Matrix3 rotation_;
+  Vector3 along_, beside_;
+};
+
+}  // namespace
+
+const char* name_of(Passed passed) {
+  switch (passed) {
+    case Passed::Box:
+      return "dBox";
+    case Passed::Ours:
+      return "ours";
+    case Passed::ClosedMesh:
+      return "closed mesh";
+    case Passed::Sheet:
+      return "sheet";
+    default:
+      return "heightfield";
+  }
+}
+
+double fly_by(unsigned seed, Passed passed, double clearance) {
+  constexpr int kMostSteps = 60;  // before what is nearest, and after it
+  Random random(seed);
+  const double step = random.log_uniform(1e-3, 50e-3);
+  const double speed = random.log_uniform(1, 1000);
+  const double size = random.log_uniform(1e-3, 1);
+  World world;
+  dWorldSetGravity(world.id(), 0, 0, 0);
+  world.surface.mode = dContactApprox1;  // without it friction is a force that acts before they touch
+  world.surface.mu = dReal(0.5);
+  const PassedBody obstacle(world, random, passed, size * random.log_uniform(0.3, 10));
+  const Superellipsoids flyer(world.space(), random, size);
+  dMass mass;
+  REQUIRE(snMassSet(&mass, 1000, flyer.geom) == 1);
+  const dBodyID body = add_turned(world, flyer.geom, mass);
+
+  Vec along = random.direction();
+  Vec beside = random.direction();
+  if (passed == Passed::Heightfield) {  // y is up, and below it is solid: the line goes from one side to the other
+    const double heading = random.uniform(0, 2 * std::numbers::pi);
+    along = {std::cos(heading), random.uniform(-0.3, 0.3), std::sin(heading)};
+    along = (1 / norm(along)) * along;
+    beside = {0.3 * beside[0], 1, 0.3 * beside[2]};
+  }
+  beside = beside - dot(beside, along) * along;
+  beside = (1 / norm(beside)) * beside;
+
+  const double way = speed * step;
+  const double reach = obstacle.radius() + flyer.shape->bounding_radius();
+  const int steps = std::min(kMostSteps, 1 + static_cast<int>(2 * reach / way));
+  const double before = (steps + random.uniform(0, 1)) * way;
+  const double thickness = std::min(obstacle.thickness(), flyer.shape->half_extents().minCoeff());
+  const double least = within_rounding(std::abs(clearance) * thickness, before + reach);
+  const Line line(*flyer.shape, pose_of(flyer.geom).rotation, along, beside);
+  const Line::Nearest nearest = line.nearest(std::copysign(least, clearance), obstacle);
+  place(flyer.geom, nearest.off * beside + (nearest.way - before) * along);
+  const Vec velocity = speed * along;
+  dBodySetLinearVel(body, dReal(velocity[0]), dReal(velocity[1]), dReal(velocity[2]));
+  REQUIRE(snGeomSetLookAhead(flyer.geom, dReal(step)) == 1);
+  const Vec first = to_vec(dBodyGetLinearVel(body));
+  for (int k = 0; k < 2 * steps + 1; ++k) world.quick_step(step);
+  return std::max(norm(to_vec(dBodyGetLinearVel(body)) - first), obstacle.speed()) / speed;
+}
+
+}  // namespace supernormal::test
