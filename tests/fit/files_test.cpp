@@ -382,8 +382,8 @@ TEST_CASE("a catalogue of grains takes the lines of TOML") {
   CHECK(grain.density == 1200);
   CHECK(grain_of(std::span(fitted).subspan(1, 1)).delta == 2);
   const auto egg = grain_of(std::span(fitted).subspan(2));
-  REQUIRE(egg.parts.size() == 1);
-  CHECK(egg.parts[0].body.taper == std::array<double, 2>{-0.3, -0.3});
+  REQUIRE(egg.components.size() == 1);
+  CHECK(egg.components[0].body.taper == std::array<double, 2>{-0.3, -0.3});
 }
 
 TEST_CASE("a union is one grain, with its parts where they are to each other") {
@@ -395,8 +395,8 @@ TEST_CASE("a union is one grain, with its parts where they are to each other") {
   fitted[1].body.attitude = Eigen::Quaterniond(-0.7, 0.3, 0.2, 0.5).normalized();
   const auto grains = falling_particles::load_catalogue(folder.write("grains.toml", toml_lines(fitted, "tooth", 1200, "a scan")));
   REQUIRE(grains.size() == 1);
-  REQUIRE(grains[0].parts.size() == 2);
-  const auto& parts = grains[0].parts;
+  REQUIRE(grains[0].components.size() == 2);
+  const auto& parts = grains[0].components;
   const auto at = [](const auto& part) { return Vector3(part.position[0], part.position[1], part.position[2]); };
   const auto turn = [](const auto& part) {
     return Eigen::Quaterniond(part.quaternion[0], part.quaternion[1], part.quaternion[2], part.quaternion[3]);

@@ -18,8 +18,8 @@ constexpr double kStep = 1e-4;  // s; error of the period below 1e-4
 constexpr int kPeriods = 3;
 constexpr int kMaxContacts = 5;
 
-const falling_particles::Grain& ellipsoid() {
-  static const falling_particles::Grain grain{"ellipsoid", {kA, kB, kC}, 2, 2, 0, 1000, "rocking.cpp"};
+const falling_particles::GrainKind& ellipsoid() {
+  static const falling_particles::GrainKind grain{"ellipsoid", {kA, kB, kC}, 2, 2, 0, 1000, "rocking.cpp"};
   return grain;
 }
 
