@@ -49,7 +49,7 @@ class SUPERNORMAL_API MeshContactsAhead {
   SUPERNORMAL_LOCAL bool holds_back(const Vector3& velocity) const;
   SUPERNORMAL_LOCAL void add_overlaps(const Search& search);
   SUPERNORMAL_LOCAL void add_contacts(const Search& search, const Vector3& way);
-  SUPERNORMAL_LOCAL bool is_apart_now(const Search& search);
+  SUPERNORMAL_LOCAL bool is_apart_now(const Search& search, std::span<const MeshContact> of_sweep);
   SUPERNORMAL_LOCAL void add(const Search& search, const Proximity& there, int triangle, const Vector3& way);
 
   MeshContacts contacts_;

@@ -89,6 +89,21 @@ Proximity without_sweep(Proximity swept, double radius) {
   return swept;
 }
 
+/// Whether the segment between two points meets the triangle.
+bool is_between(const MeshTriangle& triangle, const Vector3& from, const Vector3& to) {
+  const Vector3 along = to - from;
+  const Vector3 a = triangle.vertices[0] - from;
+  const Vector3 b = triangle.vertices[1] - from;
+  const Vector3 c = triangle.vertices[2] - from;
+  // The volumes on the three sides of the line have one sign where it goes through the triangle.
+  const Vector3 volumes(a.cross(b).dot(along), b.cross(c).dot(along), c.cross(a).dot(along));
+  if ((volumes.array() < 0).any() && (volumes.array() > 0).any()) return false;
+  const Vector3 normal = (b - a).cross(c - a);
+  const double height = normal.dot(a);
+  const double whole = normal.dot(along);
+  return whole != 0 && height / whole >= 0 && height / whole <= 1;
+}
+
 /// Moves a manifold from the end of the displacement `way` back to the present position. A gap at the end means no overlap now. The
 /// tangent plane may say otherwise.
 void take_back(ContactManifold& manifold, const Vector3& way, double share) {
@@ -192,27 +207,43 @@ void MeshContactsAhead::add_overlaps(const Search& search) {
   }
 }
 
-/// The sweep of a body that is apart from the surface overlaps it by no more than its radius, but for the back of a sheet and what
-/// is beside its border: there a contact of the sweep is none of the body.
+/// The sweep of a body that is apart from the surface overlaps it by no more than its radius. It may do so from behind a sheet,
+/// where all in front of the sheet is overlap: that is no contact of the body. Or at a border, whose normal need not be one that
+/// tells the body apart: such a contact does not hold the body back from where it is.
 void MeshContactsAhead::add_contacts(const Search& search, const Vector3& way) {
   // The swept body refers to the shape without owning it.
   const Rounded swept(std::shared_ptr<const Shape>(std::shared_ptr<const Shape>(), &search.body.shape), search.near);
   const std::span<const MeshContact> contacts = contacts_.find(swept, search.body.pose, search.triangles, search.settings);
   evaluations_ += contacts_.evaluations();
-  const bool is_beyond = std::any_of(contacts.begin(), contacts.end(),
-                                     [&](const MeshContact& contact) { return contact.proximity.gap < -search.near; });
-  const bool is_apart = is_beyond && is_apart_now(search);
+  const bool is_apart = is_apart_now(search, contacts);
   for (const MeshContact& contact : contacts) {
     Proximity there = without_sweep(contact.proximity, search.near);
-    if (is_apart && there.gap < -kSameGap * search.near) continue;
+    if (is_apart && there.gap <= -search.graze) continue;
     if (is_apart) there.gap = std::max(there.gap, 0.0);
     add(search, there, contact.triangle, way);
   }
 }
 
-/// Whether the body, where it is on its way, overlaps no triangle.
-bool MeshContactsAhead::is_apart_now(const Search& search) {
-  const Proximity nearest = find_nearest_triangle(search.body.shape, search.body.pose, search.triangles, search.settings).proximity;
+/// Whether the body, where it is on its way, overlaps no triangle although the contacts of its sweep say so.
+bool MeshContactsAhead::is_apart_now(const Search& search, std::span<const MeshContact> of_sweep) {
+  const Shape& shape = search.body.shape;
+  const Pose& pose = search.body.pose;
+  bool overlaps = false;
+  for (const MeshContact& contact : of_sweep) {
+    if (contact.proximity.gap >= -search.near) continue;
+    overlaps = true;
+    // What rests overlaps by rounding: a triangle between its deepest and its highest point proves it at once.
+    const Vector3 normal = pose.rotation.transpose() * contact.proximity.normal;
+    const Vector3 deepest = pose.position + pose.rotation * shape.point(normal);
+    const Vector3 highest = pose.position + pose.rotation * shape.point(-normal);
+    evaluations_ += 2;
+    if (std::any_of(search.triangles.begin(), search.triangles.end(),
+                    [&](const MeshTriangle& triangle) { return is_between(triangle, deepest, highest); })) {
+      return false;
+    }
+  }
+  if (!overlaps) return false;
+  const Proximity nearest = find_nearest_triangle(shape, pose, search.triangles, search.settings).proximity;
   evaluations_ += nearest.evaluations;
   return nearest.status != Status::InvalidInput && nearest.gap > 0;
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "supernormal/shapes/ellipsoid.hpp"
@@ -60,6 +61,26 @@ TEST_CASE("from behind there is no impact, and what moves away or is too slow ha
   CHECK(!has_contact(Vector3(0, 0, 0.15), Vector3(0, 0, 50)));
   CHECK(!has_contact(Vector3(0, 0, 0.15), Vector3(0, 0, -5)));
   CHECK(!has_contact(Vector3(0, 0, -0.15), Vector3(0, 0, 5)));
+}
+
+TEST_CASE("a ball that is apart from the back of a sheet, or from its border, has no contact that overlaps") {
+  MeshContactsAhead ahead;
+  const std::vector<MeshTriangle> sheet = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},
+                                           {{Vector3(-1, -1, 0), Vector3(0, 1, 0), Vector3(-1, 1, 0)}, 1}};
+  const auto least_gap = [&](const Vector3& position) {
+    const auto found = ahead.find(flying(kBall, position, Vector3(0, 0.1, 0)), {}, kStep, sheet);
+    return found.empty() ? 1 : found.front().manifold.deepest.gap;
+  };
+  const double apart = 0.05 + 5e-5;  // the sweep reaches ten times as far
+  CHECK(least_gap(Vector3(-0.5, 0, -apart)) >= 0);
+  for (int degrees = -90; degrees <= 90; degrees += 5) {
+    const double angle = degrees * std::numbers::pi / 180;
+    CAPTURE(degrees);
+    CHECK(least_gap(apart * Vector3(std::cos(angle), 0, std::sin(angle))) >= 0);
+  }
+  // It has some where it is in front, and where it overlaps.
+  CHECK(least_gap(Vector3(-0.5, 0, apart)) == doctest::Approx(5e-5).epsilon(1e-6));
+  CHECK(least_gap(Vector3(-0.5, 0, 0.0499)) == doctest::Approx(-1e-4).epsilon(1e-6));
 }
 
 TEST_CASE("the surface moves as well") {

@@ -12,9 +12,9 @@
 
 #include "ode/core_pose.hpp"
 #include "ode/mesh_fixture.hpp"
-#include "support/ode_world.hpp"
 #include "ode/terrain.hpp"
 #include "supernormal/supernormal.hpp"
+#include "support/ode_world.hpp"
 
 namespace supernormal::test {
 namespace {
@@ -171,6 +171,8 @@ class Line {
     double way = 0;  ///< m; where on the line the gap is the least
   };
 
+  static constexpr int kHalvings = 40;  // a length is known to 1e-12 then
+
   Line(const Shape& shape, Matrix3 rotation, const Vec& along, const Vec& beside)
       : shape_(shape), rotation_(std::move(rotation)), along_(to_eigen(along)), beside_(to_eigen(beside)) {}
 
@@ -185,8 +187,10 @@ class Line {
       // The least gap on the way is convex in the distance off: it is halved until the outermost one with a gap below is known.
       double inside = std::max(found.off, middle - reach);
       double outside = middle + reach;
-      bool is_met = false;
-      for (int halving = 0; halving < 50; ++halving) {
+      const LeastGap first = least_gap(part, inside, clearance);
+      if (!first.is_below && first.slope >= 0) continue;
+      bool is_met = first.is_below;
+      for (int halving = 0; halving < kHalvings; ++halving) {
         const double off = 0.5 * (inside + outside);
         const LeastGap least = least_gap(part, off, clearance);
         is_met = is_met || least.is_below;
@@ -216,7 +220,7 @@ class Line {
       const Vector3 place = off * beside_ + way * along_;
       const Proximity there = find_proximity(*part.shape, part.pose, shape_, {place, rotation_});
       const bool is_below = there.gap < enough;
-      if (is_below || halving == 50) return {way, is_below, there.normal.dot(beside_)};
+      if (is_below || halving == kHalvings) return {way, is_below, there.normal.dot(beside_)};
       (there.normal.dot(along_) > 0 ? high : low) = way;
     }
   }

@@ -258,12 +258,12 @@ TEST_CASE("fly-bys with a clearance of a thousandth of the size keep their veloc
   for (const Passed passed : kAllPassed) {
     CAPTURE(name_of(passed));
     int held_back = 0;
-    for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
       CAPTURE(seed);
       CHECK(fly_by(seed, passed, 1e-3) < within_rounding(1e-9, 10));
       held_back += fly_by(seed, passed, -0.3) > 1e-3 ? 1 : 0;
     }
-    CHECK(held_back >= 10);  // of 20; what comes from behind a sheet goes through
+    CHECK(held_back >= 5);  // of 10; what comes from behind a sheet goes through
   }
 }
 
