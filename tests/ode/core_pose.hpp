@@ -1,8 +1,8 @@
 // Poses and vectors of ODE as the core has them.
 #pragma once
 
-#include "support/ode_fixture.hpp"
 #include "supernormal/proximity/pose.hpp"
+#include "support/ode_fixture.hpp"
 
 namespace supernormal::test {
 

@@ -93,7 +93,8 @@ Methods fcl_methods(Motion motion) {
   Methods methods;
   constexpr int kMostDigits = 8;
   methods.reserve(kMostDigits);
-  for (int digits = 1; digits <= kMostDigits; ++digits) methods.push_back(std::make_unique<FclDistance>(std::pow(10.0, -digits), motion));
+  for (int digits = 1; digits <= kMostDigits; ++digits)
+    methods.push_back(std::make_unique<FclDistance>(std::pow(10.0, -digits), motion));
   return methods;
 }
 
