@@ -81,6 +81,7 @@ Contestant ours(const std::string& name, double tolerance) {
 /// Lets all search for the impact of a pair.
 void run(const std::vector<Contestant>& contestants, const MovingPair& pair, std::vector<Tally>& tallies) {
   std::vector<std::function<double()>> searches;
+  searches.reserve(contestants.size());
   for (const Contestant& contestant : contestants) searches.push_back(contestant.prepare(pair));
   std::vector<double> times(searches.size());
   std::vector<double> least(searches.size(), std::numeric_limits<double>::infinity());
