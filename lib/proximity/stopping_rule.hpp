@@ -26,6 +26,9 @@ class StoppingRule {
   /// Whether an error (m) of the gap may be left.
   bool allows(double error) const { return error <= tolerance_; }
 
+  /// Whether an error (m) is too large. A NaN, of a shape that is known on one side only, neither is nor is allowed.
+  bool forbids(double error) const { return error > tolerance_; }
+
   bool may_evaluate() const { return gap_->evaluations() < max_evaluations_; }
 
   /// Whether the bodies are proved apart, and the query asks for no more.

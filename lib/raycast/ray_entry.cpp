@@ -217,7 +217,7 @@ double EntrySearch::boundary_error() const {
 //
 // The point may be good long before the normal is. One of them is enough: the point on a sharp edge, the normal on a flat face.
 bool EntrySearch::has_settled(const Step& step) {
-  if (!rule_.allows(boundary_error()) || (!is_deep_ && !portal_.is_pierced())) return false;
+  if (rule_.forbids(boundary_error()) || (!is_deep_ && !portal_.is_pierced())) return false;
   const bool is_normal_good = rule_.allows(distance_at(best_).norm()) || step.length <= settings_.tolerance;
   const bool is_exhausted = was_tried_ && (!portal_.is_pierced() || idle_steps_ >= kMaxIdleSteps);
   return is_normal_good || is_exhausted || ++polishing_steps_ > kMaxPolishingSteps;
@@ -289,7 +289,7 @@ EntrySearch::Result EntrySearch::found(Status status) const {
   // The portal is in the body, and the body lies behind every plane beside the line. If such a plane is this near, the line grazes
   // the body at the portal.
   const double grazing_error = -nearest_ + gap_.rounding();
-  if (!rule_.allows(error) && portal_.is_pierced() && rule_.allows(grazing_error)) {
+  if (rule_.forbids(error) && portal_.is_pierced() && rule_.allows(grazing_error)) {
     return {Kind::Found, Status::Converged, portal_.upper_bound(), grazing_error, length, nearest_normal_};
   }
   if (has_best_) {

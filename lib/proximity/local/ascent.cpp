@@ -113,7 +113,7 @@ Step Ascent::choose_step() {
   }
   error_ = estimate;
   if (!is_done && must_replace) take_top_of_cuts(step);
-  is_stuck_ = !rule_.allows(error_) && radius_ < kNoRadius;
+  is_stuck_ = rule_.forbids(error_) && radius_ < kNoRadius;
   if ((rule_.allows(error_) || is_stuck_) && !is_overlap_proved_) {
     is_overlap_proved_ = -current().s <= unsearched_depth_ && have_common_point();
     if (!is_overlap_proved_) ask_hull(false, step);

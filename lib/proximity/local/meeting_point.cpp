@@ -86,7 +86,7 @@ bool MeetingPoint::settle(const StoppingRule& rule, GapJet& jet) {
   const double rounding = kSameHeight * gap_.rounding();
   move_witnesses(rounding, jet);
   GapJet higher = jet;
-  while (!rule.allows(distance_across(higher)) && rule.may_evaluate() && climb(higher)) {
+  while (rule.forbids(distance_across(higher)) && rule.may_evaluate() && climb(higher)) {
     move_witnesses(rounding, higher);
   }
   if (rule.allows(higher.s - jet.s) && distance_across(higher) >= distance_across(jet)) return false;
