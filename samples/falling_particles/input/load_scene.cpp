@@ -208,8 +208,7 @@ void read_output(const TomlTable& root, Scene& scene) {
   if (!table) return;
   if (table->has("forces")) scene.forces = table->boolean("forces");
   if (!table->has("pictures")) return;
-  std::vector<std::string> names;
-  for (const std::string_view name : kPictureNames) names.emplace_back(name);
+  const std::vector<std::string> names(kPictureNames.begin(), kPictureNames.end());
   scene.pictures = table->choices("pictures", names);
 }
 
