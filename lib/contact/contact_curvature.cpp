@@ -35,9 +35,9 @@ Symmetric2 find_radii(const Shape& shape, const TangentPlane& plane) {
 
 Matrix3 find_curvature(const Shape& shape, const Pose& pose, const Vector3& n) {
   const Vector3 m = pose.rotation.transpose() * n;
-  const Matrix3 H = shape.has_hessian() ? shape.jet(m).H : Matrix3(Matrix3::Zero());
+  const Matrix3 H = shape.traits().has_hessian ? shape.jet(m).H : Matrix3(Matrix3::Zero());
   const TangentPlane plane = plane_along(m, H.diagonal());
-  const Eigen2 radii(shape.has_hessian() ? Symmetric2::project(plane, H) : find_radii(shape, plane));
+  const Eigen2 radii(shape.traits().has_hessian ? Symmetric2::project(plane, H) : find_radii(shape, plane));
   const double size = shape.half_extents().minCoeff();
   const auto curvature = [&](double radius) { return radius < kFlattest * size ? 1 / std::max(radius, kSharpest * size) : 0.0; };
   const Vector3 first = pose.rotation * plane.lift(radii.high_vector);

@@ -48,7 +48,7 @@ std::optional<Vector3> axis_of_revolution(const Shape& shape) {
 }
 
 BoundingBox box_of(const Shape& shape) {
-  if (!shape.is_symmetric()) return find_bounding_box(shape, {});
+  if (!shape.traits().is_symmetric) return find_bounding_box(shape, {});
   const Vector3 half = shape.half_extents();
   return {-half, half};
 }

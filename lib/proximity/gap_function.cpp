@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "shapes/finite.hpp"
-#include "supernormal/shapes/superellipsoid.hpp"
+#include "shapes/superellipsoid_batch.hpp"
 
 namespace supernormal {
 namespace {
@@ -27,11 +27,12 @@ double smallest_half_extent(const Vector3& half_extents1, const Vector3& half_ex
 GapFunction::GapFunction(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2)
     : shape1_(&shape1),
       shape2_(&shape2),
-      superellipsoid1_(shape1.as_superellipsoid()),
-      superellipsoid2_(shape2.as_superellipsoid()),
+      traits1_(shape1.traits()),
+      traits2_(shape2.traits()),
+      superellipsoid1_(as_superellipsoid(shape1)),
+      superellipsoid2_(as_superellipsoid(shape2)),
       offset_(pose1.rotation.transpose() * (pose2.position - pose1.position)),
-      rotation_(pose1.rotation.transpose() * pose2.rotation),
-      has_hessian_(shape1.has_hessian() && shape2.has_hessian()) {
+      rotation_(pose1.rotation.transpose() * pose2.rotation) {
   const Vector3 half1 = shape1.half_extents();
   const Vector3 half2 = shape2.half_extents();
   length_unit_ = smallest_half_extent(half1, half2);
@@ -44,7 +45,7 @@ void GapFunction::evaluate(const Vector3& n, Order order, GapJet& jet) {
   jet.n = n;
   jet.m.noalias() = -(rotation_.transpose() * n);
   if (superellipsoid1_ != nullptr && superellipsoid2_ != nullptr) {
-    Superellipsoid::evaluate_both({superellipsoid1_, &n, &jet.jet1}, {superellipsoid2_, &jet.m, &jet.jet2}, order);
+    SuperellipsoidBatch::evaluate<2>({{{superellipsoid1_, &n, &jet.jet1}, {superellipsoid2_, &jet.m, &jet.jet2}}}, order);
   } else {
     shape1_->evaluate(n, order, jet.jet1);
     shape2_->evaluate(jet.m, order, jet.jet2);

@@ -31,7 +31,7 @@ std::optional<ExpandingPolytope::SearchLimits> search_limits(const GapFunction& 
   // The estimate ignores vertices where the radius of curvature vanishes at a single normal. There a smooth partner adds a radius
   // of its own, but a body with faces does not.
   const double min_radii = gap.shape1().min_curvature_radius_estimate() + gap.shape2().min_curvature_radius_estimate();
-  if (!gap.shape2().has_kinks() && !may_have_other_maxima(min_radii, depth)) return std::nullopt;
+  if (!gap.traits2().has_nonsmooth_points && !may_have_other_maxima(min_radii, depth)) return std::nullopt;
   const int most = gap.evaluations() + kTuning.search_evaluations;
   if (follows) return Limits{kTuning.branch_gain, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
   return Limits{kTuning.search_width, most, tolerance, kTuning.near_best * depth};
@@ -94,11 +94,11 @@ Proximity climb_and_search(GapFunction& gap, const Settings& settings, const Sto
     const auto limits = search_limits(gap, settings, wanted, rule.tolerance(), -best.s);
     if (limits) out = search(gap, cuts, ascent, rule, *limits, settings.certify_depth, best, status);
   }
-  if (gap.shape1().has_kinks() && gap.shape2().has_kinks() && status != Status::InvalidInput) {
+  if (gap.traits1().has_nonsmooth_points && gap.traits2().has_nonsmooth_points && status != Status::InvalidInput) {
     meet(gap, rule, best, out);
   }
   place_contact(gap, rule, best, out);
-  if (gap.shape2().has_kinks() && status != Status::InvalidInput) {
+  if (gap.traits2().has_nonsmooth_points && status != Status::InvalidInput) {
     const Vector3 exact = ascent.best().n == best.n ? ascent.exact_normal() : VertexCache(gap).exact_normal(best);
     if ((exact - best.n).norm() <= kSameNormal) out.normal = exact;
   }
@@ -112,7 +112,7 @@ Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3
   CuttingPlanes cuts;
   // The first cut costs no evaluation: the distance from a centre of symmetry to every tangent plane is at least the radius of the
   // rolling ball.
-  if (gap.shape1().is_symmetric() && gap.shape2().is_symmetric()) cuts.set_centre(gap.offset());
+  if (gap.traits1().is_symmetric && gap.traits2().is_symmetric) cuts.set_centre(gap.offset());
   if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, rule, cuts, start, wanted);
   CertifiedNewton newton(gap, cuts, rule);
   const CertifiedNewton::End end = newton.run(start, wanted);

@@ -20,7 +20,7 @@ void check(const Settings& settings) {
 }
 
 Proximity solve(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
-  if (gap.shape2().has_kinks()) return solve_hybrid(gap, settings, start, wanted);
+  if (gap.traits2().has_nonsmooth_points) return solve_hybrid(gap, settings, start, wanted);
   switch (settings.solver) {
     case Solver::Newton:
       if (gap.has_hessian()) return solve_newton(gap, settings, start);
@@ -55,7 +55,7 @@ Proximity find_proximity(const Shape& shape1, const Pose& pose1, const Shape& sh
                          const Vector3* first_normal) {
   check(settings);
   if (!is_usable(pose1) || !is_usable(pose2)) return {};
-  if (shape1.has_kinks() && !shape2.has_kinks()) {
+  if (shape1.traits().has_nonsmooth_points && !shape2.traits().has_nonsmooth_points) {
     return find_with_bodies_swapped(shape1, pose1, shape2, pose2, settings, first_normal);
   }
   GapFunction gap(shape1, pose1, shape2, pose2);

@@ -8,7 +8,7 @@ BoundingBox find_bounding_box(const Shape& shape, const Pose& pose) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 direction = pose.rotation.row(axis).transpose();
     const double up = shape.support(direction);
-    const double down = shape.is_symmetric() ? up : shape.support(-direction);
+    const double down = shape.traits().is_symmetric ? up : shape.support(-direction);
     box.low[axis] = pose.position[axis] - down;
     box.high[axis] = pose.position[axis] + up;
   }

@@ -27,6 +27,13 @@ LinearImage::LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matr
   bounding_radius_ = Shape::bounding_radius();
 }
 
+ShapeTraits LinearImage::traits() const {
+  ShapeTraits traits = shape_->traits();
+  traits.is_round = false;
+  traits.has_axis_aligned_faces = false;
+  return traits;
+}
+
 void LinearImage::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const Vector3 covector = matrix_.transpose() * n;
   const double length = covector.norm();
@@ -34,7 +41,7 @@ void LinearImage::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.h *= length;
   if (order == Order::Value) return;
   jet.r = matrix_ * jet.r;
-  if (order == Order::Point || !has_hessian()) return;
+  if (order == Order::Point || !traits().has_hessian) return;
   const Matrix3 half = matrix_ * (jet.H / length);
   jet.H = half * matrix_.transpose();
   // The two triangles of the matrix differ by rounding.
@@ -42,7 +49,7 @@ void LinearImage::evaluate(const Vector3& n, Order order, Jet& jet) const {
 }
 
 Vector3 LinearImage::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
-  if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
+  if (!traits().has_flat_faces) return Shape::advance_normal(n, jet, dn);
   const Vector3 covector = matrix_.transpose() * n;
   const double length = covector.norm();
   Jet original;

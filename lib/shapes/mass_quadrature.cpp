@@ -216,11 +216,11 @@ MassProperties quadrature_mass_properties(const Shape& shape) {
   AffineView view(shape);
   balance(view);
 
-  Sums sums = integrate(view, shape.has_hessian(), kMinRule);
+  Sums sums = integrate(view, shape.traits().has_hessian, kMinRule);
   double last = std::numeric_limits<double>::infinity();
   double before_last = last;
   for (int rule = 2 * kMinRule; rule <= kMaxRule && last > kRefinementTolerance; rule *= 2) {
-    const Sums finer = integrate(view, shape.has_hessian(), rule);
+    const Sums finer = integrate(view, shape.traits().has_hessian, rule);
     if (!finer.is_finite()) throw std::domain_error("mass properties: the shape delivers values that are not finite");
     before_last = std::exchange(last, change(sums, finer));
     sums = finer;

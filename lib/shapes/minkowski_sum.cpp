@@ -35,6 +35,14 @@ MinkowskiSum::MinkowskiSum(std::shared_ptr<const Shape> first, std::shared_ptr<c
   if (!first_ || !second_) throw std::invalid_argument(std::string(first_ ? "second" : "first") + " is null; a shape is needed");
 }
 
+ShapeTraits MinkowskiSum::traits() const {
+  const ShapeTraits first = first_->traits(), second = second_->traits();
+  return {.has_hessian = first.has_hessian && second.has_hessian,
+          .is_symmetric = first.is_symmetric && second.is_symmetric,
+          .has_nonsmooth_points = first.has_nonsmooth_points || second.has_nonsmooth_points,
+          .has_flat_faces = first.has_flat_faces || second.has_flat_faces};
+}
+
 void MinkowskiSum::evaluate(const Vector3& n, Order order, Jet& jet) const {
   Jet other;
   first_->evaluate(n, order, jet);
@@ -42,20 +50,20 @@ void MinkowskiSum::evaluate(const Vector3& n, Order order, Jet& jet) const {
   jet.h += other.h;
   if (order == Order::Value) return;
   jet.r += other.r;
-  if (order == Order::Point || !has_hessian()) return;
+  if (order == Order::Point || !traits().has_hessian) return;
   jet.H += other.H;
 }
 
 // The flatter shape determines the normal at its moved point. The other shape's point follows the normal.
 Vector3 MinkowskiSum::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
-  if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
+  if (!traits().has_flat_faces) return Shape::advance_normal(n, jet, dn);
   const Jet jet1 = first_->jet(n);
   Jet jet2;
   jet2.h = jet.h - jet1.h;
   jet2.r = jet.r - jet1.r;
   jet2.H = jet.H - jet1.H;
   const bool first_moves_more = (jet1.H * dn).squaredNorm() >= (jet2.H * dn).squaredNorm();
-  const bool follow_first = first_->has_flat_faces() && (first_moves_more || !second_->has_flat_faces());
+  const bool follow_first = first_->traits().has_flat_faces && (first_moves_more || !second_->traits().has_flat_faces);
   if (follow_first) return first_->advance_normal(n, jet1, dn);
   return second_->advance_normal(n, second_->jet(n), dn);
 }
@@ -66,7 +74,7 @@ void MinkowskiSum::add_active_vertices(const Vector3& n, const Vector3& toward, 
   std::array<ActiveVertices, 2> parts;
   const std::array<const Shape*, 2> shapes = {first_.get(), second_.get()};
   for (std::size_t i = 0; i < 2; ++i) {
-    if (shapes[i]->has_kinks()) {
+    if (shapes[i]->traits().has_nonsmooth_points) {
       shapes[i]->add_active_vertices(n, toward - shapes[1 - i]->point(n), parts[i]);
     } else {
       parts[i].add(shapes[i]->point(n));

@@ -1,4 +1,4 @@
-#include "supernormal/shapes/power_norm.hpp"
+#include "shapes/power_norm.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,17 +12,23 @@ Rounded::Rounded(std::shared_ptr<const Shape> core, double radius) : core_(std::
   require_in("radius", radius, 0, kMaxLength, "m");
 }
 
+ShapeTraits Rounded::traits() const {
+  ShapeTraits traits = core_->traits();
+  traits.has_axis_aligned_faces = false;
+  return traits;
+}
+
 void Rounded::evaluate(const Vector3& n, Order order, Jet& jet) const {
   core_->evaluate(n, order, jet);
   jet.h += radius_;
   if (order == Order::Value) return;
   jet.r += radius_ * n;
-  if (order == Order::Point || !has_hessian()) return;
+  if (order == Order::Point || !traits().has_hessian) return;
   jet.H += radius_ * (Matrix3::Identity() - n * n.transpose());
 }
 
 Vector3 Rounded::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
-  if (!has_flat_faces()) return Shape::advance_normal(n, jet, dn);
+  if (!traits().has_flat_faces) return Shape::advance_normal(n, jet, dn);
   // The core's point moves by H_core dn, and the sphere's point by radius dn. The sphere's point follows any normal, so the core
   // decides.
   Jet core_jet;

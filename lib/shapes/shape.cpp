@@ -23,7 +23,7 @@ Vector3 Shape::half_extents() const {
 }
 
 double Shape::bounding_radius() const {
-  if (is_symmetric()) return half_extents().norm();
+  if (traits().is_symmetric) return half_extents().norm();
   Vector3 farthest;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 e = Vector3::Unit(axis);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/nested_norms.hpp"
 #include "shapes/sharp_section.hpp"
+#include "shapes/superellipsoid_batch.hpp"
 #include "shapes/validation.hpp"
 
 namespace supernormal {
@@ -11,6 +13,9 @@ namespace {
 
 // Below this exponent edges and vertices are so sharp that any overlap may have several local maxima.
 constexpr double kSharpExponent = 1.3;
+
+// With exponents up to this, the caps of a superellipsoid are wider than an ellipsoid's by at most 0.21 of the body's width.
+constexpr double kMostRound = 3;
 
 /// An estimate of the smallest radius of curvature of a superellipse with half-axes 1. For an exponent e > 2 it is 1/(e - 1) at the
 /// rounded corners, within a factor of 1.5. Below 2 the radius is 0 at the vertices, but larger around them.
@@ -59,97 +64,40 @@ double largest_radius(double a, double b, double exponent) {
   return larger * std::pow(1 + std::pow(ratio, power), 1 / power);
 }
 
-}  // namespace
-
-Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double epsilon)
-    : half_axes_(require_half_axes(half_axes)),
-      delta_(require_in("delta", delta, kMinExponent, kMaxExponent)),
-      epsilon_(require_in("epsilon", epsilon, kMinExponent, kMaxExponent)),
-      inner_support_(PowerNorm::dual_to_exponent(delta)),
-      outer_support_(PowerNorm::dual_to_exponent(epsilon)),
-      inner_gauge_(PowerNorm::of_exponent(delta)),
-      outer_gauge_(PowerNorm::of_exponent(epsilon)),
-      rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)),
-      bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)) {}
+ShapeTraits traits_of(double delta, double epsilon) {
+  return {.has_hessian = true,
+          .is_symmetric = true,
+          .is_round = std::min(delta, epsilon) >= 2 && std::max(delta, epsilon) <= kMostRound,
+          .has_flat_faces = delta > 2 || epsilon > 2,
+          .has_axis_aligned_faces = true};
+}
 
 // With equal exponents the two norms are one norm of three numbers. A sharp body does not use this, because its high powers p
 // amplify the rounding of the ratios.
-bool Superellipsoid::is_one_norm_at(const Vector3& n) const {
-  const Vector3 scaled = half_axes_.cwiseProduct(n).cwiseAbs();
-  return delta_ == epsilon_ && delta_ >= 2 && PowerNorm::is_plain(scaled.x(), scaled.y(), scaled.z());
+bool is_one_norm_at(const Superellipsoid& body, const Vector3& n) {
+  const Vector3 scaled = body.half_axes().cwiseProduct(n).cwiseAbs();
+  return body.delta() == body.epsilon() && body.delta() >= 2 && PowerNorm::is_plain(scaled.x(), scaled.y(), scaled.z());
 }
 
-template <std::size_t kCount>
-void Superellipsoid::evaluate_by_one_norm(const std::array<EvalRequest, kCount>& requests, Order order) {
-  std::array<PowerNorm3Request, kCount> norms;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const Superellipsoid& body = *requests[i].body;
-    const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
-    norms[i] = {&body.inner_support_, {scaled.x(), scaled.y(), scaled.z()}};
-  }
-  PowerNorm::evaluate_requests(norms, order);
-  for (std::size_t i = 0; i < kCount; ++i) requests[i].body->assemble(norms[i], *requests[i].n, order, *requests[i].jet);
-}
-
-void Superellipsoid::assemble(const PowerNorm3Request& norm, const Vector3& n, Order order, Jet& jet) const {
+void assemble(const PowerNorm3Request& norm, const Vector3& half_axes, const Vector3& n, Order order, Jet& jet) {
   jet.h = norm.value;
   if (order == Order::Value) return;
-  for (int i = 0; i < 3; ++i) jet.r[i] = std::copysign(half_axes_[i] * norm.slope[static_cast<std::size_t>(i)], n[i]);
+  for (int i = 0; i < 3; ++i) jet.r[i] = std::copysign(half_axes[i] * norm.slope[static_cast<std::size_t>(i)], n[i]);
   if (order == Order::Point) return;
   const double scale = -norm.norm->p_minus_1() / norm.value;
   for (int i = 0; i < 3; ++i) {
     const int next = (i + 1) % 3;
-    jet.H(i, i) = half_axes_[i] * half_axes_[i] * (norm.bend[static_cast<std::size_t>(i)] / norm.value);
+    jet.H(i, i) = half_axes[i] * half_axes[i] * (norm.bend[static_cast<std::size_t>(i)] / norm.value);
     jet.H(i, next) = jet.H(next, i) = scale * jet.r[i] * jet.r[next];
   }
 }
 
-// Evaluates first the inner norms of x and y, then the outer norms of the inner norm ("x") and z ("y").
-template <std::size_t kCount>
-void Superellipsoid::evaluate_by_two_norms(const std::array<EvalRequest, kCount>& requests, Order order) {
-  std::array<PowerNormRequest, kCount> inner, outer;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const Superellipsoid& body = *requests[i].body;
-    const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
-    inner[i] = {&body.inner_support_, scaled.x(), scaled.y(), {}};
-    outer[i] = {&body.outer_support_, 0, scaled.z(), {}};
-  }
-  PowerNorm::evaluate_requests(inner, order);
-  for (std::size_t i = 0; i < kCount; ++i) outer[i].x = inner[i].jet.value;
-  PowerNorm::evaluate_requests(outer, order);
-  for (std::size_t i = 0; i < kCount; ++i) {
-    requests[i].body->assemble(*requests[i].n, order, inner[i].jet, outer[i].jet, *requests[i].jet);
-  }
-}
-
-template <std::size_t kCount>
-void Superellipsoid::evaluate_requests(const std::array<EvalRequest, kCount>& requests, Order order) {
-  const auto is_one_norm = [](const EvalRequest& request) { return request.body->is_one_norm_at(*request.n); };
-  const auto one_norms = static_cast<std::size_t>(std::ranges::count_if(requests, is_one_norm));
-  if (one_norms == kCount) {
-    evaluate_by_one_norm(requests, order);
-  } else if (one_norms == 0) {
-    evaluate_by_two_norms(requests, order);
-  } else {  // the digits of a body must not depend on the other bodies
-    for (const EvalRequest& request : requests) evaluate_requests(std::array<EvalRequest, 1>{request}, order);
-  }
-}
-
-void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
-  evaluate_requests(std::array<EvalRequest, 1>{{{this, &n, &jet}}}, order);
-}
-
-void Superellipsoid::evaluate_both(const EvalRequest& request1, const EvalRequest& request2, Order order) {
-  evaluate_requests(std::array<EvalRequest, 2>{request1, request2}, order);
-}
-
-void Superellipsoid::evaluate_four(const std::array<EvalRequest, 4>& requests, Order order) { evaluate_requests(requests, order); }
-
-void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet& inner, const PowerNormJet& outer, Jet& jet) const {
+void assemble(const PowerNormJet& inner, const PowerNormJet& outer, const Vector3& half_axes, const Vector3& n, Order order,
+              Jet& jet) {
   jet.h = outer.value;
   if (order == Order::Value) return;
-  const Vector3 signed_axes(std::copysign(half_axes_.x(), n.x()), std::copysign(half_axes_.y(), n.y()),
-                            std::copysign(half_axes_.z(), n.z()));
+  const Vector3 signed_axes(std::copysign(half_axes.x(), n.x()), std::copysign(half_axes.y(), n.y()),
+                            std::copysign(half_axes.z(), n.z()));
   jet.r = signed_axes.cwiseProduct(Vector3(outer.dx * inner.dx, outer.dx * inner.dy, outer.dy));
   if (order == Order::Point) return;
 
@@ -170,6 +118,80 @@ void Superellipsoid::assemble(const Vector3& n, Order order, const PowerNormJet&
   H.array() *= (signed_axes * signed_axes.transpose()).array();
 }
 
+// With equal exponents the two norms are one norm of three numbers, and the direction of its gradient takes no root.
+Vector3 along_gauge_gradient(const PowerNorm& gauge, const Vector3& half_axes, const Vector3& gauge_point, const Vector3& signs) {
+  const double largest = gauge_point.maxCoeff();
+  Vector3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double ratio = gauge_point[axis] < largest ? gauge_point[axis] / largest : 1;
+    gradient[axis] = std::copysign(gauge.slope(ratio), signs[axis]);
+  }
+  return gradient.cwiseQuotient(half_axes);
+}
+
+}  // namespace
+
+Superellipsoid::Superellipsoid(const Vector3& half_axes, double delta, double epsilon)
+    : half_axes_(require_half_axes(half_axes)),
+      delta_(require_in("delta", delta, kMinExponent, kMaxExponent)),
+      epsilon_(require_in("epsilon", epsilon, kMinExponent, kMaxExponent)),
+      norms_(std::make_shared<const NestedNorms>(delta, epsilon)),
+      traits_(traits_of(delta, epsilon)),
+      rolling_radius_(rolling_radius_of(half_axes_, delta, epsilon)),
+      bounding_radius_(largest_radius(largest_radius(half_axes_.x(), half_axes_.y(), delta), half_axes_.z(), epsilon)) {}
+
+template <std::size_t kCount>
+void SuperellipsoidBatch::evaluate_by_one_norm(const std::array<Request, kCount>& requests, Order order) {
+  std::array<PowerNorm3Request, kCount> norms;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Superellipsoid& body = *requests[i].body;
+    const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
+    norms[i] = {&body.norms_->inner_support, {scaled.x(), scaled.y(), scaled.z()}};
+  }
+  PowerNorm::evaluate_requests(norms, order);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    assemble(norms[i], requests[i].body->half_axes_, *requests[i].n, order, *requests[i].jet);
+  }
+}
+
+// Evaluates first the inner norms of x and y, then the outer norms of the inner norm ("x") and z ("y").
+template <std::size_t kCount>
+void SuperellipsoidBatch::evaluate_by_two_norms(const std::array<Request, kCount>& requests, Order order) {
+  std::array<PowerNormRequest, kCount> inner, outer;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Superellipsoid& body = *requests[i].body;
+    const Vector3 scaled = body.half_axes_.cwiseProduct(*requests[i].n).cwiseAbs();
+    inner[i] = {&body.norms_->inner_support, scaled.x(), scaled.y(), {}};
+    outer[i] = {&body.norms_->outer_support, 0, scaled.z(), {}};
+  }
+  PowerNorm::evaluate_requests(inner, order);
+  for (std::size_t i = 0; i < kCount; ++i) outer[i].x = inner[i].jet.value;
+  PowerNorm::evaluate_requests(outer, order);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    assemble(inner[i].jet, outer[i].jet, requests[i].body->half_axes_, *requests[i].n, order, *requests[i].jet);
+  }
+}
+
+template <std::size_t kCount>
+void SuperellipsoidBatch::evaluate(const std::array<Request, kCount>& requests, Order order) {
+  const auto is_one_norm = [](const Request& request) { return is_one_norm_at(*request.body, *request.n); };
+  const auto one_norms = static_cast<std::size_t>(std::ranges::count_if(requests, is_one_norm));
+  if (one_norms == kCount) {
+    evaluate_by_one_norm(requests, order);
+  } else if (one_norms == 0) {
+    evaluate_by_two_norms(requests, order);
+  } else {  // the digits of a body must not depend on the other bodies
+    for (const Request& request : requests) evaluate(std::array<Request, 1>{request}, order);
+  }
+}
+
+template void SuperellipsoidBatch::evaluate(const std::array<Request, 2>& requests, Order order);
+template void SuperellipsoidBatch::evaluate(const std::array<Request, 4>& requests, Order order);
+
+void Superellipsoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
+  SuperellipsoidBatch::evaluate(std::array<SuperellipsoidBatch::Request, 1>{{{this, &n, &jet}}}, order);
+}
+
 Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
   // Each of the two norms moves separately. A flat norm (exponent above 2) moves through the boundary point. A sharp norm moves
   // through the normal, unless the section's normal rotates far.
@@ -180,17 +202,17 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
 
   const Vector3 target = jet.r + jet.H * dn;
   const Vector3 gauge_point = target.cwiseQuotient(half_axes_).cwiseAbs();
-  if (delta_ == epsilon_) return along_gauge_gradient(gauge_point, target);
+  if (delta_ == epsilon_) return along_gauge_gradient(norms_->inner_gauge, half_axes_, gauge_point, target);
   const Vector3 scaled = half_axes_.cwiseProduct(moved).cwiseAbs();
   PowerNormJet inner, outer;
-  inner_gauge_.gradient(gauge_point.x(), gauge_point.y(), inner);
+  norms_->inner_gauge.gradient(gauge_point.x(), gauge_point.y(), inner);
   Vector3 result;  // scaled by the half-axes, in the first octant
-  outer_gauge_.gradient(inner.value, gauge_point.z(), outer);
+  norms_->outer_gauge.gradient(inner.value, gauge_point.z(), outer);
   result.z() = outer.dy;
   if (!outer_is_flat) {
     // A flat inner norm only rotates the normal about the axis. Near the pole this moves the point less far. There the outer norm
     // moves through the point as well.
-    const double across = inner_support_.value(scaled.x(), scaled.y());
+    const double across = norms_->inner_support.value(scaled.x(), scaled.y());
     if (across * outer.dy >= outer.dx * scaled.z()) {
       outer.dx = across;
       result.z() = scaled.z();
@@ -201,7 +223,7 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
   if (goes_with_point) {
     result.head<2>() = outer.dx * Eigen::Vector2d(inner.dx, inner.dy);
   } else {
-    const double norm = inner_support_.value(scaled.x(), scaled.y());
+    const double norm = norms_->inner_support.value(scaled.x(), scaled.y());
     result.head<2>() = norm > 0 ? Eigen::Vector2d(scaled.head<2>() * (outer.dx / norm)) : Eigen::Vector2d(Eigen::Vector2d::Zero());
   }
   const Vector3& sign_xy = goes_with_point ? target : moved;
@@ -211,20 +233,9 @@ Vector3 Superellipsoid::advance_normal(const Vector3& n, const Jet& jet, const V
       .cwiseQuotient(half_axes_);
 }
 
-// With equal exponents the two norms are one norm of three numbers, and the direction of its gradient takes no root.
-Vector3 Superellipsoid::along_gauge_gradient(const Vector3& gauge_point, const Vector3& signs) const {
-  const double largest = gauge_point.maxCoeff();
-  Vector3 gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double ratio = gauge_point[axis] < largest ? gauge_point[axis] / largest : 1;
-    gradient[axis] = std::copysign(inner_gauge_.slope(ratio), signs[axis]);
-  }
-  return gradient.cwiseQuotient(half_axes_);
-}
-
 bool Superellipsoid::surely_contains(const Vector3& point) const {
   const Vector3 gauge_point = point.cwiseQuotient(half_axes_).cwiseAbs();
-  return outer_gauge_.value(inner_gauge_.value(gauge_point.x(), gauge_point.y()), gauge_point.z()) <= 1;
+  return norms_->outer_gauge.value(norms_->inner_gauge.value(gauge_point.x(), gauge_point.y()), gauge_point.z()) <= 1;
 }
 
 double Superellipsoid::min_curvature_radius_estimate() const {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shapes/nested_norms.hpp"
 #include "shapes/sharp_section.hpp"
 #include "shapes/superovoid_convexity.hpp"
 #include "shapes/validation.hpp"
@@ -161,10 +162,7 @@ Superovoid::Superovoid(const Vector3& half_axes, double delta, double epsilon, d
       taper_x_(taper_x),
       taper_y_(taper_y),
       knee_(std::exp2(-1 / epsilon)),
-      inner_support_(PowerNorm::dual_to_exponent(delta)),
-      outer_support_(PowerNorm::dual_to_exponent(epsilon)),
-      inner_gauge_(PowerNorm::of_exponent(delta)),
-      outer_gauge_(PowerNorm::of_exponent(epsilon)) {
+      norms_(std::make_shared<const NestedNorms>(delta, epsilon)) {
   require_convex_taper(delta, epsilon, taper_x, taper_y);
   half_extents_ = {support(Vector3::UnitX()), support(Vector3::UnitY()), half_axes_.z()};
   // Where the section is scaled by `narrowest`, the radius of curvature of its meridian is scaled by the square.
@@ -176,11 +174,13 @@ double Superovoid::max_taper(double epsilon) {
   return largest_convex_taper(require_in("epsilon", epsilon, kMinExponent, kMaxExponent));
 }
 
+ShapeTraits Superovoid::traits() const { return {.has_hessian = true, .has_flat_faces = delta_ > 2 || epsilon_ > 2}; }
+
 void Superovoid::evaluate(const Vector3& n, Order order, Jet& jet) const {
   const double up = std::copysign(1.0, n.z());  // upside down, the body has the opposite tapers
   const double rise = half_axes_.z() * std::abs(n.z());
-  Width width(half_axes_, up * taper_x_, up * taper_y_, inner_support_, n);
-  const Summit m = SummitSearch(outer_support_, width, rise, knee_).find();
+  Width width(half_axes_, up * taper_x_, up * taper_y_, norms_->inner_support, n);
+  const Summit m = SummitSearch(norms_->outer_support, width, rise, knee_).find();
   jet.h = m.w * width.value + rise * m.s;
   if (order == Order::Value) return;
 
@@ -213,8 +213,8 @@ bool Superovoid::surely_contains(const Vector3& point) const {
   const Vector3 gauge_point = point.cwiseQuotient(half_axes_).cwiseAbs();
   if (!(gauge_point.z() <= 1)) return false;  // between the ends the section is positive
   const double s = point.z() / half_axes_.z();
-  const double width = inner_gauge_.value(gauge_point.x() / (1 + taper_x_ * s), gauge_point.y() / (1 + taper_y_ * s));
-  return outer_gauge_.value(width, gauge_point.z()) <= 1;
+  const double width = norms_->inner_gauge.value(gauge_point.x() / (1 + taper_x_ * s), gauge_point.y() / (1 + taper_y_ * s));
+  return norms_->outer_gauge.value(width, gauge_point.z()) <= 1;
 }
 
 Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const {
@@ -231,19 +231,19 @@ Vector3 Superovoid::advance_normal(const Vector3& n, const Jet& jet, const Vecto
   const double s = std::clamp(gauge_point.z(), -1.0, 1.0);
   const double X = 1 + taper_x_ * s, Y = 1 + taper_y_ * s;
   PowerNormJet section, meridian;
-  inner_gauge_.gradient(std::abs(gauge_point.x()) / X, std::abs(gauge_point.y()) / Y, section);
+  norms_->inner_gauge.gradient(std::abs(gauge_point.x()) / X, std::abs(gauge_point.y()) / Y, section);
 
   // The normal's components in the section, scaled to a dual norm of 1, and their signs.
   const Eigen::Vector2d axes(X * half_axes_.x(), Y * half_axes_.y());
   const Eigen::Vector2d scaled = axes.cwiseProduct(moved.head<2>());
-  const double width = inner_support_.value(std::abs(scaled.x()), std::abs(scaled.y()));
+  const double width = norms_->inner_support.value(std::abs(scaled.x()), std::abs(scaled.y()));
   const bool goes_with_point = inner_is_flat || rotates_far(axes.cwiseProduct(n.head<2>()), scaled);
   Eigen::Vector2d across(section.dx, section.dy);
   if (!goes_with_point) across = width > 0 ? Eigen::Vector2d(scaled.cwiseAbs() / width) : Eigen::Vector2d(Eigen::Vector2d::Zero());
   const Vector3& sign = goes_with_point ? target : moved;
   const Vector3 direction(std::copysign(across.x(), sign.x()) / axes.x(), std::copysign(across.y(), sign.y()) / axes.y(), 0);
 
-  outer_gauge_.gradient(section.value, std::abs(gauge_point.z()), meridian);
+  norms_->outer_gauge.gradient(section.value, std::abs(gauge_point.z()), meridian);
   // As a point moves up, the section grows, and the point's place relative to the section comes nearer to its middle.
   const double growth = section.value > 0 ? (section.dx * std::abs(gauge_point.x()) * taper_x_ / (X * X) +
                                              section.dy * std::abs(gauge_point.y()) * taper_y_ / (Y * Y))

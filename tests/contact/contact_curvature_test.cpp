@@ -17,7 +17,6 @@ class Reticent : public Shape {
  public:
   explicit Reticent(const Vector3& half_axes) : body_(half_axes) {}
   void evaluate(const Vector3& n, Order /*order*/, Jet& jet) const override { body_.evaluate(n, Order::Point, jet); }
-  bool has_hessian() const override { return false; }
 
  private:
   Ellipsoid body_;

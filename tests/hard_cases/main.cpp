@@ -61,8 +61,8 @@ const char* name_of(Status status) {
 /// Newton and fixed point are for smooth bodies; the library solves all other cases with the hybrid.
 bool is_answered(const HardCase& one, Solver solver) {
   if (solver == Solver::Hybrid) return true;
-  if (one.shape1->has_kinks() || one.shape2->has_kinks()) return false;
-  return solver == Solver::FixedPoint || (one.shape1->has_hessian() && one.shape2->has_hessian());
+  if (one.shape1->traits().has_nonsmooth_points || one.shape2->traits().has_nonsmooth_points) return false;
+  return solver == Solver::FixedPoint || (one.shape1->traits().has_hessian && one.shape2->traits().has_hessian);
 }
 
 Verdict judge(const HardCase& one, const Settings& settings, const Proximity& answer, const Reference& reference) {

@@ -40,7 +40,7 @@ Settings with(Solver solver) {
 class NotANumber final : public Shape {
  public:
   void evaluate(const Vector3&, Order, Jet& jet) const override { jet = {kNan, Vector3::Constant(kNan), Matrix3::Constant(kNan)}; }
-  bool has_hessian() const override { return true; }
+  ShapeTraits traits() const override { return {.has_hessian = true}; }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 };
 
@@ -51,7 +51,7 @@ class KnownBelow final : public Shape {
   void evaluate(const Vector3& n, Order order, Jet& jet) const override {
     (n.z() > limit_ ? static_cast<const Shape&>(nothing_) : ball_).evaluate(n, order, jet);
   }
-  bool has_hessian() const override { return true; }
+  ShapeTraits traits() const override { return {.has_hessian = true}; }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 
  private:

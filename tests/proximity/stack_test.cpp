@@ -20,8 +20,7 @@ class Reticent : public Shape {
   explicit Reticent(const Vector3& half_lengths) : box_(half_lengths) {}
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override { box_.evaluate(n, order, jet); }
-  bool has_hessian() const override { return true; }
-  bool has_kinks() const override { return true; }
+  ShapeTraits traits() const override { return {.has_hessian = true, .has_nonsmooth_points = true}; }
   Vector3 half_extents() const override { return box_.half_extents(); }
 
  private:

@@ -73,7 +73,6 @@ class WithoutHessian final : public Shape {
  public:
   explicit WithoutHessian(const Shape& shape) : shape_(shape) {}
   void evaluate(const Vector3& n, Order order, Jet& jet) const override { shape_.evaluate(n, std::min(order, Order::Point), jet); }
-  bool has_hessian() const override { return false; }
   Vector3 half_extents() const override { return shape_.half_extents(); }
 
  private:

@@ -57,8 +57,8 @@ TEST_CASE("advance_normal is n + dn exactly where there are no flat faces") {
   const Vector3 n = Vector3(1, 2, 3).normalized(), dn(0.3, -0.2, 0.1);
   const Ellipsoid ellipsoid(Vector3(3, 2, 1));
   const Superellipsoid sharp(Vector3(3, 2, 1), 1.3, 2);
-  CHECK_FALSE(ellipsoid.has_flat_faces());
-  CHECK_FALSE(sharp.has_flat_faces());
+  CHECK_FALSE(ellipsoid.traits().has_flat_faces);
+  CHECK_FALSE(sharp.traits().has_flat_faces);
   CHECK(ellipsoid.advance_normal(n, ellipsoid.jet(n), dn) == n + dn);
   CHECK(sharp.advance_normal(n, sharp.jet(n), dn) == n + dn);
 }

@@ -42,9 +42,9 @@ void check_contains(const std::string& message, const std::string& part) {
 
 TEST_CASE("callbacks are passed on unchanged") {
   const CallbackShape with(kGoodSupport, kGoodPoint, kGoodHessian), without(kGoodSupport, kGoodPoint);
-  CHECK(with.has_hessian());
-  CHECK_FALSE(without.has_hessian());
-  CHECK_FALSE(with.has_flat_faces());
+  CHECK(with.traits().has_hessian);
+  CHECK_FALSE(without.traits().has_hessian);
+  CHECK_FALSE(with.traits().has_flat_faces);
   CHECK(with.half_extents() == Vector3(3, 2, 1));
   for (const Vector3& n : random_normals(20, 41)) {
     const Jet expected = kReference.jet(n), jet = with.jet(n);

@@ -63,7 +63,7 @@ TEST_CASE("linear image: superellipsoids scale with their half-axes") {
     std::vector<Vector3> normals = random_normals(100, 52);
     std::erase_if(normals, [](const Vector3& n) { return n.cwiseAbs().minCoeff() < 0.05; });
     check_same(image, expected, normals, 2e-14);
-    CHECK(image.has_flat_faces() == expected.has_flat_faces());
+    CHECK(image.traits().has_flat_faces == expected.traits().has_flat_faces);
     for (const Vector3& n : normals) {
       const Vector3 dn = 0.01 * tangents(n)[0];
       const Vector3 advanced = image.advance_normal(n, image.jet(n), dn).normalized();
@@ -105,7 +105,7 @@ TEST_CASE("linear image: of a box a parallelepiped, with its corners, faces, mas
     }
   }
   const Polytope polytope(points);
-  CHECK(image.has_kinks());
+  CHECK(image.traits().has_nonsmooth_points);
   CHECK((image.half_extents() - polytope.half_extents()).norm() <= 1e-15 * 3);
   const MassProperties a = image.mass_properties(), b = polytope.mass_properties();
   CHECK(a.volume == relative(b.volume).epsilon(1e-14));

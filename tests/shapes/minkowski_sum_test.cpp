@@ -54,9 +54,9 @@ TEST_CASE("Minkowski sum: support function, point and Hessian are sums") {
     CHECK(jet.H == a.H + b.H);
   }
   CHECK(sum.half_extents() == Vector3(3.5, 3, 3));
-  CHECK(sum.has_flat_faces());
-  CHECK_FALSE(sum.has_kinks());
-  CHECK(sum.has_hessian());
+  CHECK(sum.traits().has_flat_faces);
+  CHECK_FALSE(sum.traits().has_nonsmooth_points);
+  CHECK(sum.traits().has_hessian);
 }
 
 TEST_CASE("Minkowski sum: with a sphere it is the rounded shape, with a point the shape moved") {
@@ -65,7 +65,7 @@ TEST_CASE("Minkowski sum: with a sphere it is the rounded shape, with a point th
   const Rounded rounded(core, 0.5);
   const Vector3 point(1, -2, 3);
   const MinkowskiSum moved(core, std::make_shared<Polytope>(std::span(&point, 1)));
-  CHECK_FALSE(moved.has_kinks());
+  CHECK_FALSE(moved.traits().has_nonsmooth_points);
   for (const Vector3& n : random_normals(50, 43)) {
     const Jet a = sum.jet(n), b = rounded.jet(n);
     CHECK(a.h == b.h);
@@ -137,7 +137,7 @@ TEST_CASE("Minkowski sum: a part without a Hessian leaves it without; a missing 
   const auto sphere = std::make_shared<Sphere>(1);
   const auto callback = std::make_shared<CallbackShape>([&](const Vector3&) { return 1.0; }, [&](const Vector3& n) { return n; });
   const MinkowskiSum sum(sphere, callback);
-  CHECK_FALSE(sum.has_hessian());
+  CHECK_FALSE(sum.traits().has_hessian);
   CHECK(sum.mass_properties().volume == relative(Sphere(2).mass_properties().volume).epsilon(1e-10));
   CHECK_THROWS_WITH_AS(MinkowskiSum(nullptr, sphere), "first is null; a shape is needed", std::invalid_argument);
   CHECK_THROWS_WITH_AS(MinkowskiSum(sphere, nullptr), "second is null; a shape is needed", std::invalid_argument);

@@ -28,7 +28,7 @@ TEST_CASE("rounding adds to the distance, the point and the radii of curvature")
       }
     }
     CHECK(rounded.half_extents() == shape.half_extents() + Vector3::Constant(radius));
-    CHECK(rounded.has_flat_faces() == shape.has_flat_faces());
+    CHECK(rounded.traits().has_flat_faces == shape.traits().has_flat_faces);
   }
 }
 
@@ -64,8 +64,8 @@ TEST_CASE("rounding a shape without a Hessian leaves it without") {
   const auto core = std::make_shared<CallbackShape>([&](const Vector3& n) { return ellipsoid.support(n); },
                                                     [&](const Vector3& n) { return ellipsoid.point(n); });
   const Rounded rounded(core, 0.5);
-  CHECK_FALSE(rounded.has_hessian());
-  CHECK(Rounded(std::make_shared<Ellipsoid>(ellipsoid), 0.5).has_hessian());
+  CHECK_FALSE(rounded.traits().has_hessian);
+  CHECK(Rounded(std::make_shared<Ellipsoid>(ellipsoid), 0.5).traits().has_hessian);
   const Vector3 n = Vector3(1, 2, 3).normalized();
   Jet jet;
   rounded.evaluate(n, Order::Hessian, jet);

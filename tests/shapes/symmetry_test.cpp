@@ -33,7 +33,7 @@ bool has_equal_sides(const Shape& shape, const std::vector<Vector3>& normals) {
 TEST_CASE("superellipsoids are symmetric about the origin") {
   const std::vector<Vector3> normals = all_normals(300, 1);
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
-    CHECK(shape.is_symmetric());
+    CHECK(shape.traits().is_symmetric);
     if (!has_equal_sides(shape, normals)) FAIL_CHECK(text(shape));
   }
 }
@@ -67,11 +67,11 @@ TEST_CASE("a shape is symmetric about the origin if it says so; others are not")
   };
   const std::vector<Vector3> normals = all_normals(300, 1);
   for (const auto& shape : symmetric) {
-    CHECK(shape->is_symmetric());
+    CHECK(shape->traits().is_symmetric);
     CHECK(has_equal_sides(*shape, normals));
   }
   for (const auto& shape : others) {
-    CHECK(!shape->is_symmetric());
+    CHECK(!shape->traits().is_symmetric);
     CHECK(!has_equal_sides(*shape, normals));
   }
 }

@@ -45,7 +45,7 @@ class Liar : public Shape {
     ball_.evaluate(n, order, jet);
     lie_(n, jet);
   }
-  bool has_hessian() const override { return true; }
+  ShapeTraits traits() const override { return {.has_hessian = true}; }
   Vector3 half_extents() const override { return Vector3::Ones(); }
 
  private:

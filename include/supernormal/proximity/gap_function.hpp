@@ -6,6 +6,8 @@
 
 namespace supernormal {
 
+class Superellipsoid;
+
 /// s and its derivatives at one normal, in body 1's frame.
 struct SUPERNORMAL_API GapJet {
   Vector3 n = Vector3::UnitX();   ///< the unit normal of the evaluation
@@ -33,9 +35,11 @@ class SUPERNORMAL_API GapFunction {
   /// H1 + H2, the negative Hessian of s, m. `jet` must have been evaluated with Order::Hessian.
   Matrix3 curvature(const GapJet& jet) const { return jet.jet1.H + rotation_ * jet.jet2.H * rotation_.transpose(); }
 
-  int evaluations() const { return evaluations_; }  ///< how often evaluate() was called
-  const Shape& shape1() const { return *shape1_; }  ///< body 1
-  const Shape& shape2() const { return *shape2_; }  ///< body 2
+  int evaluations() const { return evaluations_; }         ///< how often evaluate() was called
+  const Shape& shape1() const { return *shape1_; }         ///< body 1
+  const Shape& shape2() const { return *shape2_; }         ///< body 2
+  const ShapeTraits& traits1() const { return traits1_; }  ///< of body 1
+  const ShapeTraits& traits2() const { return traits2_; }  ///< of body 2
 
   /// Centre 2 - centre 1, m, in body 1's frame.
   const Vector3& offset() const { return offset_; }
@@ -52,19 +56,21 @@ class SUPERNORMAL_API GapFunction {
   /// m; the unavoidable rounding error of s.
   double rounding() const { return rounding_; }
 
-  bool has_hessian() const { return has_hessian_; }  ///< whether both shapes deliver Order::Hessian
-  bool is_finite() const;                            ///< whether the poses and the sizes of the shapes are finite
+  /// Whether both shapes deliver Order::Hessian.
+  bool has_hessian() const { return traits1_.has_hessian && traits2_.has_hessian; }
+
+  bool is_finite() const;  ///< whether the poses and the sizes of the shapes are finite
 
  private:
   const Shape* shape1_;
   const Shape* shape2_;
+  ShapeTraits traits1_, traits2_;
   const Superellipsoid* superellipsoid1_;  // null if body 1 is of another class
   const Superellipsoid* superellipsoid2_;
   Vector3 offset_;
   Matrix3 rotation_;
   double length_unit_;
   double rounding_;
-  bool has_hessian_;
   int evaluations_ = 0;
 };
 

@@ -12,10 +12,8 @@ class SUPERNORMAL_API Box final : public Shape {
   explicit Box(const Vector3& half_lengths);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return true; }
-  bool has_kinks() const override { return true; }
+  ShapeTraits traits() const override { return {.has_hessian = true, .is_symmetric = true, .has_nonsmooth_points = true}; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
-  bool is_symmetric() const override { return true; }
   bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return half_lengths_; }
   double min_curvature_radius_estimate() const override;

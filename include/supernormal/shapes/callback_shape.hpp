@@ -28,7 +28,7 @@ class SUPERNORMAL_API CallbackShape final : public Shape {
 
   /// Without a Hessian, Order::Hessian delivers h and r and leaves H unchanged.
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return static_cast<bool>(hessian_); }
+  ShapeTraits traits() const override { return {.has_hessian = static_cast<bool>(hessian_)}; }
   Vector3 half_extents() const override { return half_extents_; }
   double bounding_radius() const override { return bounding_radius_; }
 

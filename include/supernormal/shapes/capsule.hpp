@@ -13,10 +13,10 @@ class SUPERNORMAL_API Capsule final : public Shape {
   Capsule(double radius, double half_length);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return true; }
-  bool has_kinks() const override { return half_length_ > 0; }
+  ShapeTraits traits() const override {
+    return {.has_hessian = true, .is_symmetric = true, .has_nonsmooth_points = half_length_ > 0};
+  }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
-  bool is_symmetric() const override { return true; }
   bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_ + radius_}; }
   double bounding_radius() const override { return half_extents().maxCoeff(); }

@@ -13,11 +13,9 @@ class SUPERNORMAL_API Cylinder final : public Shape {
   Cylinder(double radius, double half_length);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return true; }
-  bool has_kinks() const override { return true; }
+  ShapeTraits traits() const override { return {.has_hessian = true, .is_symmetric = true, .has_nonsmooth_points = true}; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
-  bool is_symmetric() const override { return true; }
   bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return {radius_, radius_, half_length_}; }
   double min_curvature_radius_estimate() const override;

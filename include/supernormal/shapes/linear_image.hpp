@@ -16,13 +16,10 @@ class SUPERNORMAL_API LinearImage final : public Shape {
   LinearImage(std::shared_ptr<const Shape> shape, const Matrix3& matrix);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return shape_->has_hessian(); }
+  ShapeTraits traits() const override;
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
-  bool has_flat_faces() const override { return shape_->has_flat_faces(); }
-  bool has_kinks() const override { return shape_->has_kinks(); }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
-  bool is_symmetric() const override { return shape_->is_symmetric(); }
   Vector3 half_extents() const override { return half_extents_; }
   double bounding_radius() const override { return bounding_radius_; }
   double min_curvature_radius_estimate() const override;

@@ -17,13 +17,10 @@ class SUPERNORMAL_API MinkowskiSum final : public Shape {
   MinkowskiSum(std::shared_ptr<const Shape> first, std::shared_ptr<const Shape> second);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return first_->has_hessian() && second_->has_hessian(); }
+  ShapeTraits traits() const override;
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
-  bool has_flat_faces() const override { return first_->has_flat_faces() || second_->has_flat_faces(); }
-  bool has_kinks() const override { return first_->has_kinks() || second_->has_kinks(); }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
-  bool is_symmetric() const override { return first_->is_symmetric() && second_->is_symmetric(); }
   Vector3 half_extents() const override { return first_->half_extents() + second_->half_extents(); }
   double min_curvature_radius_estimate() const override;
   double bounding_radius() const override { return first_->bounding_radius() + second_->bounding_radius(); }

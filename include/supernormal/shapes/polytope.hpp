@@ -16,8 +16,7 @@ class SUPERNORMAL_API Polytope final : public Shape {
   explicit Polytope(std::span<const Vector3> points);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return true; }
-  bool has_kinks() const override { return points_.size() > 1; }
+  ShapeTraits traits() const override { return {.has_hessian = true, .has_nonsmooth_points = points_.size() > 1}; }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   Vector3 half_extents() const override { return half_extents_; }
   double bounding_radius() const override { return bounding_radius_; }

@@ -14,14 +14,10 @@ class SUPERNORMAL_API Rounded final : public Shape {
   Rounded(std::shared_ptr<const Shape> core, double radius);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return core_->has_hessian(); }
+  ShapeTraits traits() const override;
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
-  bool has_flat_faces() const override { return core_->has_flat_faces(); }
-  bool has_kinks() const override { return core_->has_kinks(); }
   void add_active_vertices(const Vector3& n, const Vector3& toward, ActiveVertices& vertices) const override;
   bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const override;
-  bool is_round() const override { return core_->is_round(); }
-  bool is_symmetric() const override { return core_->is_symmetric(); }
   bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override;
   double min_curvature_radius_estimate() const override;

@@ -61,10 +61,33 @@ class ActiveVertices {
   bool is_partial_ = false;
 };
 
-class Superellipsoid;
+/// What is known of a body besides its support function. The defaults hold for every convex body. Each trait saves evaluations, or
+/// lets a query answer more.
+struct ShapeTraits {
+  /// Shape::evaluate() delivers H for Order::Hessian. Queries then take fewer evaluations. Otherwise they estimate the radii of
+  /// curvature from boundary points, and mass_properties() uses differences of boundary points.
+  bool has_hessian = false;
 
-/// A convex body in its normal parameterization (Roemer; lib/shapes/README.md). The functions of a shape are pure: any number of
-/// threads may call them at once.
+  /// The body is point-symmetric about the origin of its frame: h(-n) = h(n), digit by digit.
+  bool is_symmetric = false;
+
+  /// No cap of the body is much wider than an ellipsoid's. Such a body never rests on more than one point (contact_manifold.hpp).
+  bool is_round = false;
+
+  /// The body has flat faces or straight edges in the strict sense. Its support function then has nonsmooth points: all points of a
+  /// face share one normal. There evaluate() delivers one of these points, and H without the jump. Override
+  /// Shape::add_active_vertices(), too.
+  bool has_nonsmooth_points = false;
+
+  /// The body is smooth, but flat somewhere: the radius of curvature is infinite there. Override Shape::advance_normal(), too.
+  bool has_flat_faces = false;
+
+  /// Every flat face is across an axis of the body's frame.
+  bool has_axis_aligned_faces = false;
+};
+
+/// A convex body in its normal parameterization (Roemer; lib/shapes/README.md). A class of your own needs evaluate() alone. The
+/// functions of a shape are pure: any number of threads may call them at once.
 class SUPERNORMAL_API Shape {
  public:
   Shape() = default;
@@ -75,32 +98,17 @@ class SUPERNORMAL_API Shape {
   virtual ~Shape() = default;
 
   /// Evaluates the support function for the unit normal n, up to `order`. Members of a higher order stay unchanged. It must deliver
-  /// h and r. A shape that also delivers H returns true from has_hessian(). On a flat face the radius of curvature is infinite, and
-  /// H holds a large finite number.
+  /// h and r. A shape that also delivers H says so in traits(). On a flat face the radius of curvature is infinite, and H holds a
+  /// large finite number.
   virtual void evaluate(const Vector3& n, Order order, Jet& jet) const = 0;
 
-  /// This object if it is a superellipsoid, null otherwise. Two superellipsoids are evaluated together.
-  virtual const Superellipsoid* as_superellipsoid() const { return nullptr; }
+  /// What else is known of the body.
+  virtual ShapeTraits traits() const { return {}; }
 
-  /// Whether evaluate() delivers H for Order::Hessian. Override it in this case, because queries then take fewer evaluations.
-  /// Otherwise solvers estimate the radii of curvature from boundary points, and mass_properties() uses differences of boundary
-  /// points.
-  virtual bool has_hessian() const { return false; }
-
-  /// The normal to move to if the boundary point is to move from jet.r by H dn. To first order it is n + dn. Shapes with flat faces
-  /// override it, because there the normal is a smooth function of the boundary point, but not the other way round. `jet` belongs
-  /// to the unit normal n and has been evaluated with Order::Hessian. The result need not have unit length.
+  /// The normal to move to if the boundary point is to move from jet.r by H dn. To first order it is n + dn. Shapes with the trait
+  /// has_flat_faces override it, because there the normal is a smooth function of the boundary point, but not the other way round.
+  /// `jet` belongs to the unit normal n and has been evaluated with Order::Hessian. The result need not have unit length.
   virtual Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const;
-
-  /// Whether advance_normal() differs from n + dn.
-  virtual bool has_flat_faces() const { return false; }
-
-  /// Whether every flat face is across an axis of the body's frame. False if this is not known.
-  virtual bool has_axis_aligned_faces() const { return false; }
-
-  /// Whether the body has flat faces or straight edges in the strict sense. Its support function then has nonsmooth points: all
-  /// points of a face share one normal. There evaluate() delivers one of these points, and H without the jump.
-  virtual bool has_kinks() const { return false; }
 
   /// For a body with nonsmooth points: adds at most ActiveVertices::kCapacity active vertices. They are boundary points of n, or
   /// the first points to become boundary points as the normal rotates. Each bounds the support function: h(m) >= m.vertex for every
@@ -111,13 +119,6 @@ class SUPERNORMAL_API Shape {
   /// Whether the arc between two normals passes the normal of a curved face, such as the cap of a cylinder, which active vertices
   /// do not announce. `face` is then set to this normal.
   virtual bool crosses_curved_face(const Vector3& from, const Vector3& to, Vector3& face) const;
-
-  /// Whether no cap of the body is much wider than an ellipsoid's. Such a body never rests on more than one point
-  /// (contact_manifold.hpp). False if this is not known.
-  virtual bool is_round() const { return false; }
-
-  /// Whether the body is point-symmetric about the origin of its frame: h(-n) = h(n), digit by digit. False if this is not known.
-  virtual bool is_symmetric() const { return false; }
 
   /// Whether the body surely contains the point (body's frame, m), to rounding. Bodies with a known equation decide this. False if
   /// it would need a search.

@@ -12,9 +12,7 @@ class SUPERNORMAL_API Sphere final : public Shape {
   explicit Sphere(double radius);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return true; }
-  bool is_round() const override { return true; }
-  bool is_symmetric() const override { return true; }
+  ShapeTraits traits() const override { return {.has_hessian = true, .is_symmetric = true, .is_round = true}; }
   bool surely_contains(const Vector3& point) const override;
   Vector3 half_extents() const override { return Vector3::Constant(radius_); }
   double bounding_radius() const override { return half_extents().maxCoeff(); }

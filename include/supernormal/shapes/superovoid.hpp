@@ -1,10 +1,13 @@
 // Superovoid: a superellipsoid whose section grows or shrinks linearly along z (eggs, teeth, truncated pyramids).
 #pragma once
 
-#include "supernormal/shapes/power_norm.hpp"
+#include <memory>
+
 #include "supernormal/shapes/shape.hpp"
 
 namespace supernormal {
+
+struct NestedNorms;
 
 /// With X = 1 + taper_x z/c and Y = 1 + taper_y z/c, in the body's frame:
 ///     (|x/(a X)|^delta + |y/(b Y)|^delta)^(epsilon/delta) + |z/c|^epsilon = 1.
@@ -37,12 +40,11 @@ class SUPERNORMAL_API Superovoid final : public Shape {
   static double max_taper(double epsilon);
 
   void evaluate(const Vector3& n, Order order, Jet& jet) const override;
-  bool has_hessian() const override { return true; }
+  ShapeTraits traits() const override;
 
   /// Where the body is flat, the normal at the moved boundary point, the gradient of the implicit function, as for the
   /// Superellipsoid.
   Vector3 advance_normal(const Vector3& n, const Jet& jet, const Vector3& dn) const override;
-  bool has_flat_faces() const override { return delta_ > 2 || epsilon_ > 2; }
 
   bool surely_contains(const Vector3& point) const override;
 
@@ -65,9 +67,8 @@ class SUPERNORMAL_API Superovoid final : public Shape {
   Vector3 half_axes_;
   double delta_, epsilon_;
   double taper_x_, taper_y_;
-  double knee_;                              // 2^(-1/epsilon): |z/c| where the meridian has the slope of its diagonal
-  PowerNorm inner_support_, outer_support_;  // the dual norms of the section and of the meridian: exponents p and q
-  PowerNorm inner_gauge_, outer_gauge_;      // norms of (x/(a X), y/(b Y)) and of (inner, z/c): exponents delta and epsilon
+  double knee_;  // 2^(-1/epsilon): |z/c| where the meridian has the slope of its diagonal
+  std::shared_ptr<const NestedNorms> norms_;
   Vector3 half_extents_;
   double min_curvature_radius_;  // m
 };

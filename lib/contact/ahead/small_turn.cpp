@@ -32,7 +32,7 @@ Vector3 nearest_place(const ContactManifold& manifold, const Vector3& point) {
 
 /// The centre of the body's box, m.
 Vector3 middle_of(const BodyAhead& body) {
-  if (body.shape.is_symmetric()) return body.pose.position;
+  if (body.shape.traits().is_symmetric) return body.pose.position;
   return body.pose.position + body.pose.rotation * BodyBox::of(body.shape).centre;
 }
 

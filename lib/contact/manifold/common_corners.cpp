@@ -75,7 +75,7 @@ CornerList corners_of(const ConvexPolygon& region, const Side& side1, const Side
 
 }  // namespace
 
-bool may_have_corners(const Shape& shape) { return !shape.is_round() && shape.half_extents().minCoeff() >= kMinLength; }
+bool may_have_corners(const Shape& shape) { return !shape.traits().is_round && shape.half_extents().minCoeff() >= kMinLength; }
 
 std::optional<CornerList> find_common_corners(const SupportPolygon& polygon1, const SupportPolygon& polygon2, const Vector3& normal,
                                               const Vector3& origin) {

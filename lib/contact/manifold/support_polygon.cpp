@@ -5,7 +5,7 @@
 
 #include "contact/manifold/unit_root.hpp"
 #include "proximity/tangent_plane.hpp"
-#include "supernormal/shapes/superellipsoid.hpp"
+#include "shapes/superellipsoid_batch.hpp"
 
 namespace supernormal {
 namespace {
@@ -212,10 +212,10 @@ class SupportPolygon::Tilts {
       normals[k] = tilted({tilts[k][0] * largest_[0], tilts[k][1] * largest_[1]}).normalized();
     }
     std::array<Jet, 4> jets;
-    if (const Superellipsoid* const body = shape_->as_superellipsoid()) {
-      std::array<Superellipsoid::EvalRequest, 4> requests;
+    if (const Superellipsoid* const body = as_superellipsoid(*shape_)) {
+      std::array<SuperellipsoidBatch::Request, 4> requests;
       for (std::size_t k = 0; k < 4; ++k) requests[k] = {body, &normals[k], &jets[k]};
-      Superellipsoid::evaluate_four(requests, Order::Point);
+      SuperellipsoidBatch::evaluate(requests, Order::Point);
     } else {
       for (std::size_t k = 0; k < 4; ++k) shape_->evaluate(normals[k], Order::Point, jets[k]);
     }

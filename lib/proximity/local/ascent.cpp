@@ -22,7 +22,7 @@ Ascent::Ascent(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule, 
       rule_(rule),
       unsearched_depth_(unsearched_depth),
       rolling_radius_(gap.rolling_radius()),
-      has_kinks_(gap.shape2().has_kinks()),
+      has_kinks_(gap.traits2().has_nonsmooth_points),
       vertices_(gap),
       model_(gap, vertices_, cuts) {}
 

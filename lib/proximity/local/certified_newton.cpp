@@ -24,7 +24,7 @@ CertifiedNewton::CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const St
       cuts_(cuts),
       rule_(rule),
       rolling_radius_(gap.rolling_radius()),
-      has_flat_faces_(gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces()) {}
+      has_flat_faces_(gap.traits1().has_flat_faces || gap.traits2().has_flat_faces) {}
 
 CertifiedNewton::End CertifiedNewton::run(const Vector3& start, WantedMaximum wanted) {
   const bool is_finite = evaluate(start);
@@ -84,11 +84,11 @@ bool CertifiedNewton::through_boundary_points(const RegularHessian& hessian, con
     return true;
   };
   Vector3 pull = Vector3::Zero(), tilt;
-  if (gap_.shape1().has_flat_faces()) {
+  if (gap_.traits1().has_flat_faces) {
     if (!tilt_beyond_step(gap_.shape1().advance_normal(jet.n, jet.jet1, step), tilt)) return false;
     pull = jet.jet1.H * tilt;
   }
-  if (gap_.shape2().has_flat_faces()) {
+  if (gap_.traits2().has_flat_faces) {
     const Vector3 normal = gap_.shape2().advance_normal(jet.m, jet.jet2, -(gap_.rotation().transpose() * step));
     if (!tilt_beyond_step(-(gap_.rotation() * normal), tilt)) return false;
     pull += H2 * tilt;

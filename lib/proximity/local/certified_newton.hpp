@@ -33,7 +33,7 @@ namespace supernormal {
 class CertifiedNewton {
  public:
   /// Whether the method applies to this pair: both shapes have Hessians, and body 2 has no nonsmooth points.
-  static bool is_for(const GapFunction& gap) { return gap.has_hessian() && !gap.shape2().has_kinks(); }
+  static bool is_for(const GapFunction& gap) { return gap.has_hessian() && !gap.traits2().has_nonsmooth_points; }
 
   /// Keeps references. Adds the d of every evaluation to `cuts`.
   CertifiedNewton(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule);

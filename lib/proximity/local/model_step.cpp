@@ -39,7 +39,7 @@ bool to_plane(const TangentPlane& plane, const Vector3& direction, Vector2& u) {
 }
 
 /// Whether the body may have flat faces that are not across the axes of its frame.
-bool may_be_tilted(const Shape& shape) { return shape.has_flat_faces() && !shape.has_axis_aligned_faces(); }
+bool may_be_tilted(const ShapeTraits& traits) { return traits.has_flat_faces && !traits.has_axis_aligned_faces; }
 
 }  // namespace
 
@@ -47,8 +47,8 @@ ModelStep::ModelStep(const GapFunction& gap, VertexCache& vertices, CuttingPlane
     : gap_(gap),
       vertices_(vertices),
       cuts_(cuts),
-      has_flat_faces_(gap.has_hessian() && (gap.shape1().has_flat_faces() || gap.shape2().has_flat_faces())),
-      may_be_tilted_(may_be_tilted(gap.shape1()) || may_be_tilted(gap.shape2())) {}
+      has_flat_faces_(gap.has_hessian() && (gap.traits1().has_flat_faces || gap.traits2().has_flat_faces)),
+      may_be_tilted_(may_be_tilted(gap.traits1()) || may_be_tilted(gap.traits2())) {}
 
 LocalModel ModelStep::local_model(const GapJet& jet, const BfgsHessian& bfgs) const {
   return gap_.has_hessian() ? LocalModel::of(gap_, jet) : LocalModel::of(gap_, jet, bfgs.matrix());
@@ -57,7 +57,7 @@ LocalModel ModelStep::local_model(const GapJet& jet, const BfgsHessian& bfgs) co
 Step ModelStep::propose(const GapJet& jet, const ActiveVertices& active, const BfgsHessian& bfgs, double radius) {
   leaves_face_ = false;
   const LocalModel local = local_model(jet, bfgs);
-  return gap_.shape2().has_kinks() ? nonsmooth_step(jet, local, active, radius) : smooth_step(jet, local, radius);
+  return gap_.traits2().has_nonsmooth_points ? nonsmooth_step(jet, local, active, radius) : smooth_step(jet, local, radius);
 }
 
 Step ModelStep::smooth_step(const GapJet& jet, const LocalModel& local, double radius) {

@@ -45,7 +45,7 @@ py::array_t<double> point(const Shape& self, const Doubles& directions) {
 }
 
 py::array_t<double> hessian(const Shape& self, const Doubles& directions) {
-  if (!self.has_hessian()) throw std::invalid_argument("the shape has no Hessian (has_hessian is False)");
+  if (!self.traits().has_hessian) throw std::invalid_argument("the shape has no Hessian (has_hessian is False)");
   require_vectors("direction", directions);
   py::array_t<double> out(leading_shape(directions, {3, 3}));
   for_each_direction(directions, [&](py::ssize_t i, const Vector3& n) { write_matrix(self.jet(n).H, out.mutable_data() + 9 * i); });
@@ -124,10 +124,12 @@ void bind_shape_queries(py::class_<Shape, std::shared_ptr<Shape>>& shape) {
            "The Hessians of h at unit normals n, m: (..., 3, 3). Their eigenvalues perpendicular to n are the radii of "
            "curvature.\n\n"
            "direction: (..., 3), body's frame, any length but 0; ValueError otherwise, or if has_hessian is false.")
-      .def_property_readonly("has_hessian", &Shape::has_hessian, "Whether hessian() is available.")
+      .def_property_readonly(
+          "has_hessian", [](const Shape& self) { return self.traits().has_hessian; }, "Whether hessian() is available.")
       .def_property_readonly("half_extents", &Shape::half_extents, "(3,), m; half of the extent along the axes of the body's frame")
-      .def_property_readonly("is_symmetric", &Shape::is_symmetric,
-                             "Whether the body is point-symmetric about its origin. False if unknown.")
+      .def_property_readonly(
+          "is_symmetric", [](const Shape& self) { return self.traits().is_symmetric; },
+          "Whether the body is point-symmetric about its origin. False if unknown.")
       .def_property_readonly("rolling_radius", &Shape::rolling_radius,
                              "m; a ball of this radius provably rolls freely inside the body; 0 if unknown")
       .def("bounding_box", &bounding_box, py::arg("pose") = Pose(),

@@ -78,7 +78,7 @@ void release(void* user) { delete static_cast<SharedShape*>(user); }
 
 Number create_convex(Number s, const SharedShape& shape) {
   auto user = std::make_unique<SharedShape>(shape);
-  const snShape callbacks{&support, &point, shape->has_hessian() ? &hessian : nullptr, user.get(), &release};
+  const snShape callbacks{&support, &point, shape->traits().has_hessian ? &hessian : nullptr, user.get(), &release};
   const dGeomID created = accepted(snCreateConvex(space(s), &callbacks));
   [[maybe_unused]] const SharedShape* const given_to_the_geom = user.release();
   return number(created);

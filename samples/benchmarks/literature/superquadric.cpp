@@ -48,7 +48,8 @@ void multiply(const AngleJet& latitude, const AngleJet& longitude, const Vector3
 }  // namespace
 
 std::optional<Superquadric> Superquadric::of(const supernormal::Shape& shape) {
-  if (const auto* const body = shape.as_superellipsoid()) return Superquadric{body->half_axes(), body->delta(), body->epsilon()};
+  if (const auto* const body = dynamic_cast<const supernormal::Superellipsoid*>(&shape))
+    return Superquadric{body->half_axes(), body->delta(), body->epsilon()};
   if (dynamic_cast<const supernormal::Ellipsoid*>(&shape) != nullptr) return Superquadric{shape.half_extents(), 2, 2};
   return std::nullopt;
 }

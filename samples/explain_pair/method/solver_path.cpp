@@ -56,8 +56,8 @@ const char* name_of(Solver solver) {
 bool is_solver_for(Solver solver, const Pair& pair) {
   const Shape &shape1 = *pair.body1.shape, &shape2 = *pair.body2.shape;
   if (solver == Solver::Hybrid) return true;
-  if (shape1.has_kinks() || shape2.has_kinks()) return false;
-  return solver == Solver::FixedPoint || (shape1.has_hessian() && shape2.has_hessian());
+  if (shape1.traits().has_nonsmooth_points || shape2.traits().has_nonsmooth_points) return false;
+  return solver == Solver::FixedPoint || (shape1.traits().has_hessian && shape2.traits().has_hessian);
 }
 
 SolverPath solver_path(const Pair& pair, const Settings& settings) {

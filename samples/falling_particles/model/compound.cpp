@@ -64,7 +64,7 @@ struct PlacedComponent {
 
  private:
   std::optional<Matrix3> find_to_ball() const {
-    const supernormal::Superellipsoid* const body = shape->as_superellipsoid();
+    const auto* const body = dynamic_cast<const supernormal::Superellipsoid*>(shape.get());
     if (body == nullptr || body->delta() != 2 || body->epsilon() != 2) return std::nullopt;
     return Matrix3(body->half_axes().cwiseInverse().asDiagonal() * pose.rotation.transpose());
   }

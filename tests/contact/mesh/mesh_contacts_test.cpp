@@ -164,7 +164,7 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
     CHECK(std::abs(contact.gap - expected.gap) < 1e-9 * smallest);
     // Two separating translations may be equally long to that tolerance.
     CHECK(std::abs(separation_along(*body, pose, hull, mesh_pose, contact.normal) - expected.gap) < 1e-9 * smallest);
-    if (body->has_flat_faces()) continue;  // one normal has many support points
+    if (body->traits().has_flat_faces) continue;  // one normal has many support points
     CHECK((contact.point1 - expected.point1).norm() < 1e-3 * smallest);
     CHECK((contact.point2 - expected.point2).norm() < 1e-3 * smallest);
   }

@@ -56,7 +56,7 @@ void check_lemmas(const std::string& name, const RandomPair& pair, std::mt19937_
   const auto seed = static_cast<unsigned>(engine());
   std::vector<Vector3> cuts = cuts_of(gap, random_normals(kCuts, seed));
   // Bodies with centres of symmetry have a cut without an evaluation.
-  if (pair.shape1->is_symmetric() && pair.shape2->is_symmetric()) cuts.push_back(gap.offset());
+  if (pair.shape1->traits().is_symmetric && pair.shape2->traits().is_symmetric) cuts.push_back(gap.offset());
   std::vector<Vector3> of_hull = {minimum_norm_point(cuts).point, mean_of(cuts, engine), mean_of(cuts, engine)};
   for (const Vector3& m : random_normals(kDirections, seed + 1)) {
     GapJet jet;
