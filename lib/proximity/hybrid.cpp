@@ -1,126 +1,162 @@
+// The hybrid solver, from top to bottom. Lemmas and parts in quotes are in lib/proximity/README.md.
 #include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "proximity/answer.hpp"
 #include "proximity/bounds/expanding_polytope.hpp"
-#include "proximity/bounds/other_maxima.hpp"
 #include "proximity/local/ascent.hpp"
 #include "proximity/local/certified_newton.hpp"
-#include "proximity/local/first_guess.hpp"
 #include "proximity/local/meeting_point.hpp"
 #include "proximity/local/vertex_cache.hpp"
 #include "proximity/solvers.hpp"
 #include "proximity/tuning.hpp"
 
 namespace supernormal {
-
 namespace {
+
+using SearchLimits = ExpandingPolytope::SearchLimits;
 
 // |s(m) - s(n)| <= |m - n| L for bodies within L of each other, and GapFunction::rounding() is this many units of L. So normals
 // nearer to each other than this have the same s, to rounding.
 constexpr double kSameNormal = 8 * std::numeric_limits<double>::epsilon();
 
-/// The limits of the search for other maxima, or none where no search is needed.
-std::optional<ExpandingPolytope::SearchLimits> search_limits(const GapFunction& gap, const Settings& settings, WantedMaximum wanted,
-                                                             double tolerance, double depth) {
-  using Limits = ExpandingPolytope::SearchLimits;
-  if (settings.certify_depth) return Limits{0, settings.max_evaluations, 0.5 * tolerance, 0};
-  const bool follows = wanted == WantedMaximum::Tracked;
-  if (follows && depth <= kTuning.followed_depth * gap.length_unit()) return std::nullopt;
-  // The estimate ignores vertices where the radius of curvature vanishes at a single normal. There a smooth partner adds a radius
-  // of its own, but a body with faces does not.
-  const double min_radii = gap.shape1().min_curvature_radius_estimate() + gap.shape2().min_curvature_radius_estimate();
-  if (!gap.traits2().has_nonsmooth_points && !may_have_other_maxima(min_radii, depth)) return std::nullopt;
-  const int most = gap.evaluations() + kTuning.search_evaluations;
-  if (follows) return Limits{kTuning.branch_gain, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
-  return Limits{kTuning.search_width, most, tolerance, kTuning.near_best * depth};
+/// One query.
+class Hybrid {
+ public:
+  Hybrid(GapFunction& gap, const Settings& settings, WantedMaximum wanted)
+      : gap_(gap), settings_(settings), wanted_(wanted), rule_(gap, settings) {}
+
+  Proximity solve(const Vector3& start);
+
+ private:
+  bool is_tracked() const { return wanted_ == WantedMaximum::Tracked; }
+  Proximity after_newton(const CertifiedNewton& newton, CertifiedNewton::End end);
+  template <typename Start>
+  Proximity climb(const Start& start);
+  std::optional<SearchLimits> search_limits() const;
+  Proximity search(Ascent& ascent, const SearchLimits& limits);
+  void meet(Proximity& out);
+
+  GapFunction& gap_;
+  const Settings& settings_;
+  const WantedMaximum wanted_;
+  const StoppingRule rule_;
+  CuttingPlanes cuts_;
+  GapJet best_;  // the highest evaluation
+  Status status_ = Status::Converged;
+};
+
+Proximity Hybrid::solve(const Vector3& start) {
+  // Lemma 1: the cut of the centre costs no evaluation.
+  if (gap_.traits1().is_symmetric && gap_.traits2().is_symmetric) cuts_.set_centre(gap_.offset());
+
+  // Lemma 2 with Newton's steps answers nearly every query of a simulation ("Fast path").
+  if (!CertifiedNewton::is_for(gap_)) return climb(start);
+  CertifiedNewton newton(gap_, cuts_, rule_);
+  const CertifiedNewton::End end = newton.run(start, wanted_);
+  return after_newton(newton, end);
 }
 
-/// The answer after a search for higher maxima than `best`, which it updates.
-Proximity search(GapFunction& gap, CuttingPlanes& cuts, Ascent& ascent, const StoppingRule& rule,
-                 const ExpandingPolytope::SearchLimits& limits, bool certifies, GapJet& best, Status status) {
+Proximity Hybrid::after_newton(const CertifiedNewton& newton, CertifiedNewton::End end) {
+  if (end == CertifiedNewton::End::Open) return climb(newton.best());
+  const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
+  Proximity out = answer(gap_, rule_, newton.best(), newton.error(), status);
+  place_contact(gap_, rule_, newton.best(), out, newton.beside());
+  return out;
+}
+
+/// Climbs from `start`, a normal or its evaluation.
+template <typename Start>
+Proximity Hybrid::climb(const Start& start) {
+  // One local maximum ("Ascent"). Where lemma 3 does not hold, the ascent asks for a proof of the overlap first.
+  const bool stays_with_maximum = is_tracked() && !settings_.certify_depth;
+  Ascent ascent(gap_, cuts_, rule_, stays_with_maximum ? kTuning.followed_depth * gap_.length_unit() : 0);
+  status_ = ascent.climb(start);
+  best_ = ascent.best();
+  Proximity out = answer(gap_, rule_, best_, ascent.error(), status_);
+
+  // Lemma 3 says whether it is the only one. Otherwise a depth may be less elsewhere ("Other maxima").
+  if (!out.is_global && status_ != Status::InvalidInput) {
+    if (const std::optional<SearchLimits> limits = search_limits()) out = search(ascent, *limits);
+  }
+
+  // The ascent knows the vertices of body 2 alone ("Colliders with faces and edges").
+  const bool has_vertices = gap_.traits2().has_nonsmooth_points && status_ != Status::InvalidInput;
+  if (has_vertices && gap_.traits1().has_nonsmooth_points) meet(out);
+
+  // "Where a contact acts"
+  place_contact(gap_, rule_, best_, out);
+  if (has_vertices) {
+    const Vector3 exact = ascent.best().n == best_.n ? ascent.exact_normal() : VertexCache(gap_).exact_normal(best_);
+    if ((exact - best_.n).norm() <= kSameNormal) out.normal = exact;
+  }
+  return out;
+}
+
+/// The limits of the search for other maxima, or none where no search is needed.
+std::optional<SearchLimits> Hybrid::search_limits() const {
+  const double depth = -best_.s, tolerance = rule_.tolerance();
+  if (settings_.certify_depth) return SearchLimits{0, settings_.max_evaluations, 0.5 * tolerance, 0};
+  if (is_tracked() && depth <= kTuning.followed_depth * gap_.length_unit()) return std::nullopt;
+  // If a ball with the radius `depth` rolls inside the Minkowski difference, the maximum is the only one (Blaschke's theorem). The
+  // smallest radii of curvature add. The estimates of the radii ignore vertices where the radius vanishes at a single normal. There
+  // a smooth partner adds a radius of its own, but a body with faces does not.
+  const double min_radii = gap_.shape1().min_curvature_radius_estimate() + gap_.shape2().min_curvature_radius_estimate();
+  const bool is_smooth = !gap_.traits2().has_nonsmooth_points;
+  if (is_smooth && !(depth > kTuning.depth_per_radius * min_radii)) return std::nullopt;
+  const int most = gap_.evaluations() + kTuning.search_evaluations;
+  // "Tracking": a tracked maximum is only left when it is clearly not the highest any more.
+  if (is_tracked()) return SearchLimits{kTuning.branch_gain, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
+  return SearchLimits{kTuning.search_width, most, tolerance, kTuning.near_best * depth};
+}
+
+/// The answer after a search for higher maxima than the best.
+Proximity Hybrid::search(Ascent& ascent, const SearchLimits& limits) {
   double error = ascent.error();
-  ExpandingPolytope proof(gap, cuts, ascent, rule);
-  const bool is_reached = proof.run(limits, best, error, status);
-  if (!is_reached && !rule.may_evaluate()) status = Status::EvaluationLimit;
-  const bool is_proved = is_reached && certifies;
+  ExpandingPolytope proof(gap_, cuts_, ascent, rule_);
+  const bool is_reached = proof.run(limits, best_, error, status_);
+  if (!is_reached && !rule_.may_evaluate()) status_ = Status::EvaluationLimit;
+  const bool is_proved = is_reached && settings_.certify_depth;
   if (is_proved) {
     error = proof.excess();
-    status = Status::Converged;
+    status_ = Status::Converged;
   }
-  Proximity out = answer(gap, rule, best, error, status);
-  out.global_error = std::min(out.global_error, proof.excess() + gap.rounding());
+  Proximity out = answer(gap_, rule_, best_, error, status_);
+  // Lemma 4
+  out.global_error = std::min(out.global_error, proof.excess() + gap_.rounding());
   out.is_global = out.is_global || is_proved;
   return out;
 }
 
-/// Ends an ascent of two bodies with nonsmooth points. `best` is its last evaluation, `out` its answer. The witness points of
-/// `best` become the contact's.
-void meet(GapFunction& gap, const StoppingRule& rule, GapJet& best, Proximity& out) {
-  MeetingPoint meeting(gap);
-  if (meeting.settle(rule, best)) {
+/// Ends an ascent of two bodies with nonsmooth points. The witness points of the best become the contact's.
+void Hybrid::meet(Proximity& out) {
+  MeetingPoint meeting(gap_);
+  if (meeting.settle(rule_, best_)) {
     const double upper = out.gap + out.global_error;
     // answer() adds the rounding again.
-    out = answer(gap, rule, best, std::max(out.error - gap.rounding(), 0.0), out.status);
+    out = answer(gap_, rule_, best_, std::max(out.error - gap_.rounding(), 0.0), out.status);
     out.global_error = std::min(out.global_error, upper - out.gap);
   }
   // The ascent has stalled because the cuts of body 1 coincide to rounding. Its vertices do not. But they only describe the
   // neighbourhood of the normal. So the error stands where bounds have decided.
   if (out.status == Status::Stalled && !out.is_global) {
-    const double estimate = kTuning.gain_safety * meeting.remaining_gain(best);
-    if (rule.allows(estimate)) {
+    const double estimate = kTuning.gain_safety * meeting.remaining_gain(best_);
+    if (rule_.allows(estimate)) {
       const Proximity ascended = out;
-      out = answer(gap, rule, best, estimate, Status::Converged);
+      out = answer(gap_, rule_, best_, estimate, Status::Converged);
       out.global_error = std::min(out.global_error, ascended.global_error);
     }
   }
-  out.point1 = best.jet1.r;
-  out.point2 = best.jet1.r + best.d;
-  meeting.move_witnesses(rule.tolerance(), best);
-}
-
-/// Climbs from `start`, a normal or its evaluation. Looks for a higher maximum if the overlap is so deep, relative to the sharpest
-/// edges, that there may be others. A tracked maximum is only left when it is clearly not the highest any more.
-template <typename Start>
-Proximity climb_and_search(GapFunction& gap, const Settings& settings, const StoppingRule& rule, CuttingPlanes& cuts,
-                           const Start& start, WantedMaximum wanted) {
-  const bool follows = wanted == WantedMaximum::Tracked && !settings.certify_depth;
-  Ascent ascent(gap, cuts, rule, follows ? kTuning.followed_depth * gap.length_unit() : 0);
-  Status status = ascent.climb(start);
-  GapJet best = ascent.best();
-  Proximity out = answer(gap, rule, best, ascent.error(), status);
-  if (!out.is_global && status != Status::InvalidInput) {
-    const auto limits = search_limits(gap, settings, wanted, rule.tolerance(), -best.s);
-    if (limits) out = search(gap, cuts, ascent, rule, *limits, settings.certify_depth, best, status);
-  }
-  if (gap.traits1().has_nonsmooth_points && gap.traits2().has_nonsmooth_points && status != Status::InvalidInput) {
-    meet(gap, rule, best, out);
-  }
-  place_contact(gap, rule, best, out);
-  if (gap.traits2().has_nonsmooth_points && status != Status::InvalidInput) {
-    const Vector3 exact = ascent.best().n == best.n ? ascent.exact_normal() : VertexCache(gap).exact_normal(best);
-    if ((exact - best.n).norm() <= kSameNormal) out.normal = exact;
-  }
-  return out;
+  out.point1 = best_.jet1.r;
+  out.point2 = best_.jet1.r + best_.d;
+  meeting.move_witnesses(rule_.tolerance(), best_);
 }
 
 }  // namespace
 
 Proximity solve_hybrid(GapFunction& gap, const Settings& settings, const Vector3& start, WantedMaximum wanted) {
-  const StoppingRule rule(gap, settings);
-  CuttingPlanes cuts;
-  // The first cut costs no evaluation: the distance from a centre of symmetry to every tangent plane is at least the radius of the
-  // rolling ball.
-  if (gap.traits1().is_symmetric && gap.traits2().is_symmetric) cuts.set_centre(gap.offset());
-  if (!CertifiedNewton::is_for(gap)) return climb_and_search(gap, settings, rule, cuts, start, wanted);
-  CertifiedNewton newton(gap, cuts, rule);
-  const CertifiedNewton::End end = newton.run(start, wanted);
-  if (end == CertifiedNewton::End::Open) return climb_and_search(gap, settings, rule, cuts, newton.best(), wanted);
-  const Status status = end == CertifiedNewton::End::Apart ? Status::Apart : Status::Converged;
-  Proximity out = answer(gap, rule, newton.best(), newton.error(), status);
-  place_contact(gap, rule, newton.best(), out, newton.beside());
-  return out;
+  return Hybrid(gap, settings, wanted).solve(start);
 }
 
 }  // namespace supernormal

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "proximity/bounds/cutting_planes.hpp"
 #include "proximity/bounds/minimum_norm_point.hpp"
@@ -10,6 +11,7 @@
 #include "proximity/local/model_step.hpp"
 #include "proximity/local/vertex_cache.hpp"
 #include "proximity/stopping_rule.hpp"
+#include "proximity/tuning.hpp"
 #include "supernormal/proximity/gap_function.hpp"
 #include "supernormal/proximity/proximity.hpp"
 
@@ -22,20 +24,20 @@ struct LocalCandidate {
 };
 
 /// Ascends s on the unit sphere from a given normal: propose, evaluate, add the cut. It stops when bounds prove the maximum or,
-/// deep in an overlap, when the model estimates that it is reached (lib/proximity/README.md has the lemmas).
+/// deep in an overlap, when the model estimates that it is reached. lib/proximity/README.md has the lemmas.
 ///
-/// If the bodies may be apart, or overlap by less than the rolling ball, s + rho is concave where it matters, and a bound decides:
-/// the nearest point p of the hull of all cuts has s + rho <= |p|. The step is the model's. If cuts exclude this step, or if the
-/// model has converged and the bound has not, the step goes to the normal p / |p|. So this part is GJK with the steps of Newton's
-/// method in it.
+/// If the bodies may be apart, or overlap by less than the rolling ball, s + rho is concave where it matters (lemma 3), and lemma 2
+/// decides: the nearest point p of the hull of all cuts has s + rho <= |p|. The step is the model's. If cuts exclude this step, or
+/// if the model has converged and the bound has not, the step goes to the normal p / |p|. So this part is GJK with the steps of
+/// Newton's method in it.
 ///
 /// If the hull contains the origin, the bodies overlap by more than rho. No bound is local then. The estimate that ends the ascent
 /// is the model's gain times a safety factor. If cuts exclude a step, the step goes to the maximum of the cuts.
 class Ascent {
  public:
-  /// Keeps references. Uses cuts of earlier ascents of the same pair, and adds new ones. `tolerance` in m. For an overlap of at
-  /// most `unsearched_depth` (m), a point of both bodies may serve as proof of the overlap. For a deeper overlap the search for
-  /// other maxima needs the hull.
+  /// Keeps references. Uses cuts of earlier ascents of the same pair, and adds new ones. For an overlap of at most
+  /// `unsearched_depth` (m), a point of both bodies may serve as proof of the overlap. For a deeper overlap the search for other
+  /// maxima needs the hull.
   Ascent(GapFunction& gap, CuttingPlanes& cuts, const StoppingRule& rule, double unsearched_depth);
 
   /// Climbs from the unit normal `start` and returns how the climb ended. The result is in best() and error(). Gives up, as
@@ -46,10 +48,10 @@ class Ascent {
   Status climb(const GapJet& start);
 
   /// The highest normal of the last climb, with its Hessians.
-  const GapJet& best() const { return current(); }
+  const GapJet& best() const { return here().jet; }
 
   /// If body 2 has nonsmooth points: the exact normal of the face or edge at best() (VertexCache::exact_normal).
-  const Vector3& exact_normal() const { return exact_normals_[now_]; }
+  const Vector3& exact_normal() const { return here().exact_normal; }
 
   /// m; what is left to the maximum. It is proved where s + rho is concave, and an estimate for the local maximum elsewhere.
   double error() const { return error_; }
@@ -58,58 +60,84 @@ class Ascent {
   const LocalCandidate& candidate() const { return candidate_; }
 
  private:
-  const GapJet& current() const { return jets_[now_]; }
-  GapJet& current() { return jets_[now_]; }
-  const GapJet& trial() const { return jets_[1 - now_]; }
-  GapJet& trial() { return jets_[1 - now_]; }
-  void restart();
-  Status continue_climb(double cutoff);
-  bool is_finished(double cutoff, Status& status) const;
+  /// An evaluated normal.
+  struct Point {
+    GapJet jet;
+    ActiveVertices active;       // of body 2
+    Vector3 exact_normal;        // of the face or edge of body 2
+    bool is_by_estimate = true;  // whether the step to it came with an estimate of what is left; a step of the bounds has none
+  };
 
-  /// Whether s + rho is concave on the relevant cone of normals, touching included.
-  bool is_concave() const { return height() >= -0.5 * rule_.tolerance(); }
-  /// m; s + rho
-  double height() const { return current().s + rolling_radius_; }
+  enum class Proposer {
+    Model,
+    Hull,   // its nearest point
+    Cuts,   // their highest point over the tangent plane
+    Nobody  // neither model nor bounds propose a new normal
+  };
+  struct Proposal {
+    Step step;
+    Proposer proposer;
+  };
 
-  Step choose_step();
-  void move_to_exact_normal();
-  bool have_common_point() const;
-  void ask_hull(bool must_replace, Step& step);
-  void take_top_of_cuts(Step& step);
-  void keep_own_cut();
+  enum class Prediction {
+    Good,
+    TooLow  // the model misses something, and the bounds propose
+  };
+
+  /// What the steps of one climb leave to the next.
+  struct Memory {
+    double radius = kTuning.longest_step;                    // of the trust region, gnomonic
+    Prediction prediction = Prediction::Good;                // of the last step that was not the hull's
+    Proposer last_asked = Proposer::Model;                   // Model or Hull: they take turns when the model has converged
+    double upper = std::numeric_limits<double>::infinity();  // m; the hull's bound on s + rho when it last proposed a normal
+    Vector3 hulls_normal = Vector3::Zero();                  // the normal of this proposal
+  };
+
+  const Point& here() const { return points_[here_]; }
+  Point& here() { return points_[here_]; }
+  const Point& trial() const { return points_[1 - here_]; }
+  Point& trial() { return points_[1 - here_]; }
+
+  Status climb_on(double cutoff);
+  std::optional<Status> end_of_climb(Proposer proposer, double cutoff) const;
+
+  Proposal propose();
+  Proposal propose_where_concave(const Step& models, bool is_converged, bool is_refused);
+  Proposal propose_in_overlap(const Step& models, double estimate, bool is_refused);
+  Proposal highest_of_cuts();
+  Proposal nearest_of_hull(const MinimumNormPoint& nearest);
   bool is_ruled_out(const Step& step) const;
+  bool have_common_point() const;
+
+  void move_to_exact_normal();
   bool is_level_but_flatter(double actual_gain) const;
-  /// Evaluates into jets_[place].
-  void evaluate(const Vector3& normal, std::size_t place);
+  void evaluate(const Vector3& normal, Point& point);
+  void keep_own_cut();
   void learn_hessian();
-  void adapt_radius(const Step& step, double actual_gain);
+  void learn_radius(const Step& step, double actual_gain);
+  void shrink_radius(double length);
+
+  /// m; s + rho
+  double height() const { return here().jet.s + rolling_radius_; }
+  /// Whether s + rho is concave on the relevant cone of normals (lemma 3), touching included.
+  bool is_concave() const { return height() >= -0.5 * rule_.tolerance(); }
 
   GapFunction& gap_;
   CuttingPlanes& cuts_;
   const StoppingRule& rule_;
   const double unsearched_depth_;  // m
   const double rolling_radius_;    // m; rho, of the Minkowski difference
-  const bool has_kinks_;
+  const bool has_nonsmooth_points_;
   MinimumNormSearch hull_;  // of all cuts
   VertexCache vertices_;
   BfgsHessian bfgs_;
   ModelStep model_;
-  std::array<GapJet, 2> jets_;            // the current and the trial, which change places
-  std::array<ActiveVertices, 2> active_;  // of jets_
-  std::array<Vector3, 2> exact_normals_;  // of jets_
-  std::size_t now_ = 0;
-  bool is_overlap_proved_ = false;
+  std::array<Point, 2> points_;  // the highest and the trial, which change places
+  std::size_t here_ = 0;
+  Memory memory_;
+  double error_ = 0;  // m
   LocalCandidate candidate_;
-  // Of one climb:
-  double radius_ = 0;                       // of the trust region, gnomonic
-  double upper_ = 0;                        // m; the hull's bound on s + rho when it last proposed a normal
-  Vector3 hulls_normal_ = Vector3::Zero();  // the normal of this proposal
-  bool is_hull_next_ = false;
-  bool is_from_hull_ = false;    // whether the step is the hull's
-  bool is_from_bounds_ = false;  // whether the current normal is from the bounds
-  bool is_model_short_ = false;  // whether the last step gained more than the model predicted
-  bool is_stuck_ = false;        // whether neither model nor bounds propose a new normal
-  double error_ = 0;             // m
+  bool is_overlap_proved_ = false;
 };
 
 }  // namespace supernormal
