@@ -71,7 +71,7 @@ template <typename Start>
 Proximity Hybrid::climb(const Start& start) {
   // One local maximum ("Ascent"). Where lemma 3 does not hold, the ascent asks for a proof of the overlap first.
   const bool stays_with_maximum = is_tracked() && !settings_.certify_depth;
-  Ascent ascent(gap_, cuts_, rule_, stays_with_maximum ? kTuning.followed_depth * gap_.length_unit() : 0);
+  Ascent ascent(gap_, cuts_, rule_, stays_with_maximum ? kTuning.unsearched_depth * gap_.length_unit() : 0);
   status_ = ascent.climb(start);
   best_ = ascent.best();
   Proximity out = answer(gap_, rule_, best_, ascent.error(), status_);
@@ -98,7 +98,7 @@ Proximity Hybrid::climb(const Start& start) {
 std::optional<SearchLimits> Hybrid::search_limits() const {
   const double depth = -best_.s, tolerance = rule_.tolerance();
   if (settings_.certify_depth) return SearchLimits{0, settings_.max_evaluations, 0.5 * tolerance, 0};
-  if (is_tracked() && depth <= kTuning.followed_depth * gap_.length_unit()) return std::nullopt;
+  if (is_tracked() && depth <= kTuning.unsearched_depth * gap_.length_unit()) return std::nullopt;
   // If a ball with the radius `depth` rolls inside the Minkowski difference, the maximum is the only one (Blaschke's theorem). The
   // smallest radii of curvature add. The estimates of the radii ignore vertices where the radius vanishes at a single normal. There
   // a smooth partner adds a radius of its own, but a body with faces does not.
@@ -107,7 +107,7 @@ std::optional<SearchLimits> Hybrid::search_limits() const {
   if (is_smooth && !(depth > kTuning.depth_per_radius * min_radii)) return std::nullopt;
   const int most = gap_.evaluations() + kTuning.search_evaluations;
   // "Tracking": a tracked maximum is only left when it is clearly not the highest any more.
-  if (is_tracked()) return SearchLimits{kTuning.branch_gain, most, std::max(kTuning.branch_gain * depth, tolerance), 0};
+  if (is_tracked()) return SearchLimits{kTuning.leaving_gain, most, std::max(kTuning.leaving_gain * depth, tolerance), 0};
   return SearchLimits{kTuning.search_width, most, tolerance, kTuning.near_best * depth};
 }
 

@@ -23,21 +23,19 @@ struct Trial {
 
 std::vector<Trial> trials() {
   return {{"newton_evaluations", &Tuning::newton_evaluations, {0, 4, 16}},
-          {"backtrack", &Tuning::backtrack, {0.25, 0.75}},
-          {"same_turn", &Tuning::same_turn, {0, 0.1}},
+          {"same_tilt", &Tuning::same_tilt, {0, 0.1}},
           {"longest_step", &Tuning::longest_step, {0.5, 3}},
-          {"good_share", &Tuning::good_share, {0.3, 0.8}},
-          {"poor_share", &Tuning::poor_share, {0.01, 0.3}},
-          {"short_share", &Tuning::short_share, {1.3, 1e9}},
+          {"poor_fraction", &Tuning::poor_fraction, {0.01, 0.3}},
+          {"short_fraction", &Tuning::short_fraction, {1.3, 1e9}},
           {"creep", &Tuning::creep, {0, 0.1}},
           {"gain_safety", &Tuning::gain_safety, {1, 10}},
-          {"followed_depth", &Tuning::followed_depth, {0, 0.1}},
+          {"unsearched_depth", &Tuning::unsearched_depth, {0, 0.1}},
           {"depth_per_radius", &Tuning::depth_per_radius, {0, 1, 2}},
           {"search_width", &Tuning::search_width, {0.01, 0.1}},
           {"search_evaluations", &Tuning::search_evaluations, {20, 100}},
           {"near_best", &Tuning::near_best, {0, 0.06}},
-          {"branch_gain", &Tuning::branch_gain, {0, 0.33}},
-          {"same_hill_cosine", &Tuning::same_hill_cosine, {0.98, 0.9999}}};
+          {"leaving_gain", &Tuning::leaving_gain, {0, 0.33}},
+          {"same_basin_cosine", &Tuning::same_basin_cosine, {0.98, 0.9999}}};
 }
 
 void print(const std::string& name, const Figures& figures) {

@@ -113,8 +113,8 @@ TEST_CASE("deep overlaps: the interval holds for every pair, and one in five hun
 
 TEST_CASE("a followed normal is left for one of a depth that is less by more than a sixth") {
   constexpr int kPairs = 75;       // of each kind
-  constexpr double kGain = 0.17;   // Tuning::branch_gain
-  constexpr double kLooks = 0.02;  // of the unit, Tuning::followed_depth
+  constexpr double kGain = 0.17;   // Tuning::leaving_gain
+  constexpr double kLooks = 0.02;  // of the unit, Tuning::unsearched_depth
   int followed = 0;
   for (const RandomKind& kind : random_kinds()) {
     RandomBodies bodies(kind, 93);

@@ -121,7 +121,7 @@ void ExpandingPolytope::keep_top(const LocalCandidate& top) {
   const auto is_lower = [](const LocalCandidate& a, const LocalCandidate& b) { return a.s < b.s; };
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   auto place =
-      std::find_if(tops_.begin(), end, [&](const LocalCandidate& other) { return other.n.dot(top.n) > kTuning.same_hill_cosine; });
+      std::find_if(tops_.begin(), end, [&](const LocalCandidate& other) { return other.n.dot(top.n) > kTuning.same_basin_cosine; });
   if (place == end && top_count_ < kMaxTops) {
     tops_[top_count_++] = top;
     return;
@@ -137,7 +137,7 @@ void ExpandingPolytope::climb_from_tops() {
   const auto end = tops_.begin() + static_cast<std::ptrdiff_t>(top_count_);
   std::sort(tops_.begin(), end, [](const LocalCandidate& a, const LocalCandidate& b) { return a.s > b.s; });
   for (auto top = tops_.begin(); top != end && rule_.may_evaluate(); ++top) {
-    if (top->s > best_.s - limits_.near && top->n.dot(best_.n) < kTuning.same_hill_cosine) climb_from(top->n);
+    if (top->s > best_.s - limits_.near && top->n.dot(best_.n) < kTuning.same_basin_cosine) climb_from(top->n);
   }
 }
 

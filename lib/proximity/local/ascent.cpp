@@ -154,7 +154,7 @@ Ascent::Proposal Ascent::highest_of_cuts() {
 
 // Lemma 1: the cuts leave less than a part of the predicted gain.
 bool Ascent::is_ruled_out(const Step& step) const {
-  return cuts_.upper_bound(step.normal) <= (height() + kTuning.poor_share * step.gain) * step.normal.norm();
+  return cuts_.upper_bound(step.normal) <= (height() + kTuning.poor_fraction * step.gain) * step.normal.norm();
 }
 
 // The line through the origins crosses the plane halfway between the tangent planes at this point. Both bodies contain it if their
@@ -213,11 +213,11 @@ void Ascent::learn_hessian() {
 }
 
 void Ascent::learn_radius(const Step& step, double actual_gain) {
-  memory_.prediction = actual_gain > kTuning.short_share * step.gain ? Prediction::TooLow : Prediction::Good;
+  memory_.prediction = actual_gain > kTuning.short_fraction * step.gain ? Prediction::TooLow : Prediction::Good;
   const bool is_above_rounding = step.gain > gap_.rounding();
-  if (is_above_rounding && actual_gain > kTuning.good_share * step.gain) {
+  if (is_above_rounding && actual_gain > 0.5 * step.gain) {
     memory_.radius = std::min(std::max(memory_.radius, 2 * step.length), kTuning.longest_step);
-  } else if (!is_above_rounding || !(actual_gain > kTuning.poor_share * step.gain)) {
+  } else if (!is_above_rounding || !(actual_gain > kTuning.poor_fraction * step.gain)) {
     shrink_radius(step.length);
   }
 }

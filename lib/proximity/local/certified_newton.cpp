@@ -68,7 +68,7 @@ bool CertifiedNewton::propose(Vector3& step) const {
 // ratios hardly change, both steps are the same.
 bool CertifiedNewton::parametrizations_agree(const Vector3& step) const {
   const auto is_less = [](const Vector3& tilt, const Vector3& normal) {
-    return (tilt.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
+    return (tilt.array().abs() <= kTuning.same_tilt * normal.array().abs()).all();
   };
   return is_less(step, best().n) && is_less(gap_.rotation().transpose() * step, best().m);
 }
@@ -108,7 +108,7 @@ bool CertifiedNewton::climb(Vector3 step) {
     }
     // A face is level: no shorter step leads higher.
     if (has_flat_faces_ && next().s >= best().s - gap_.rounding()) return false;
-    step *= kTuning.backtrack;
+    step *= 0.5;
   }
   return false;
 }

@@ -126,7 +126,7 @@ ModelStep::Target ModelStep::target_of(const GapJet& jet, const LocalModel& loca
 bool ModelStep::parametrizations_agree(const GapJet& jet, const LocalModel& local, const Vector2& newton) const {
   if (may_be_tilted_) return false;
   const auto is_less = [](const Vector3& tilt, const Vector3& normal) {
-    return (tilt.array().abs() <= kTuning.same_turn * normal.array().abs()).all();
+    return (tilt.array().abs() <= kTuning.same_tilt * normal.array().abs()).all();
   };
   return is_less(local.plane1.lift(newton), jet.n) && is_less(local.plane2.lift(newton), jet.m);
 }
@@ -148,7 +148,7 @@ ModelStep::FlatStep ModelStep::flat_step(const GapJet& jet, const LocalModel& lo
   // The cut of this normal bounds the gain of s by the slope times the step, however flat the face.
   step.remaining_gain = std::max(step.remaining_gain, gain_bound);
   const double length = std::hypot(u.x(), u.y());  // may be too small to square
-  if (length < kTuning.creep * newton.norm() && gain_bound < kTuning.poor_share * step.gain) return FlatStep::Taken;
+  if (length < kTuning.creep * newton.norm() && gain_bound < kTuning.poor_fraction * step.gain) return FlatStep::Taken;
   const double shrink = length > radius ? radius / length : 1;
   u *= shrink;
   step.normal = jet.n + local.plane1.lift(u);
