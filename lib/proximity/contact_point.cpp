@@ -64,8 +64,8 @@ Vector3 contact_of_flat_bodies(const GapFunction& gap, const GapJet& jet, const 
 /// balls meet.
 Vector3 contact_of_balls(const GapFunction& gap, const GapJet& jet) {
   const double radius1 = gap.shape1().min_curvature_radius_estimate(), radius2 = gap.shape2().min_curvature_radius_estimate();
-  const double share = radius1 + radius2 > 0 ? radius1 / (radius1 + radius2) : 0.5;
-  return jet.jet1.r + 0.5 * jet.s * jet.n + share * (jet.d - jet.s * jet.n);
+  const double fraction = radius1 + radius2 > 0 ? radius1 / (radius1 + radius2) : 0.5;
+  return jet.jet1.r + 0.5 * jet.s * jet.n + fraction * (jet.d - jet.s * jet.n);
 }
 
 /// Whether a point of the tangent plane is at most `near` (m) outside the body. `across` (m) is its distance from the body's

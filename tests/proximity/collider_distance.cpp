@@ -33,19 +33,19 @@ double distance_from_cylinder(double radius, double half_length, const Vector3& 
   return signed_distance(Eigen::Vector2d(std::hypot(x.x(), x.y()) - radius, std::abs(x.z()) - half_length));
 }
 
-double distance_from_simplex(std::span<const Vector3> corners, const Vector3& x) {
-  if (corners.size() == 1) return (x - corners[0]).norm();
-  if (corners.size() == 2) return distance_from_segment(corners[0], corners[1], x);
-  const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+double distance_from_simplex(std::span<const Vector3> vertices, const Vector3& x) {
+  if (vertices.size() == 1) return (x - vertices[0]).norm();
+  if (vertices.size() == 2) return distance_from_segment(vertices[0], vertices[1], x);
+  const Vector3 normal = (vertices[1] - vertices[0]).cross(vertices[2] - vertices[0]).normalized();
   bool is_above_inside = true;
   double from_sides = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3& a = corners[k];
-    const Vector3& b = corners[(k + 1) % 3];
+    const Vector3& a = vertices[k];
+    const Vector3& b = vertices[(k + 1) % 3];
     is_above_inside = is_above_inside && normal.cross(b - a).dot(x - a) >= 0;
     from_sides = std::min(from_sides, distance_from_segment(a, b, x));
   }
-  return is_above_inside ? std::abs(normal.dot(x - corners[0])) : from_sides;
+  return is_above_inside ? std::abs(normal.dot(x - vertices[0])) : from_sides;
 }
 
 double distance_from_extreme_part(const Collider& collider, const Vector3& n, const Vector3& x, double tolerance) {

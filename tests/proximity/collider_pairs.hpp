@@ -50,8 +50,8 @@ struct ColliderPair {
 /// The width of the reference interval, relative to the unit.
 inline constexpr double kReferenceWidth = 1e-12;
 
-/// Random pairs, the same in every run: half-axes and colliders with aspect ratios up to 20, exponents 1.02...200, any attitude and
-/// direction.
+/// Random pairs, the same in every run: half-axes and colliders with aspect ratios up to 20, exponents 1.02...200, any orientation
+/// and direction.
 class ColliderPairs {
  public:
   ColliderPairs(ColliderKind kind, unsigned seed) : kind_(kind), engine_(seed) {}

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kCorners = 3;
-constexpr std::size_t kMaxCuts = 6;  // cuts per triangle: those of its corners and of the latest maxima of its linear programs
+constexpr std::size_t kMaxCuts = 6;  // per triangle: at its corners and at the latest maxima of its linear programs
 
 using Index = std::size_t;
 
@@ -26,7 +26,7 @@ struct Node {
 /// A triangle of directions with its cuts and bounds.
 struct Cell {
   std::array<Index, kCorners> corner;
-  std::array<Index, kMaxCuts> cut;  // those of the corners come first
+  std::array<Index, kMaxCuts> cut;  // the corners come first
   std::size_t cut_count;
   double bound;  // m; s is not larger in this triangle
   Vector3 peak;  // where the bound is attained, not normalised
@@ -147,7 +147,7 @@ class BranchAndBound {
     return cell;
   }
 
-  /// The cut replaces the oldest one if there is no room.
+  /// The cut replaces the oldest one if all places are taken.
   static void add_cut(Cell& cell, Index node) {
     if (cell.cut_count == kMaxCuts) {
       std::copy(cell.cut.begin() + kCorners + 1, cell.cut.end(), cell.cut.begin() + kCorners);

@@ -19,7 +19,7 @@ struct GapBounds {
 /// Each boundary point of the difference of the bodies bounds s from above everywhere: s(n) <= n.d for the d = point2 - point1 of
 /// any normal. Over a triangle of directions the least of a few such bounds has its maximum at the solution of a linear program;
 /// no part of the sphere is given up before that is below the best s found. Face and edge normals of either body need no special
-/// case: where s has a kink the bounds have it too, and their maximum lies on it.
+/// case: where s has a nonsmooth point the bounds have it too, and their maximum is there.
 ///
 /// Calls only point(n) of the shapes. Gives up after `max_evaluations`, with an interval that is too wide.
 GapBounds bound_gap(const Shape& shape1, const Pose& pose1, const Shape& shape2, const Pose& pose2, double width,

@@ -79,7 +79,7 @@ TEST_CASE("reference: a sphere and a box, a capsule, a cylinder, a triangle, a h
   check_against_sphere(Polytope(kTriangle), [](const Vector3& x) { return distance_from_simplex(kTriangle, x); });
 }
 
-TEST_CASE("reference: an octahedral, a round and a boxy body standing on the edge, face and corner of a box") {
+TEST_CASE("reference: an octahedral, a round and a boxy body standing on the edge, face and vertex of a box") {
   // The face normals are along the axes. The body's centre is above the middle of a face of the box; nothing else is nearer.
   for (const double exponent : {1.02, 2.0, 200.0}) {
     const Superellipsoid body(Vector3(0.2, 0.3, 0.1), exponent, exponent);
@@ -91,7 +91,7 @@ TEST_CASE("reference: an octahedral, a round and a boxy body standing on the edg
         CHECK(std::abs(bounds.upper - gap) <= kWidth + kSumRounding);
       }
     }
-    // Edge and corner are apart along the normal of the body's point there, which is the nearest by construction.
+    // Edge and vertex are apart along the normal of the body's point there, which is the nearest by construction.
     for (const Vector3& n : {Vector3(1, 2, 0), Vector3(0, -1, 1), Vector3(1, 1, 1), Vector3(-0.3, 0.2, 0.5)}) {
       const Vector3 corner = n.cwiseSign().cwiseProduct(kLengths);
       const Vector3 normal = n.normalized();

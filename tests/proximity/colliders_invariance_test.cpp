@@ -1,4 +1,4 @@
-// Tests of a body and a collider with faces and edges: place, attitude and unit of length change the answer only by rounding.
+// Tests of a body and a collider with faces and edges: place, orientation and unit of length change the answer only by rounding.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -64,7 +64,7 @@ TEST_CASE("colliders: the same query has the same answer, bit for bit") {
   });
 }
 
-TEST_CASE("colliders: 10 km away, the answer is that of the rounded positions, bit for bit") {
+TEST_CASE("colliders: 10 km away, the answer belongs to the rounded positions, bit for bit") {
   for_each_pair([](const ColliderPair& pair) {
     const Pose body{kFar, Matrix3::Identity()}, collider{kFar + pair.pose.position, pair.pose.rotation};
     const Pose rounded{collider.position - body.position, pair.pose.rotation};  // exact: no digit is left to round away
@@ -83,7 +83,7 @@ TEST_CASE("colliders: a rigid motion by 10 km changes the gap by the rounding of
     if (pair.is_deep()) return;
     const Pose body{kFar, turn}, collider{kFar + turn * pair.pose.position, turn * pair.pose.rotation};
     const Proximity out = solve(pair, {}, pair.pose, tight()), moved = solve(pair, body, collider, tight());
-    // Three coordinates, each rounded to half a unit in the last place of 10 km; the attitude to a few of 1.
+    // Three coordinates, each rounded to half a unit in the last place of 10 km; the rotation to a few of 1.
     const double rounding = std::sqrt(3) * kEpsilon * 1e4 + 8 * kEpsilon * pair.size;
     const double difference = std::abs(out.gap - moved.gap);
     if (!(difference <= rounding + out.error + moved.error)) FAIL_CHECK(describe(pair), "\n  gaps differ by ", difference);

@@ -157,7 +157,7 @@ TEST_CASE("2030 random pairs with cylinders") { check_class(ColliderKind::Cylind
 TEST_CASE("2030 random pairs with triangles") { check_class(ColliderKind::Triangle); }
 TEST_CASE("2030 random pairs with hulls") { check_class(ColliderKind::Hull); }
 
-TEST_CASE("a box in a flat body, aligned but for rounding: the gap is that of the normal") {
+TEST_CASE("a box in a flat body, aligned but for rounding: the gap belongs to the normal") {
   const Box box({0.0637, 0.6113, 2.1592});
   const Superellipsoid flat({4.2668, 1.3804, 0.1145}, 41, 97);
   double tilt = 1e-16;

@@ -61,7 +61,7 @@ std::shared_ptr<const Shape> user_cones(double radius, double height) {
   return std::make_shared<CallbackShape>([=](const Vector3& n) { return n.dot(point(n)); }, point);
 }
 
-/// An octahedron with its corners cut off.
+/// An octahedron with its vertices cut off.
 std::shared_ptr<const Shape> hull(double size) {
   struct Solid {
     std::vector<Vector3> points;
@@ -129,7 +129,7 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-/// Sizes of the larger body, in those of the smaller one.
+/// Sizes of the larger body, in sizes of the smaller one.
 constexpr std::array<double, 5> kRatios = {1, 3, 30, 300, 5000};
 
 /// Gaps that the bodies are placed at, in units of the smallest half-extent.
@@ -139,14 +139,14 @@ constexpr std::array<double, 9> kGaps = {1e-3, 0, -1e-6, -1e-3, -2e-2, -0.2, -0.
 enum class Way {
   FaceOnFace,         ///< exactly
   LeaningFaceOnFace,  ///< by 1e-12 to 1e-2
-  OnFace,             ///< in any attitude
+  OnFace,             ///< in any orientation
   Anywhere,           ///< with a boundary point of each at the same place
 };
 constexpr std::array kWays = {Way::FaceOnFace, Way::LeaningFaceOnFace, Way::OnFace, Way::Anywhere};
 
-/// Rooms for contacts whose places must be within both bodies. With more room there are corners, which may lie on the air beside a
-/// rounded face.
-constexpr std::array kRooms = {1};
+/// For these max_contacts the places must be within both bodies. With more there are manifold points, which may be in the air
+/// beside a rounded face.
+constexpr std::array kMaxContacts = {1};
 
 struct PlacedPair {
   std::shared_ptr<const Shape> large, small;
@@ -238,10 +238,10 @@ double excess(const PlacedPair& pair, const Proximity& proximity, const Vector3&
   return (most_outside - std::max(0.0, 0.5 * proximity.gap)) / pair.unit;
 }
 
-/// The largest excess of the contacts that a program with so much room gets.
-double largest_excess(const PlacedPair& pair, const Proximity& proximity, int room) {
+/// The largest excess of the contacts that a program gets.
+double largest_excess(const PlacedPair& pair, const Proximity& proximity, int max_contacts) {
   const ContactManifold found = find_contact_manifold(*pair.large, {}, *pair.small, pair.pose, proximity);
-  const ContactManifold manifold = reduced_to(found, room);
+  const ContactManifold manifold = reduced_to(found, max_contacts);
   double largest = -std::numeric_limits<double>::infinity();
   if (manifold.corner_count == 0) largest = excess(pair, proximity, manifold.deepest.contact);
   for (int k = 0; k < manifold.corner_count; ++k) {
@@ -292,9 +292,9 @@ TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of b
     }
     const double beside = excess(pair, out, out.contact);
     if (!(beside <= kTolerance)) FAIL_CHECK(name(), ": ", beside, " outside");
-    for (const int room : kRooms) {
-      const double of_manifold = largest_excess(pair, out, room);
-      if (!(of_manifold <= kTolerance)) FAIL_CHECK(name(), ", room ", room, ": ", of_manifold, " outside");
+    for (const int max_contacts : kMaxContacts) {
+      const double of_manifold = largest_excess(pair, out, max_contacts);
+      if (!(of_manifold <= kTolerance)) FAIL_CHECK(name(), ", max_contacts ", max_contacts, ": ", of_manifold, " outside");
     }
   });
   CHECK(queries == 24 * 24 * 5 * 9 * 4);
@@ -302,7 +302,7 @@ TEST_CASE("all kinds of bodies and sizes: a contact acts within the overlap of b
   CHECK(unconverged <= shallow / 150);
 }
 
-TEST_CASE("slender bodies in any attitude, at any depth: a contact acts within the overlap of both bodies") {
+TEST_CASE("slender bodies in any orientation, at any depth: a contact acts within the overlap of both bodies") {
   Placing placing(36);
   int deep = 0;
   for (int k = 0; k < 6000; ++k) {

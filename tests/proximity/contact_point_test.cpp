@@ -58,7 +58,7 @@ TEST_CASE("the contact lies halfway between the two supporting planes, or betwee
   CHECK(moved <= 10);  // of 1600, octahedral ones
 }
 
-TEST_CASE("the contact lies halfway beside the edge of a nearly polyhedral body, which the least turn of the normal leaves") {
+TEST_CASE("the contact lies halfway beside the edge of a nearly polyhedral body, which the least tilt of the normal leaves") {
   const Superellipsoid body(Vector3(0.84, 0.54, 0.92), 1.0334, 104.5);
   const Box box(Vector3(1, 1, 1));
   for (const Vector3& direction : random_normals(3000, 82)) {
@@ -82,8 +82,8 @@ TEST_CASE("two spheres: the middle of the overlap") {
   }
 }
 
-TEST_CASE("a flat face and a sharp corner: at the corner") {
-  // The corner of an octahedron, off the middle of the face of a box, pushed in by 0.01.
+TEST_CASE("a flat face and a sharp vertex: at the vertex") {
+  // The vertex of an octahedron, off the middle of the face of a box, pushed in by 0.01.
   const Superellipsoid box(Vector3(3, 2, 1), 100, 100), corner(Vector3::Constant(1), 1.05, 1.05);
   for (const Vector3& place : {Vector3(0, 0, 0), Vector3(1, 0.5, 0), Vector3(-2, -1.2, 0)}) {
     const Vector3 centre = place + Vector3(0, 0, 1 + 1 - 0.01);
@@ -97,7 +97,7 @@ TEST_CASE("a flat face and a sharp corner: at the corner") {
   }
 }
 
-TEST_CASE("without radii of curvature: between the witness points, nearer to that of the sharper body") {
+TEST_CASE("without radii of curvature: between the witness points, nearer to the sharper body's") {
   const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(3, 2, 1));
   const CallbackShape plain([=](const Vector3& n) { return ellipsoid->support(n); },
                             [=](const Vector3& n) { return ellipsoid->point(n); });

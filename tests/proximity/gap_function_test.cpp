@@ -45,7 +45,7 @@ TEST_CASE("s is the distance of the two supporting planes, d joins the boundary 
   CHECK(gap.evaluations() == 100);
 }
 
-TEST_CASE("d is the gradient of s, -H that of d") {
+TEST_CASE("d is the gradient of s, -H the gradient of d") {
   GapFunction gap(kShape1, kPose1, kShape2, kPose2);
   int checked = 0;
   for (const Vector3& n : random_normals(50, 42)) {
@@ -104,7 +104,7 @@ TEST_CASE("the stated rounding of s is one") {
   }
 }
 
-// The turn of body 2 is known to its last digit, times the distance of the body from the origin of its frame.
+// The rotation of body 2 is known to its last digit, times the distance of the body from the origin of its frame.
 TEST_CASE("the stated rounding of s counts how far bodies are from the origins of their frames, and so does what is claimed") {
   using Real = long double;
   using Real3 = Eigen::Matrix<Real, 3, 1>;
@@ -139,7 +139,7 @@ TEST_CASE("the stated rounding of s counts how far bodies are from the origins o
   }
 }
 
-TEST_CASE("a Hessian needs those of both bodies") {
+TEST_CASE("a Hessian needs the Hessians of both bodies") {
   const CallbackShape plain([](const Vector3& n) { return kShape1.support(n); }, [](const Vector3& n) { return kShape1.point(n); });
   CHECK(GapFunction(kShape1, {}, kShape2, {}).has_hessian());
   CHECK_FALSE(GapFunction(plain, {}, kShape2, {}).has_hessian());

@@ -1,4 +1,4 @@
-// Tests that order, place, attitude and unit of length change results only by rounding.
+// Tests that order, place, orientation and unit of length change results only by rounding.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -65,7 +65,7 @@ TEST_CASE("swapping the bodies swaps the answer") {
   }
 }
 
-TEST_CASE("a pure translation by 10 km: the answer is that of the rounded positions, bit for bit") {
+TEST_CASE("a pure translation by 10 km: the answer belongs to the rounded positions, bit for bit") {
   const Vector3 far(6000, -7000, 3872.983346207417);
   for (const ReferencePair& pair : reference_pairs()) {
     Pose far1 = pair.pose1, far2 = pair.pose2, near2 = pair.pose2;
@@ -91,7 +91,7 @@ TEST_CASE("a rigid motion by 10 km changes the gap by the rounding of the positi
     far2 = {far + turn * pair.pose2.position, turn * pair.pose2.rotation};
     const Proximity out = find_proximity(*pair.shape1, pair.pose1, *pair.shape2, pair.pose2, tight());
     const Proximity moved = find_proximity(*pair.shape1, far1, *pair.shape2, far2, tight());
-    // Three coordinates, each rounded to half a unit in the last place of 10 km; the attitude to a few of 1.
+    // Three coordinates, each rounded to half a unit in the last place of 10 km; the rotation to a few of 1.
     const double rounding = std::sqrt(3) * kEpsilon * 1e4 +
                             8 * kEpsilon * (pair.surface1.half_axes().maxCoeff() + pair.surface2.half_axes().maxCoeff());
     const double difference = std::abs(out.gap - moved.gap);

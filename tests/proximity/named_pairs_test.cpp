@@ -19,8 +19,8 @@ Settings fine() {
   return settings;
 }
 
-Pose at(const Vector3& position, const Eigen::Quaterniond& attitude = Eigen::Quaterniond::Identity()) {
-  return {position, attitude.toRotationMatrix()};
+Pose at(const Vector3& position, const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity()) {
+  return {position, orientation.toRotationMatrix()};
 }
 
 Superellipsoid superball(double radius, double exponent) { return {Vector3::Constant(radius), exponent, exponent}; }
@@ -81,9 +81,9 @@ TEST_CASE("L2: superballs of the LAMMPS unit tests overlap by a tenth of the rad
 
 TEST_CASE("concentric, identical, aligned bodies: twice the smallest half-axis") {
   for (const Superellipsoid& shape : superellipsoids(2, 200)) {
-    for (const Eigen::Quaterniond& attitude :
+    for (const Eigen::Quaterniond& orientation :
          {Eigen::Quaterniond::Identity(), Eigen::Quaterniond(0.8, 0.1, -0.3, 0.5).normalized()}) {
-      const Pose pose = at({1, 2, 3}, attitude);
+      const Pose pose = at({1, 2, 3}, orientation);
       const Proximity out = find_proximity(*make_shape(shape), pose, *make_shape(shape), pose, fine());
       const double depth = 2 * shape.half_axes().minCoeff();
       const bool good = out.status == Status::Converged && std::abs(out.gap + depth) <= 1e-10 * depth;
@@ -128,8 +128,8 @@ TEST_CASE("bricks that lie on one another, beside one another's middle: the same
     const Superellipsoid brick(Vector3(0.5, 0.4, 0.3), exponent, exponent);
     for (const double gap : {1e-6, 0.0, -1e-6, -1e-4}) {
       for (const Vector3& normal : random_normals(100, 22)) {
-        const Eigen::Quaterniond attitude(Eigen::AngleAxisd(1e-5 * normal.x(), normal));
-        const Pose above = at({0.45 * normal.x(), 0.35 * normal.y(), 0.6 + gap}, attitude);
+        const Eigen::Quaterniond orientation(Eigen::AngleAxisd(1e-5 * normal.x(), normal));
+        const Pose above = at({0.45 * normal.x(), 0.35 * normal.y(), 0.6 + gap}, orientation);
         const Proximity first = find_proximity(brick, {}, brick, above);
         const Proximity again = find_proximity(brick, {}, brick, above, {}, &first.normal);
         CHECK(again.status == Status::Converged);

@@ -40,11 +40,11 @@ class RandomPairs {
   /// Near touching, apart or overlapping by up to about half of the size.
   Pose pose(const Superellipsoid& shape1, const Superellipsoid& shape2) {
     const Vector3 direction{gauss_(engine_), gauss_(engine_), gauss_(engine_)};
-    const Eigen::Quaterniond attitude{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
+    const Eigen::Quaterniond orientation{gauss_(engine_), gauss_(engine_), gauss_(engine_), gauss_(engine_)};
     const Vector3 n = direction.normalized();
     const double reach = std::exp(std::log(2.0) * between_linear(-1, 0.5));
-    return {reach * (shape1.support(n) + shape2.support(attitude.normalized().conjugate() * -n)) * n,
-            attitude.normalized().toRotationMatrix()};
+    return {reach * (shape1.support(n) + shape2.support(orientation.normalized().conjugate() * -n)) * n,
+            orientation.normalized().toRotationMatrix()};
   }
 
  private:

@@ -25,7 +25,7 @@ int percentile(std::vector<int> values, double share) {
 
 bool has_sharp_edges(const std::string& kind) { return kind == "extreme_boxy" || kind == "octahedral"; }
 
-/// The reference was computed in 80 bits from the same numbers, but here the attitude is a rounded matrix.
+/// The reference was computed in 80 bits from the same numbers, but here the rotation is a rounded matrix.
 double reference_rounding(const ReferencePair& pair) {
   return std::numeric_limits<double>::epsilon() * (std::abs(pair.gap) + pair.surface2.half_axes().maxCoeff());
 }
@@ -36,7 +36,7 @@ using Evaluations = std::map<std::string, std::vector<int>>;  // by class
 const std::map<std::string, int> kMedianLimits = {{"sphere", 5}, {"ellipsoid", 5},    {"needle_disk", 5}, {"moderate", 6},
                                                   {"boxy", 8},   {"extreme_boxy", 8}, {"octahedral", 10}, {"mixed", 10}};
 
-/// One at `pair`, as a time step earlier would have left it: moved by 1e-3 of the smallest half-axis and turned by 1e-3.
+/// One at `pair`, as a time step earlier would have left it: moved by 1e-3 of the smallest half-axis and rotated by 1e-3.
 Pose nearby(const ReferencePair& pair, std::mt19937_64& engine) {
   std::normal_distribution<double> gauss;
   const Vector3 shift = Vector3{gauss(engine), gauss(engine), gauss(engine)}.normalized();

@@ -53,8 +53,8 @@ Pose pose_of(const Vector3& position, double w, double x, double y, double z) {
 
 }  // namespace
 
-// Both have their sharpest vertex there: s = -depth cos(turn), and no curvature that a program's functions would show.
-TEST_CASE("vertex in vertex without Hessians: the interval covers the hill around the normal between, which is a minimum") {
+// Both have their sharpest vertex there: s = -depth cos(angle), and no curvature that a program's functions would show.
+TEST_CASE("vertex in vertex without Hessians: the interval covers the maxima around the normal between, which is a minimum") {
   const auto sharp1 = std::make_shared<Superellipsoid>(Vector3(1.1, 0.635, 0.75), 1.108, 1.143);
   const Superellipsoid body1(*sharp1);
   const CallbackShape body2 = without_hessian(std::make_shared<Superellipsoid>(Vector3(0.529, 1.3, 0.964), 1.162, 1.113));
@@ -74,7 +74,7 @@ TEST_CASE("vertex in vertex without Hessians: the interval covers the hill aroun
   }
 }
 
-// Both are turned by a millionth from one another.
+// They are rotated by a millionth from each other.
 TEST_CASE("apex on a flat top, apart: the error covers every normal around, beside which the curvature is infinite") {
   const Superellipsoid apex(Vector3(0.611306, 1.00865, 0.507747), 3.33016, 1.31775);
   const Superellipsoid top(Vector3(0.658949, 1.03858, 0.716509), 1.33293, 3.87141);
@@ -106,7 +106,7 @@ TEST_CASE("needles tip to tip, apart: rough answers cover the exact one") {
   }
 }
 
-// The rim has a boundary point for every such normal, 1e-12 beside that of the face: their cuts differ in the last digits.
+// The edge has a boundary point for every such normal, 1e-12 beside the face's: their cuts differ in the last digits.
 TEST_CASE("on a cylinder's face from a normal beside it: the face's depth to rounding") {
   const Cylinder cylinder(1.104268465, 0.6836455581);
   const Superellipsoid body(Vector3(1.2002188, 0.70805422, 0.79908887), 15.2757819, 10.33515995);
@@ -129,9 +129,9 @@ TEST_CASE("on a cylinder's face from a normal beside it: the face's depth to rou
   }
 }
 
-// Seen from the needle's flat side the rim's curvature is overestimated to one side and to the other; the maximum is 1e-6 beside
+// Seen from the needle's flat side the edge's curvature is overestimated to one side and to the other; the maximum is 1e-6 beside
 // the normal of the cap.
-TEST_CASE("needle across a cylinder's rim, apart: the error covers the normals between the cap's and the maximum") {
+TEST_CASE("needle across a cylinder's edge, apart: the error covers the normals between the cap's and the maximum") {
   const Cylinder cylinder(2.7598075274203726, 0.41336571351567486);
   const Superellipsoid needle(Vector3(0.80612899117088677, 0.14950435281593677, 0.067824181045325865), 5.8889, 50.876);
   const Pose pose2{Vector3(0.0105, -2.8766, -0.41336571351567486 - 0.067824181045325865 - 5.7e-7), Matrix3::Identity()};
@@ -152,8 +152,8 @@ TEST_CASE("next to nothing beside a cylinder's axis: the depth along the axis") 
   CHECK(answer.gap == test::relative(-1e-3).epsilon(1e-12));
 }
 
-// The nearest corner of the box's face is exactly on the vertex, and the other corners do not hold the normal there.
-TEST_CASE("a box's corner exactly on a vertex: the interval covers the hill around the normal between them, which is a minimum") {
+// The nearest vertex of the box's face is exactly on the tip, and the other vertices have zero multipliers there.
+TEST_CASE("a box's vertex exactly on a tip: the interval covers the maxima around the normal between them, which is a minimum") {
   const Superellipsoid body(Vector3(0.520313, 0.775239, 1.29591), 1.0616, 1.0239);
   const Box box(Vector3(0.8265, 1.3193, 0.51));
   const Pose pose2{Vector3(0.8265, 1.3193, 0.51 + 1.29591 - 2.4e-4), Matrix3::Identity()};
@@ -225,7 +225,7 @@ TEST_CASE("apex on a rounded edge, touching: the error covers the placed gap") {
 }
 
 // The faces are parallel but for rounding.
-TEST_CASE("a box's corner over the rim of a flat face: apart, with the right gap") {
+TEST_CASE("a box's vertex over the edge of a flat face: apart, with the right gap") {
   const Superellipsoid body1(Vector3(1.0106766395349354, 1.1199663975031902, 0.93721208263966826), 50.378808016519002,
                              93.708399580680634);
   const Box box(Vector3(1.4393928801921916, 0.63778120268802896, 0.63705217643466394));
@@ -236,8 +236,8 @@ TEST_CASE("a box's corner over the rim of a flat face: apart, with the right gap
   CHECK(answer.gap == test::relative(5.0747044678667308e-06).epsilon(1e-3));
 }
 
-// The tip's curvature is large one way only, so that the edge of the polytope does not hold the normal for long.
-TEST_CASE("an octahedron's tip beside a corner of a polytope: apart, and the interval covers the placed gap") {
+// The tip's curvature is large one way only, so the edge of the polytope soon has a zero multiplier.
+TEST_CASE("an octahedron's tip beside a vertex of a polytope: apart, and the interval covers the placed gap") {
   const Superellipsoid tip(Vector3(1.4246107994091295, 1.4552453147657094, 1.4980420995776373), 1.0611851224682807,
                            1.1857292548358858);
   const std::vector<Vector3> corners{{-0.22475503103533237, -1.0839390061168674, 0.1805641183498764},
@@ -268,7 +268,7 @@ TEST_CASE("a ball deep in a ball a thousand times its size: what rounding says o
   }
 }
 
-// On the way the normal zigzags towards that of both faces; s rises by 0.4 m a radian across its way.
+// On the way the normal zigzags towards the normal of both faces; s rises by 0.4 m a radian across its way.
 TEST_CASE("a brick's face on the border of a cylinder's: touching, to within the error") {
   const Superellipsoid brick(Vector3(0.89149106403377165, 2.1096758913725617, 0.16434391453892452), 53.271583303711246,
                              11.288821456855265);
@@ -282,7 +282,7 @@ TEST_CASE("a brick's face on the border of a cylinder's: touching, to within the
   CHECK(std::abs(answer.gap) <= answer.error);  // placed to touch
 }
 
-// A turn by 2e-15 brings the brick's point from one end of its face to the other.
+// A rotation by 2e-15 brings the brick's point from one end of its face to the other.
 TEST_CASE("a brick's edge on a box's, from a first normal: touching, to within the error") {
   const Box box(Vector3(0.58565179804385514, 1.3107073814951085, 0.71420637497054951));
   const Superellipsoid brick(Vector3(0.68207095075621638, 1.2143136173534945, 0.61676367917088692), 102.59479598454982,
@@ -316,7 +316,7 @@ TEST_CASE("a tip in another's, one without a Hessian, touching at a loose tolera
   CHECK(find_proximity(body1, {}, body2, pose2, {}).gap <= answer.gap + answer.error);
 }
 
-// On the cap's normal s rises along one azimuth only, that of the tip to 1e-7: steps a thousandth beside it lead down.
+// On the cap's normal s rises along one azimuth only, the tip's to 1e-7: steps a thousandth beside it lead down.
 TEST_CASE(
     "an octahedron's tip on the rim of a cylinder, at the finest tolerance: the error covers a normal between the cap's and the "
     "mantle's") {
@@ -331,7 +331,7 @@ TEST_CASE(
   settings.tolerance = 1e-15;
   const Proximity answer = find_proximity(cylinder, {}, tip, pose2, settings);
   check_proved(answer);
-  CHECK(2.7688962234151404e-13 <= answer.gap + answer.error);  // that of a normal between the cap's and the mantle's
+  CHECK(2.7688962234151404e-13 <= answer.gap + answer.error);  // at a normal between the cap's and the side's
 }
 
 // The vertices that are near the normal tell of nothing more to gain; there is, a quarter of a radian away.

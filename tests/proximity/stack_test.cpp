@@ -1,5 +1,5 @@
 // Tests that the former content of the stack does not decide an answer: the reference pairs, and bodies that do not name all of
-// their corners.
+// their vertices.
 #include <doctest/doctest.h>
 
 #include "supernormal/proximity/solve.hpp"
@@ -42,7 +42,7 @@ TEST_CASE("reference pairs: every solver gives the same digits over any stack, a
   }
 }
 
-TEST_CASE("a body with faces that names no corner is known by its boundary points") {
+TEST_CASE("a body with faces that names no vertex is known by its boundary points") {
   const Reticent box(Vector3(0.5, 0.4, 0.3));
   const Ellipsoid body(Vector3(1, 0.8, 0.6));
   for (const double height : {0.5, 0.85, 0.95}) {

@@ -35,7 +35,7 @@ class PairsOfOneBody {
   const std::vector<RandomPair>& pairs() const { return pairs_; }
 
  private:
-  std::vector<std::unique_ptr<RandomBodies>> bodies_;  // they hold corners that the pairs refer to
+  std::vector<std::unique_ptr<RandomBodies>> bodies_;  // they hold vertices that the pairs refer to
   std::vector<RandomPair> pairs_;
 };
 

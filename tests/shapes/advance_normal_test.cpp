@@ -81,7 +81,7 @@ TEST_CASE("superellipsoid: without a step the boundary point gives its normal ba
   }
 }
 
-TEST_CASE("flat superellipsoid: the advanced normal is that of the moved point") {
+TEST_CASE("flat superellipsoid: the advanced normal is the normal of the moved point") {
   const std::vector<Vector3> normals = all_normals(100, 23);
   const std::vector<Vector3> steps = random_normals(static_cast<int>(normals.size()), 24);
   int checked = 0;
@@ -124,7 +124,7 @@ TEST_CASE("flat cross-sections, sharp at the pole: a step across the plane of sy
   }
 }
 
-TEST_CASE("a flat face with sharp sections: the point goes where it is to go, however far a normal near the axis turns") {
+TEST_CASE("a flat face with sharp sections: the point goes where it is to go, however far a normal near the axis rotates") {
   const Superellipsoid superellipsoid({1.03, 0.39, 1.14}, 1.06, 35);
   const Superovoid superovoid({1.03, 0.39, 1.14}, 1.06, 35, 0.01, 0.01);
   for (const Shape* shape : {static_cast<const Shape*>(&superellipsoid), static_cast<const Shape*>(&superovoid)}) {
@@ -134,7 +134,7 @@ TEST_CASE("a flat face with sharp sections: the point goes where it is to go, ho
       return (shape->point(shape->advance_normal(n, jet, way).normalized()) - target).norm();
     };
     const auto along_x = [&](const Vector3& n, double way) { return way / shape->jet(n).H(0, 0); };
-    // The step leads off an edge, which does not hold the normal, by 10 000 times its part across the axis.
+    // The step leads off a curved edge by 10 000 times its part across the axis.
     const Vector3 beside(1e-15, 0, -1);
     for (const double turn : {1e-12, 1e-11, 1e-5}) CHECK(miss(beside, {along_x(beside, 0.13), turn, 0}) <= 1e-3);
     // The step leads across the middle of the face.

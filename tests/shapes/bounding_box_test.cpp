@@ -36,7 +36,7 @@ void check_box(const BoundingBox& box, const Vector3& centre, const Vector3& hal
 
 }  // namespace
 
-TEST_CASE("bounding box: closed forms of a turned ellipsoid and a turned box") {
+TEST_CASE("bounding box: closed forms of a rotated ellipsoid and a rotated box") {
   const Pose pose = somewhere();
   const Vector3 half_axes(1, 0.5, 0.2);
   const Matrix3 scaled = pose.rotation * half_axes.asDiagonal();
@@ -44,7 +44,7 @@ TEST_CASE("bounding box: closed forms of a turned ellipsoid and a turned box") {
   check_box(find_bounding_box(Box(half_axes), pose), pose.position, scaled.cwiseAbs().rowwise().sum());
 }
 
-TEST_CASE("bounding box: of points it is that of their coordinates, wherever the origin of the body is") {
+TEST_CASE("bounding box: of points it is the range of their coordinates, wherever the origin of the body is") {
   const std::array<Vector3, 3> points{Vector3(1, 2, 3), Vector3(2, 2, 5), Vector3(1.5, 4, 4)};
   const BoundingBox box = find_bounding_box(Polytope(points), {});
   CHECK(box.low == Vector3(1, 2, 3));

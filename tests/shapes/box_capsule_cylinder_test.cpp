@@ -1,4 +1,4 @@
-// Tests of the bodies of ODE as shapes: support and points against brute force, corners, mass by independent methods.
+// Tests of the bodies of ODE as shapes: support and points against brute force, vertices, mass by independent methods.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Checks h, r and the corners against points that cover the boundary, the farthest of which is within `grain` of the true
+/// Checks h, r and the vertices against points that cover the boundary, the farthest of which is within `grain` of the true
 /// maximum.
 void check_against(const Shape& shape, const std::vector<Vector3>& boundary, const std::vector<Vector3>& normals, double grain) {
   const double size = shape.half_extents().norm();
@@ -37,8 +37,8 @@ void check_against(const Shape& shape, const std::vector<Vector3>& boundary, con
     for (const Vector3& m : normals) {
       if (!(m.dot(jet.r) <= shape.support(m) + 4e-15 * size)) FAIL_CHECK("r is not a point of the body: n ", text(n));
     }
-    ActiveVertices corners;
-    shape.add_active_vertices(n, Vector3(0.3, -0.2, 0.1), corners);
+    ActiveVertices vertices;
+    shape.add_active_vertices(n, Vector3(0.3, -0.2, 0.1), vertices);
     double highest = -1e300;
     for (int k = 0; k < vertices.size(); ++k) highest = std::max(highest, n.dot(vertices[k]));
     if (shape.traits().has_nonsmooth_points && !(std::abs(highest - jet.h) <= 4e-15 * size))
@@ -104,7 +104,7 @@ void check_mass(const MassProperties& mass, const MassProperties& expected, doub
 
 }  // namespace
 
-TEST_CASE("box: support and points against its corners; mass of its closed form") {
+TEST_CASE("box: support and points against its vertices; mass of its closed form") {
   const Vector3 half(3, 2, 0.5);
   check_against(Box(half), box_corners(half), normals_of_test(61), 1e-15);
   CHECK(Box(half).half_extents() == half);
@@ -143,7 +143,7 @@ TEST_CASE("cylinder: support and points against its rims; mass by slices") {
   check_against(Cylinder(2, 0), cylinder_points(2, 0), normals_of_test(67), 2e-4);
 }
 
-TEST_CASE("cylinder: the corners of a cap have the given point between them, those of the side are its two ends") {
+TEST_CASE("cylinder: the vertices of a cap have the given point between them, the vertices of the side are its two ends") {
   const Cylinder cylinder(2, 1);
   for (const double sign : {1.0, -1.0}) {
     ActiveVertices cap;
@@ -178,14 +178,14 @@ TEST_CASE("polytope: support and points against its points, whatever lies inside
   check_against(Polytope(triangle), triangle, normals_of_test(71), 1e-15);
 }
 
-TEST_CASE("polytope: mass of a box, turned and moved, with points in its faces, inside and twice") {
+TEST_CASE("polytope: mass of a box, rotated and moved, with points in its faces, inside and twice") {
   const Vector3 half(3, 2, 0.5);
   std::vector<Vector3> points = box_corners(half);
-  const std::vector<Vector3> corners = points;
-  for (const Vector3& corner : corners) {
-    points.emplace_back(corner.cwiseProduct(Vector3(0.3, -0.7, 1)));
-    points.emplace_back(0.5 * corner);
-    points.push_back(corner);
+  const std::vector<Vector3> vertices = points;
+  for (const Vector3& vertex : vertices) {
+    points.emplace_back(vertex.cwiseProduct(Vector3(0.3, -0.7, 1)));
+    points.emplace_back(0.5 * vertex);
+    points.push_back(vertex);
   }
   for (const double angle : {0.0, 0.3, 0.77, 2.1}) {
     const Matrix3 rotation = Eigen::AngleAxisd(angle, Vector3(1, 2, 3).normalized()).toRotationMatrix();
@@ -206,7 +206,7 @@ TEST_CASE("polytope: mass of tetrahedron, octahedron, needles and a fine sphere"
   const MassProperties mass = Polytope(tetrahedron).mass_properties();
   CHECK(mass.volume == relative(1).epsilon(1e-15));
   CHECK((mass.centroid - Vector3(0.25, 0.5, 0.75)).norm() <= 1e-15);
-  // For it the integral of x^2 is V a^2/10, that of x y is V a b/20.
+  // For it the integral of x^2 is V a^2/10, and of x y V a b/20.
   CHECK(mass.second_moment(0, 0) == relative(0.1).epsilon(1e-14));
   CHECK(mass.second_moment(1, 2) == relative(6.0 / 20).epsilon(1e-14));
   for (const double thinness : {1.0, 1e-3, 1e-9}) {

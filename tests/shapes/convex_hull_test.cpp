@@ -64,16 +64,16 @@ TEST_CASE("random points, few places and many: all behind all faces, closed") {
 
 TEST_CASE("the outermost places of the lattice do not overflow") {
   const std::int64_t w = kLatticeHalfWidth;
-  std::vector<LatticePoint> corners;
+  std::vector<LatticePoint> vertices;
   for (const std::int64_t x : {-w, w}) {
     for (const std::int64_t y : {-w, w}) {
-      for (const std::int64_t z : {-w, w}) corners.push_back({x, y, z});
+      for (const std::int64_t z : {-w, w}) vertices.push_back({x, y, z});
     }
   }
-  CHECK(hull_faces(corners) == 12);
+  CHECK(hull_faces(vertices) == 12);
 }
 
-TEST_CASE("points on a sphere are all corners: 2n - 4 triangles") {
+TEST_CASE("points on a sphere are all vertices: 2n - 4 triangles") {
   Generator g;
   std::vector<LatticePoint> points;
   for (int k = 0; k < 500; ++k) {

@@ -1,4 +1,4 @@
-// Tests that r is the gradient of h, and H that of r.
+// Tests that r is the gradient of h, and H the gradient of r.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// The largest angle by which n may be turned before it crosses a coordinate plane, which limits the smoothness of h.
+/// The largest angle by which n may rotate before it crosses a coordinate plane, which limits the smoothness of h.
 double room(const Vector3& n) { return 0.3 * std::asin(n.cwiseAbs().minCoeff()); }
 
 /// The result of comparisons with finite differences.
@@ -51,11 +51,11 @@ void check_derivatives(const Shape& shape, const Vector3& n, const std::string& 
 
 }  // namespace
 
-TEST_CASE("superellipsoid: r is the gradient of h and H that of r") {
+TEST_CASE("superellipsoid: r is the gradient of h and H the gradient of r") {
   Comparison gradient, hessian;
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
     for (const Vector3& n : random_normals(20, 11)) {
-      if (n.cwiseAbs().minCoeff() < 0.03) continue;  // there is no room for a difference
+      if (n.cwiseAbs().minCoeff() < 0.03) continue;  // too narrow for a difference
       check_derivatives(shape, n, text(shape), gradient, hessian);
     }
   }
@@ -86,7 +86,7 @@ TEST_CASE("superellipsoid: H is known near the coordinate planes, where it is a 
   }
 }
 
-TEST_CASE("ellipsoid: r is the gradient of h and H that of r") {
+TEST_CASE("ellipsoid: r is the gradient of h and H the gradient of r") {
   Comparison gradient, hessian;
   for (const Vector3& half_axes : {Vector3(3, 2, 1), Vector3(1, 1, 1), Vector3(0.1, 10, 1)}) {
     for (const Vector3& n : random_normals(40, 12)) check_derivatives(Ellipsoid(half_axes), n, text(half_axes), gradient, hessian);

@@ -1,4 +1,4 @@
-// Tests of what shapes say of the points that they hold, against their boundary points.
+// Tests of what shapes say of the points inside them, against their boundary points.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -41,12 +41,12 @@ Shapes with_equation() {
 
 /// Shapes of which the point that is asked for may be inside or not.
 Shapes without_equation() {
-  static const std::array<Vector3, 4> corners = {Vector3(1, 0, 9), Vector3(0, 1, 9), Vector3(0, 0, 10), Vector3(-1, -1, 8)};
+  static const std::array<Vector3, 4> vertices = {Vector3(1, 0, 9), Vector3(0, 1, 9), Vector3(0, 0, 10), Vector3(-1, -1, 8)};
   const auto grain = std::make_shared<Superellipsoid>(Vector3(3, 2, 1), 3.5, 1.7);
   const auto ball_aside = [](const Vector3& n) { return Vector3(n + 3 * Vector3::UnitX()); };
   Matrix3 shear;
   shear << 2, 0.5, 0, -0.3, 1, 0.1, 0.7, 0, 0.4;
-  const auto hull = std::make_shared<Polytope>(corners);
+  const auto hull = std::make_shared<Polytope>(vertices);
   return {
       hull,
       std::make_shared<CallbackShape>([=](const Vector3& n) { return n.dot(ball_aside(n)); }, ball_aside),
@@ -75,7 +75,7 @@ TEST_CASE("a body surely contains what is inside its boundary, where there is an
   CHECK(rounded.surely_contains(Vector3(0.9, -1.9, 2.9)));
 }
 
-TEST_CASE("no point of a body is beyond its bounding radius, which is at most that of the bounding box's corner") {
+TEST_CASE("no point of a body is beyond its bounding radius, which is at most the distance of the bounding box's vertex") {
   const std::vector<Vector3> normals = all_normals(300, 1);
   Shapes shapes = with_equation();
   for (const auto& shape : without_equation()) shapes.push_back(shape);

@@ -1,4 +1,4 @@
-// Tests of stretched, sheared, turned and mirrored shapes against known shapes.
+// Tests of stretched, sheared, rotated and mirrored shapes against known shapes.
 #include "supernormal/shapes/linear_image.hpp"
 
 #include <doctest/doctest.h>
@@ -42,7 +42,7 @@ void check_same(const Shape& image, const Shape& expected, const std::vector<Vec
 
 }  // namespace
 
-TEST_CASE("linear image: the ellipsoid is that of the sphere, to rounding") {
+TEST_CASE("linear image: the image of a sphere is the ellipsoid, to rounding") {
   const Ellipsoid ellipsoid(Vector3(3, 2, 1));
   const LinearImage image(std::make_shared<Sphere>(1), diagonal(3, 2, 1));
   check_same(image, ellipsoid, random_normals(200, 51), 2e-15);
@@ -94,7 +94,7 @@ TEST_CASE("linear image: H is the derivative of r, symmetric, with the normal in
   }
 }
 
-TEST_CASE("linear image: of a box a parallelepiped, with its corners, faces, mass and gaps") {
+TEST_CASE("linear image: of a box a parallelepiped, with its vertices, faces, mass and gaps") {
   const Matrix3 matrix = some_shear();
   const auto box = std::make_shared<Box>(Vector3(1, 2, 0.5));
   const LinearImage image(box, matrix);
@@ -114,10 +114,10 @@ TEST_CASE("linear image: of a box a parallelepiped, with its corners, faces, mas
   const Pose here{Vector3::Zero(), Matrix3::Identity()};
   for (const Vector3& n : random_normals(40, 56)) {
     CHECK(image.support(n) == relative(polytope.support(n)).epsilon(1e-15));
-    ActiveVertices corners;
-    image.add_active_vertices(n, Vector3::Zero(), corners);
-    CHECK(corners.size() == 8);
-    CHECK_FALSE(corners.is_partial());
+    ActiveVertices vertices;
+    image.add_active_vertices(n, Vector3::Zero(), vertices);
+    CHECK(vertices.size() == 8);
+    CHECK_FALSE(vertices.is_partial());
     const Pose there{4 * n, Matrix3::Identity()};
     CHECK(find_proximity(ellipsoid, here, image, there, Settings{}).gap ==
           relative(find_proximity(ellipsoid, here, polytope, there, Settings{}).gap).epsilon(1e-9));

@@ -36,7 +36,7 @@ void check_equal(const MassProperties& a, const MassProperties& b, double tolera
   }
 }
 
-/// The shape turned and moved, as a user-defined body.
+/// The shape rotated and moved, as a user-defined body.
 CallbackShape placed(const std::shared_ptr<const Shape>& shape, const Matrix3& rotation, const Vector3& position,
                      bool with_hessian) {
   const auto support = [=](const Vector3& n) { return shape->support(rotation.transpose() * n) + n.dot(position); };
@@ -103,7 +103,7 @@ TEST_CASE("mass: superellipsoid between octahedron and box") {
   CHECK(mean_squares(octahedron).x() == relative(0.9).epsilon(0.04));
 }
 
-TEST_CASE("mass: quadrature over the normals against closed forms, turned and moved") {
+TEST_CASE("mass: quadrature over the normals against closed forms, rotated and moved") {
   for (const Vector3& axes :
        {Vector3(3, 2, 1), Vector3(100, 1, 1), Vector3(1, 100, 100), Vector3(1, 10, 100), Vector3(1e-8, 2e-8, 3e-8)}) {
     const auto ellipsoid = std::make_shared<Ellipsoid>(axes);
@@ -213,7 +213,7 @@ TEST_CASE("mass: Steiner's formula for every exponent and slender bodies") {
     if (!(std::abs(coefficients[3] - 4 * std::numbers::pi / 3) <= 1e-13 * lost))
       FAIL_CHECK(text(shape), " cubic ", coefficients[3]);
     CHECK(Rounded(core, 0.1).mass_properties().relative_error <= 1e-10);
-    // A thin layer is area times thickness: second moments continue those of the core.
+    // A thin layer is area times thickness: second moments continue the core's.
     const double thin = 1e-9 * shape.half_axes().minCoeff();
     check_equal(Rounded(core, thin).mass_properties(), shape.mass_properties(), 1e-8, text(shape));
   }

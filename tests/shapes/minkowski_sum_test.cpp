@@ -23,15 +23,15 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Checks that every corner is a point of the body, and that the highest is on its supporting plane.
+/// Checks that every vertex is a point of the body, and that the highest is on its supporting plane.
 void check_corners(const Shape& shape, const Vector3& n) {
-  ActiveVertices corners;
-  shape.add_active_vertices(n, Vector3(0.3, -0.2, 0.1), corners);
-  REQUIRE(corners.size() > 0);
+  ActiveVertices vertices;
+  shape.add_active_vertices(n, Vector3(0.3, -0.2, 0.1), vertices);
+  REQUIRE(vertices.size() > 0);
   double highest = -1e300;
-  for (int k = 0; k < corners.size(); ++k) {
-    highest = std::max(highest, n.dot(corners[k]));
-    for (const Vector3& m : random_normals(30, 41)) CHECK(m.dot(corners[k]) <= shape.support(m) + 1e-14);
+  for (int k = 0; k < vertices.size(); ++k) {
+    highest = std::max(highest, n.dot(vertices[k]));
+    for (const Vector3& m : random_normals(30, 41)) CHECK(m.dot(vertices[k]) <= shape.support(m) + 1e-14);
   }
   CHECK(highest == relative(shape.support(n)).epsilon(1e-14));
 }
@@ -92,7 +92,7 @@ TEST_CASE("Minkowski sum: two balls, two ellipsoids of one shape, a segment and 
   }
 }
 
-TEST_CASE("Minkowski sum: boxes add to a box, corners are points of the body and reach the supporting plane") {
+TEST_CASE("Minkowski sum: boxes add to a box, vertices are points of the body and reach the supporting plane") {
   const auto box = std::make_shared<Box>(Vector3(3, 2, 1));
   const auto small = std::make_shared<Box>(Vector3(0.5, 0.25, 1));
   const auto cylinder = std::make_shared<Cylinder>(0.5, 1);
@@ -118,7 +118,7 @@ TEST_CASE("Minkowski sum: boxes add to a box, corners are points of the body and
   CHECK(face == Vector3(0, 0, -1));
 }
 
-TEST_CASE("Minkowski sum: the gap of a sum is that of its parts") {
+TEST_CASE("Minkowski sum: the gap of a sum follows from its parts") {
   // dist(A + B, C) = dist(A, C - B): with a ball C and a body B that is its own mirror image, there are three ways to one number.
   const auto box = std::make_shared<Box>(Vector3(3, 2, 1));
   const auto ellipsoid = std::make_shared<Ellipsoid>(Vector3(0.5, 1, 0.7));

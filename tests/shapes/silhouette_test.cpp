@@ -12,7 +12,7 @@
 
 using namespace supernormal;
 
-TEST_CASE("an ellipsoid's silhouette is that of its closed form") {
+TEST_CASE("an ellipsoid's silhouette equals its closed form") {
   const Vector3 a(3, 0.2, 1);
   const Ellipsoid body(a);
   for (const Vector3& u : {Vector3(1, 0, 0), Vector3(0, 0, 5), Vector3(1, 2, 3), Vector3(-0.3, 0.9, 0.01)}) {
@@ -22,7 +22,7 @@ TEST_CASE("an ellipsoid's silhouette is that of its closed form") {
   }
 }
 
-TEST_CASE("the silhouette of a box-like body is that of the box to half a per cent") {
+TEST_CASE("the silhouette of a box-like body equals the silhouette of the box to half a per cent") {
   const Vector3 a(0.3, 0.5, 0.2);
   const Superellipsoid body(a, 800, 800);
   for (const Vector3& u : {Vector3(0, 0, 1), Vector3(1, 1, 1), Vector3(3, 1, -2)}) {

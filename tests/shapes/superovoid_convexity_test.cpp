@@ -36,7 +36,7 @@ TEST_CASE("superovoid: what is not convex is refused, with the condition that fa
   CHECK(refusal([&] { Superovoid(axes, 0.9, 2, 0, 0); }) == "delta = 0.9 is outside [1.01, 1000]");
   CHECK(refusal([&] { Superovoid(axes, 2, 1001, 0, 0); }) == "epsilon = 1001 is outside [1.01, 1000]");
   CHECK(refusal([&] { Superovoid(Vector3(1, 0, 1), 2, 2, 0, 0); }) == "half-axis b = 0 m is outside [1e-30, 1e+30] m");
-  // The closed form is that of the header: k^2 <= delta - 1 for tapers -k and k with epsilon = 2.
+  // The closed form in the header: k^2 <= delta - 1 for tapers -k and k with epsilon = 2.
   CHECK(refusal([&] { Superovoid(axes, 1.25, 2, -0.499999, 0.499999); }) == "accepted");
   CHECK(refusal([&] { Superovoid(axes, 1.25, 2, -0.500001, 0.500001); }) != "accepted");
 }

@@ -147,13 +147,13 @@ TEST_CASE("superovoid: no point of the boundary lies outside a supporting plane"
   }
 }
 
-TEST_CASE("superovoid: the normal is that of the implicit equation") {
+TEST_CASE("superovoid: the normal is the gradient of the implicit equation") {
   int checked = 0;
   for (const Superovoid& shape : superovoids(1.3, 7.5, kTapers)) {
     for (const Vector3& n : random_normals(20, 6)) {
       const Vector3 r = shape.point(n);
       const Vector3 share = r.cwiseQuotient(shape.half_extents()).cwiseAbs();
-      if (share.minCoeff() < 0.05) continue;  // there is no room for a difference
+      if (share.minCoeff() < 0.05) continue;  // too narrow for a difference
       ++checked;
       const double angle = (implicit_gradient(shape, r).normalized() - n).norm();
       if (!(angle <= 1e-9)) FAIL_CHECK(text(shape), " n ", test::text(n), " differs by ", angle);
@@ -162,7 +162,7 @@ TEST_CASE("superovoid: the normal is that of the implicit equation") {
   CHECK(checked > 1500);
 }
 
-TEST_CASE("superovoid: H is the derivative of r, r that of h") {
+TEST_CASE("superovoid: H is the derivative of r, r the derivative of h") {
   int checked = 0, undecided = 0;
   for (const Superovoid& shape : superovoids(1.01, 1000, {{0.3, 0.3}, {-0.9, -0.9}, {0.5, -0.2}, {0, 0.7}})) {
     for (const Vector3& n : random_normals(8, 7)) {
@@ -231,7 +231,7 @@ TEST_CASE("superovoid: with tapers 0 it is the superellipsoid, to rounding") {
   }
 }
 
-TEST_CASE("superovoid: opposite tapers turn it upside down; x and y may be exchanged") {
+TEST_CASE("superovoid: opposite tapers put it upside down; x and y may be exchanged") {
   for (const Superovoid& shape : superovoids(1.01, 1000, kTapers)) {
     const Vector3& axes = shape.half_axes();
     const Superovoid flipped(axes, shape.delta(), shape.epsilon(), -shape.taper_x(), -shape.taper_y());
@@ -335,8 +335,8 @@ TEST_CASE("superovoid: mass when rounded: by layers, and by quadrature over the 
   CHECK(layered.volume == relative(numeric.volume).epsilon(1e-10));
   CHECK((layered.centroid - numeric.centroid).norm() <= 1e-10);
   CHECK((layered.second_moment - numeric.second_moment).norm() <= 1e-10 * numeric.second_moment.norm());
-  // Steiner's formula: the volume is a cubic in the radius, the last coefficient that of the ball, the first the body itself. The
-  // body's centroid moves towards that of its surface.
+  // Steiner's formula: the volume is a cubic in the radius, the last coefficient is the ball, the first the body itself. The
+  // body's centroid moves towards the centroid of its surface.
   for (const double exponent : {1.3, 4.0, 50.0}) {
     const double taper = 0.8 * Superovoid::max_taper(exponent);
     const auto core = std::make_shared<Superovoid>(Vector3(3, 2, 1), exponent, exponent, taper, taper);

@@ -39,7 +39,7 @@ TEST_CASE("superellipsoids are symmetric about the origin") {
 }
 
 TEST_CASE("a shape is symmetric about the origin if it says so; others are not") {
-  const std::array<Vector3, 4> corners = {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1), Vector3(-1, -1, -1)};
+  const std::array<Vector3, 4> vertices = {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1), Vector3(-1, -1, -1)};
   const auto grain = std::make_shared<Superellipsoid>(Vector3(3, 2, 1), 3.5, 1.7);
   const auto box = std::make_shared<Box>(Vector3(0.3, 0.2, 0.7));
   const auto egg = std::make_shared<Superovoid>(Vector3(1, 2, 3), 2.5, 2.5, 0.2, 0.2);
@@ -57,7 +57,7 @@ TEST_CASE("a shape is symmetric about the origin if it says so; others are not")
   };
   const std::vector<std::shared_ptr<const Shape>> others = {
       egg,
-      std::make_shared<Polytope>(corners),
+      std::make_shared<Polytope>(vertices),
       std::make_shared<CallbackShape>([](const Vector3& n) { return 1 + 0.1 * n.x(); },
                                       [](const Vector3& n) { return Vector3(n + 0.1 * Vector3::UnitX()); }),
       std::make_shared<Rounded>(egg, 0.1),

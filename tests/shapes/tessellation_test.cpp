@@ -1,4 +1,4 @@
-// Tests of meshes of bodies: corners on the boundary, closed, oriented, within the chord error.
+// Tests of meshes of bodies: vertices on the boundary, closed, oriented, within the chord error.
 #include "supernormal/shapes/tessellation.hpp"
 
 #include <doctest/doctest.h>
@@ -45,7 +45,7 @@ double volume(const Tessellation& mesh) {
   return sum;
 }
 
-/// m; how far the boundary is beyond the mesh: along any normal, no corner reaches as far as the body by more than this.
+/// m; how far the boundary is beyond the mesh: along any normal, no vertex reaches as far as the body by more than this.
 double farthest_beyond(const Shape& shape, const Tessellation& mesh) {
   std::mt19937_64 engine(5);
   std::normal_distribution<double> gauss;
@@ -76,7 +76,7 @@ TEST_CASE("a rounded body's mesh is closed, too") {
   CHECK(farthest_beyond(body, mesh) <= 0.005);
 }
 
-TEST_CASE("a mesh of a body is closed, has its corners on the boundary and its chords within the error") {
+TEST_CASE("a mesh of a body is closed, has its vertices on the boundary and its chords within the error") {
   for (const double exponent : {1.05, 1.5, 2.0, 3.0, 8.0, 30.0, 100.0}) {
     for (const double other : {1.05, 2.0, 100.0}) {
       for (const Vector3& axes : {Vector3(1, 1, 1), Vector3(1, 0.6, 0.3), Vector3(1, 1, 0.01)}) {
@@ -88,7 +88,7 @@ TEST_CASE("a mesh of a body is closed, has its corners on the boundary and its c
           CAPTURE(chord_error);
           const Tessellation mesh = tessellate(body, chord_error * axes.minCoeff());
           CHECK(mesh.normals.size() == mesh.points.size());
-          double farthest = 0;  // of a corner from the boundary
+          double farthest = 0;  // of a vertex from the boundary
           for (std::size_t k = 0; k < mesh.points.size(); ++k) {
             farthest = std::max(farthest, std::abs(mesh.normals[k].dot(mesh.points[k]) - body.support(mesh.normals[k])));
           }
@@ -104,7 +104,7 @@ TEST_CASE("a mesh of a body is closed, has its corners on the boundary and its c
   }
 }
 
-TEST_CASE("bodies with faces, edges and corners: closed, and within the chord error") {
+TEST_CASE("bodies with faces, edges and vertices: closed, and within the chord error") {
   const std::vector<std::shared_ptr<Shape>> bodies = {std::make_shared<Box>(Vector3(1, 0.7, 0.2)),
                                                       std::make_shared<Capsule>(0.3, 1), std::make_shared<Cylinder>(0.5, 0.4),
                                                       std::make_shared<Superovoid>(Vector3(0.5, 0.5, 1), 2, 2, 0.4, 0.4)};

@@ -55,9 +55,9 @@ SUPERNORMAL_API ContactManifold find_contact_manifold(const Shape& shape1, const
 /// The manifold of a body and a plane; `proximity` comes from find_plane_proximity(). The manifold points are points of the body.
 SUPERNORMAL_API ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose, const Proximity& proximity);
 
-/// Reduces the manifold to at most `room` contacts. They are the manifold points at distinct places, deepest first, or the deepest
-/// point if there are no manifold points. The first contact has the depth of the overlap. For two or three contacts, neighbouring
-/// points are merged at a place between them. The result is as continuous as the manifold.
-SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int room);
+/// Reduces the manifold to at most `max_contacts` contacts. They are the manifold points at distinct places, deepest first, or the
+/// deepest point if there are no manifold points. The first contact has the depth of the overlap. For two or three contacts,
+/// neighbouring points are merged at a place between them. The result is as continuous as the manifold.
+SUPERNORMAL_API ContactManifold reduced_to(ContactManifold manifold, int max_contacts);
 
 }  // namespace supernormal

@@ -128,7 +128,7 @@ TEST_CASE("another kept normal changes which cuts stay") {
 }
 
 TEST_CASE("maximize goes on between cuts that are all but parallel") {
-  // Two neighbouring points of a rim, which meet at u = 0: both rise the same way.
+  // Two neighbouring points of a curved edge, which meet at u = 0: both rise the same way.
   constexpr double kRim = 1.104;
   for (int k = 0; k < 200; ++k) {
     const double angle = 0.01 * k;
@@ -164,7 +164,7 @@ TEST_CASE("maximize finds the top of random cuts") {
     CHECK(top.u.norm() <= kRadius * (1 + 1e-12));
     CHECK(std::abs(top.value - model(cuts, plane, top.u)) <= 1e-10);
     (top.is_interior ? interior : rim) += 1;
-    // The ascent stops where it meets the rim: a better place along the rim is allowed there, but the way up never led down.
+    // The ascent stops where it meets the circle: a better place along the circle is allowed there, but the way up never led down.
     CHECK(top.value >= model(cuts, plane, Vector2::Zero()) - 1e-12);
     if (!top.is_interior) {
       CHECK(top.u.norm() >= kRadius * (1 - 1e-12));
@@ -178,7 +178,7 @@ TEST_CASE("maximize finds the top of random cuts") {
 }
 
 TEST_CASE("cuts of a flat face, steep one way and gentle the other, are climbed along the gentle one") {
-  // Two cuts meet at u = 0 in a ridge with a slope of 1e-3 along it; rounding is that of the steep slopes.
+  // Two cuts meet at u = 0 in a ridge with a slope of 1e-3 along it; the steep slopes set the rounding.
   const TangentPlane plane(Vector3(2, -1, 0.5).normalized(), Vector3(1, 1, 1));
   for (const double slope : {1e-1, 1e-3, 1e-6, 1e-9}) {
     CuttingPlanes cuts;

@@ -95,7 +95,8 @@ TEST_CASE("an edge above a parallel edge: the default search does not claim what
   CHECK(proved.gap <= found.gap + found.global_error);
 }
 
-// The normal of the first climb, 5e-10 m deep, leads up another hill: the one that separates the bodies is 103 degrees away.
+// The normal of the first climb, 5e-10 m deep, leads into another basin of attraction: the maximum that separates the bodies is 103
+// degrees away.
 TEST_CASE("a needle's tip on a vertex of another, 7e-11 m apart: where bodies may touch, no normal is left to chance") {
   const std::array<Vector3, 5> points = {Vector3(0.012051518399086192, -0.19603277197672586, 0.74698447795492073),
                                          Vector3(-0.037081459265394953, 0.49587026379843452, 0.3345531509944204),
@@ -126,7 +127,7 @@ TEST_CASE("the edges of two flat needles at one another's ends, 2e-10 m apart: n
   check_apart(body1, body2, pose2);
 }
 
-// Another hill, 5e-4 m deep, ends at the vertex of exponent 1.5 of the second body, beside which it is rather round.
+// Another basin of attraction, 5e-4 m deep, ends at the vertex of exponent 1.5 of the second body, beside which it is rather round.
 TEST_CASE("a needle's end on a flat body's edge, 2e-7 m apart: vertices are not as round as what is beside them") {
   const Superellipsoid body1(Vector3(0.050994107847938411, 0.062385800436830167, 0.64129993118620687), 57.006892184982505,
                              1.0755879941156079);
@@ -139,7 +140,7 @@ TEST_CASE("a needle's end on a flat body's edge, 2e-7 m apart: vertices are not 
   check_apart(body1, body2, pose2);
 }
 
-// Another hill, 1.2e-4 m deep, is no deeper than the bodies are round, as far as the radii of tips can be estimated.
+// Another maximum, 1.2e-4 m deep, is no deeper than the bodies are round, as far as the radii of tips can be estimated.
 TEST_CASE("a needle's side at a sharp needle's end, 6e-9 m apart: no overlap of tips is believed before it is proved") {
   const Superellipsoid body1(Vector3(0.06209891743239853, 2.135555967510081, 0.11885766610329596), 1.4079099170978948,
                              2.0383562546709681);

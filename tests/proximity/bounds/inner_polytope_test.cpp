@@ -49,7 +49,7 @@ InnerPolytope hull_of(const std::vector<Vector3>& points) {
 
 }  // namespace
 
-TEST_CASE("the hull of random points holds the ball that the definition gives") {
+TEST_CASE("the hull of random points contains the ball that the definition gives") {
   for (int seed = 1; seed <= 20; ++seed) {
     std::vector<Vector3> points = random_normals(24, seed);
     for (std::size_t k = 0; k < points.size(); ++k) {

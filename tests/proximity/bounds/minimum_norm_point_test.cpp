@@ -145,7 +145,7 @@ std::size_t some(int trial) { return 1 + static_cast<std::size_t>(trial) % 10; }
 
 }  // namespace
 
-TEST_CASE("random points: the nearest point of the hull is that of the brute force") {
+TEST_CASE("random points: the nearest point of the hull equals the nearest point by brute force") {
   Draw draw(71);
   int inside = 0, outside = 0;
   for (int trial = 0; trial < 1000; ++trial) {

@@ -63,7 +63,7 @@ TEST_CASE("the model predicts s to third order") {
 }
 
 TEST_CASE("an infinite radius of curvature stays in its own entry") {
-  // Edges of a box, turned: the wall's flatness must not spill over the radius across the edge.
+  // Edges of a rotated box: the wall's flatness must not spill over the radius across the edge.
   const Superellipsoid box(Vector3(3, 2, 1), 60, 60);
   const Pose pose2{{4, 3, 2}, Eigen::Quaterniond(-0.3, 0.8, 0.2, 0.4).normalized().toRotationMatrix()};
   for (const Vector3& in_body2 : {Vector3(1, 1e-12, 0.4), Vector3(-1e-9, 0.8, 0.5), Vector3(0.3, 0.7, 1e-10)}) {
@@ -74,7 +74,7 @@ TEST_CASE("an infinite radius of curvature stays in its own entry") {
     const LocalModel local = LocalModel::of(gap, jet);
     check_plane(local, gap, jet);
     const Eigen2 e(local.A2);
-    // In the box's own frame, without the turn, the same numbers.
+    // In the box's own frame, without the rotation, the same numbers.
     GapFunction aligned(ball, {}, box, {{4, 3, 2}, Matrix3::Identity()});
     GapJet aligned_jet;
     aligned.evaluate(-in_body2.normalized(), Order::Hessian, aligned_jet);

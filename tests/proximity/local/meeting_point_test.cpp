@@ -38,7 +38,7 @@ std::vector<Named> bodies_with_straight_edges() {
           {"polytope", std::make_shared<Polytope>(many)}};
 }
 
-/// Random attitudes, and directions from body 1 to body 2, the same in every run.
+/// Random orientations, and directions from body 1 to body 2, the same in every run.
 class RandomPoses {
  public:
   explicit RandomPoses(unsigned seed) : generator_(seed) {}
@@ -55,7 +55,7 @@ class RandomPoses {
   std::uniform_real_distribution<double> uniform_;
 };
 
-/// Both bodies in random attitudes, `gap` apart; the second pose.
+/// Both bodies in random orientations, `gap` apart; the second pose.
 Pose place(const Shape& shape1, const Pose& pose1, const Shape& shape2, double gap, RandomPoses& random) {
   Pose pose2{4 * random.direction(), random.rotation()};
   const Proximity far = find_proximity(shape1, pose1, shape2, pose2);
@@ -63,7 +63,7 @@ Pose place(const Shape& shape1, const Pose& pose1, const Shape& shape2, double g
   return pose2;
 }
 
-/// The points of two segments that are nearest to one another, by projecting each point onto the other segment in turn.
+/// The points of two segments that are nearest to each other, by projecting each point onto the other segment in turn.
 struct NearestPoints {
   Vector3 point1, point2;
 
@@ -131,7 +131,7 @@ TEST_CASE("bodies with straight edges have their witness points opposite one ano
 }
 
 TEST_CASE("a capsule across a cylinder touches it where it lies on it") {
-  // On the cap, with an end beyond the rim, and on the rounded side.
+  // On the cap, with an end beyond the edge, and on the rounded side.
   const Capsule capsule(0.5, 1);
   const Cylinder cylinder(0.8, 0.9);
   const Matrix3 lying = Eigen::AngleAxis<double>(std::acos(0.0), Vector3::UnitY()).toRotationMatrix();
@@ -163,7 +163,7 @@ TEST_CASE("what is far below its tangent plane does not become a witness point")
   CHECK(moved.d == jet.d);
 }
 
-TEST_CASE("an edge across the rim of a cylinder: the contact is on both") {
+TEST_CASE("an edge across the edge of a cylinder's cap: the contact is on both") {
   RandomPoses random(95);
   const Box box(Vector3(1, 0.7, 1.4));
   const Cylinder cylinder(0.8, 0.9);
@@ -180,7 +180,7 @@ TEST_CASE("an edge across the rim of a cylinder: the contact is on both") {
   }
 }
 
-// Cuts at points of a cylinder's rim that coincide but for rounding do not tell where the rim goes on.
+// Cuts at points of a cap's edge that coincide but for rounding do not show where the edge continues.
 TEST_CASE("a cylinder that overlaps a box or another cylinder converges") {
   std::mt19937 engine(61);
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };

@@ -100,12 +100,12 @@ TEST_CASE("within a radius the gain is positive whatever the curvature, and as l
     const PiecewiseModel::Peak peak = model.maximize(radius);
     CHECK(peak.u.norm() <= 1.11 * radius);
     CHECK(peak.gain == test::relative(gain(model, peak.u)).epsilon(1e-7));
-    // At u = 0 the first piece is the lowest: there is always an ascent unless two others hold it there.
+    // At u = 0 the first piece is the lowest: there is always an ascent unless two others stop it there.
     CHECK(gain(model, peak.u) >= -1e-12 * (1 + radius * radius));
   }
 }
 
-TEST_CASE("coplanar corners: many pieces meet in one point") {
+TEST_CASE("coplanar vertices: many pieces meet in one point") {
   std::vector<Piece> ring;
   ring.reserve(20);
   for (int k = 0; k < 20; ++k) ring.push_back({0, Vector2(std::cos(0.3 * k), std::sin(0.3 * k)) + Vector2(0.2, -0.1)});
@@ -147,7 +147,7 @@ TEST_CASE("where there is no piece, nothing bounds the gain and nothing is activ
   }
 }
 
-TEST_CASE("corners hold the normal together when they are as low as each other, whatever the support function is rounded to") {
+TEST_CASE("vertices tied at a normal determine it together, whatever the support function is rounded to") {
   constexpr double kRounding = 1e-16;
   const StrictComplementarity hold(kRounding, 1);
   const Symmetric2 saddle{-1, 0, 1};

@@ -13,7 +13,7 @@ using namespace supernormal;
 
 namespace {
 
-/// The largest gain in the disc: at the stationary point if that is a maximum inside, or on the rim.
+/// The largest gain in the disc: at the stationary point if that is a maximum inside, or on the circle.
 double largest_sampled(const QuadraticModel& model, double radius) {
   double largest = 0;
   for (int spoke = 0; spoke < 20000; ++spoke) {
@@ -33,7 +33,7 @@ Symmetric2 with_eigenvalues(double low, double high, double angle) {
   return {high * c * c + low * s * s, (high - low) * c * s, high * s * s + low * c * c};
 }
 
-/// A step to the rim is only a trial: the solver lets it miss the rim by a hundredth.
+/// A step to the circle is only a trial: the solver lets it miss the circle by a hundredth.
 constexpr double kShare = 0.97;
 
 void check(const QuadraticModel& model, double radius) {
@@ -109,7 +109,7 @@ TEST_CASE("one radius of curvature beyond all measure leaves the other its digit
     const Eigen2 e(model.A);
     CHECK(e.low == 2);
     CHECK(e.high == huge);
-    // And with the rim in the way.
+    // And with the circle in the way.
     const Vector2 rim = model.maximize(0.01);
     CHECK(std::abs(rim.y() - 0.01) <= 1e-4);
     CHECK(std::abs(rim.x()) <= 1e-10);
@@ -117,7 +117,7 @@ TEST_CASE("one radius of curvature beyond all measure leaves the other its digit
   }
 }
 
-TEST_CASE("one curvature is next to nothing, the other that over again: no overflow on the way to the rim") {
+TEST_CASE("one curvature is next to nothing, the other that over again: no overflow on the way to the circle") {
   const QuadraticModel model{{1.2706869609825529e-225, 0},
                              {8.8208958574947383e-211, 1.7849350496270764e-239, 3.6118702486213016e-268}};
   std::feclearexcept(FE_ALL_EXCEPT);

@@ -19,8 +19,8 @@ using namespace supernormal;
 using supernormal::test::check_covers;
 using supernormal::test::without_hessian;
 
-// The way from the face's normal to the maximum is a narrow ridge, along which the tip keeps to the rim.
-TEST_CASE("an octahedron's tip 1e-13 m beside the rim of a cylinder's face, as exactly as can be") {
+// The way from the face's normal to the maximum is a narrow ridge, along which the tip keeps to the edge.
+TEST_CASE("an octahedron's tip 1e-13 m beside the edge of a cylinder's face, as exactly as can be") {
   const Superellipsoid tip(Vector3(0.99177535343395917, 0.6734340285826611, 0.63517434717434995), 1.0635460553378775,
                            1.0501094799923516);
   const Cylinder cylinder(0.62322465858321741, 0.53309284841699722);
@@ -106,7 +106,7 @@ TEST_CASE("a vertex in another's with an aligned plane, of exponent 2.03") {
 }
 
 // On the body's plane of symmetry through the vertex the curvature is infinite: the cross-section is flat there.
-TEST_CASE("a vertex of flat cross-section 1.3e-4 m beside a rim, 0.03 m apart, from a first normal") {
+TEST_CASE("a vertex of flat cross-section 1.3e-4 m beside a curved edge, 0.03 m apart, from a first normal") {
   const Superellipsoid body1(Vector3(1.3444236321789771, 1.2687551262821948, 0.75405833063231809), 4.1731844300678489,
                              1.6727896210524513);
   const Cylinder cylinder(0.55835664257566964, 1.4455460299454355);
@@ -130,8 +130,8 @@ TEST_CASE("the flat flank of a wedge, 1e-6 m deep, roughly") {
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-// The higher normal lies in a sector of 13 degrees that the corner and the curvature of body 2 leave open.
-TEST_CASE("a box's face in a rounded box, a corner on the point of deepest overlap") {
+// The higher normal lies in a sector of 13 degrees that the vertex and the curvature of body 2 leave open.
+TEST_CASE("a box's face in a rounded box, a vertex on the point of deepest overlap") {
   const Box box(Vector3(1.1660950384963529, 0.72469453895462166, 0.73200031560061518));
   const Superellipsoid body2(Vector3(0.62279166333149438, 1.1619196180367359, 0.95281948862489751), 13.003417479094304,
                              13.200392857275245);
@@ -155,7 +155,7 @@ TEST_CASE("an edge 1e-10 m beside a sharp edge, roughly") {
 }
 
 // The higher normal is beside a plane of symmetry, beyond a flat spot.
-TEST_CASE("a corner in a vertex, as exactly as can be") {
+TEST_CASE("a polytope's vertex in a smooth vertex, as exactly as can be") {
   const Superellipsoid body1(Vector3(0.52554206102025414, 0.83316697474825452, 0.78785238828638682), 3.4703594224672014,
                              1.8464279827519052);
   const std::vector<Vector3> corners{{-0.54408017368739625, -0.36252818257541258, 0.54490908100436164},
@@ -210,7 +210,7 @@ TEST_CASE("a tip 4e-3 m in another's on a plane of symmetry, one without a Hessi
   check_covers(body1, body2, pose2, Vector3(-0.9827693063605325, 0.1741329996797667, 0.06198539261926516).normalized());
 }
 
-TEST_CASE("tips 7e-7 m in one another") {
+TEST_CASE("tips 7e-7 m in each other") {
   const Superellipsoid body1(Vector3(0.50326613865884384, 1.0568669013476841, 0.51857686814809989), 1.1727767667760731,
                              1.2095160897887847);
   const Superellipsoid body2(Vector3(0.83732890384385839, 0.91107346864219874, 0.62580652304072482), 1.0653498347159143,
@@ -330,8 +330,8 @@ TEST_CASE("a vertex on the flat face of a body with sharp sections, 4e-7 m apart
   check_covers(body1, body2, pose2, higher);
 }
 
-// The rim turns with the normal.
-TEST_CASE("a flat face over the rim of a cylinder's, 0.45 m deep") {
+// The edge rotates with the normal.
+TEST_CASE("a flat face over the edge of a cylinder's, 0.45 m deep") {
   const Cylinder body1(1.0979394073019821, 0.71983868197042333);
   const Superellipsoid body2(Vector3(0.86260385789933769, 1.2021586798719865, 0.65618464877373561), 3.5958757029430406,
                              24.681786908287489);
@@ -386,7 +386,7 @@ TEST_CASE("a capsule beside the middle of a straight edge, 4e-10 m deep, roughly
   check_covers(body1, body2, pose2, higher, settings);
 }
 
-TEST_CASE("an octahedron's edge on a box's corner, touching, roughly") {
+TEST_CASE("an octahedron's edge on a box's vertex, touching, roughly") {
   const Superellipsoid body1(Vector3(0.87373635023403262, 0.6062102633550237, 0.8297598022203857), 1.0257828759412819,
                              16.85941093358095);
   const Superellipsoid body2(Vector3(0.6811536568308767, 0.92634438046295964, 0.68402914136415371), 29.825528743207627,
