@@ -43,7 +43,7 @@ double rebound(double b) {
 
 }  // namespace
 
-TEST_CASE("Hertz: the correction of elliptic contacts is that of the elliptic integrals") {
+TEST_CASE("Hertz: the correction of elliptic contacts agrees with the elliptic integrals") {
   CHECK(hertz_correction(1) == 1);
   for (const double axes : {0.95, 0.6, 0.2, 0.03, 0.001}) {
     const Ellipse ellipse(axes);
@@ -52,7 +52,7 @@ TEST_CASE("Hertz: the correction of elliptic contacts is that of the elliptic in
   }
 }
 
-TEST_CASE("Hertz: an impact with the damping of a restitution ends with it") {
+TEST_CASE("Hertz: an impact with the damping for a restitution rebounds with it") {
   CHECK(hertz_damping_ratio(1) == 0);
   for (const double restitution : {0.05, 0.3, 0.6, 0.9, 0.99}) {
     CAPTURE(restitution);

@@ -47,7 +47,7 @@ Watch settle(World& world, const std::vector<dBodyID>& bodies, double dt, double
 
 }  // namespace
 
-TEST_CASE("a wall of 50 bricks stands and sleeps as soon as one of dBoxes") {
+TEST_CASE("a wall of 50 bricks stands, and falls asleep as soon as a wall of dBoxes") {
   const double a = 0.1;
   const double b = 0.06;
   const double c = 0.04;

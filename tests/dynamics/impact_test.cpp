@@ -75,7 +75,7 @@ void bring_together(Random& random, dGeomID geom1, dGeomID geom2) {
 
 }  // namespace
 
-TEST_CASE("frictionless elastic drop on a plane at 1 m/s") {
+TEST_CASE("a frictionless elastic drop on a plane at 1 m/s has the published velocities") {
   // tests/data/README.md: "tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z after 0.3620502923 m/s, |omega| 3.7286342504
   // rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160." Without gravity nothing turns in flight, so this holds
   // for any time step and depth.

@@ -96,7 +96,7 @@ double creep(const Creeping& what, Slope slope, double incline, double step, int
 
 }  // namespace
 
-TEST_CASE("a superellipsoid rests on an incline up to the limit of its section and not beyond") {
+TEST_CASE("a superellipsoid rests on an incline exactly up to the limit of its section") {
   // tests/data/README.md: "Greatest incline on which a superellipse section (a = c) can rest without sliding: exponent 4:
   // 19.4712 deg; 8: 30.3696 deg"
   struct Case {
@@ -111,7 +111,7 @@ TEST_CASE("a superellipsoid rests on an incline up to the limit of its section a
   }
 }
 
-TEST_CASE("a circular equator rolls down an incline as the closed form says") {
+TEST_CASE("a circular equator rolls down an incline with the acceleration of the closed form") {
   // tests/data/README.md: "Rolling down an incline on a circular equator (delta = 2): a/(g sin theta) = 0.714286 (epsilon =
   // 2), 0.686033 (4), 0.673540 (8)."
   CHECK(acceleration(2) == relative(0.714286).epsilon(1e-4));
@@ -120,7 +120,7 @@ TEST_CASE("a circular equator rolls down an incline as the closed form says") {
 }
 
 // With single precision a micrometre is the spacing of the numbers.
-TEST_CASE("what friction holds on an incline does not creep, whatever the exponent, the step and the room for contacts" *
+TEST_CASE("what friction holds on an incline does not creep, at any exponent, step and max_contacts" *
           doctest::skip(kIsSinglePrecision)) {
   const std::array<double, 3> brick = {0.075, 0.06, 0.04};
   const std::array<double, 3> can = {0.04, 0.04, 0.12};

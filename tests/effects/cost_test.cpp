@@ -68,7 +68,7 @@ std::vector<double> tumble(const std::vector<fx::Effect>& list, const std::funct
 
 }  // namespace
 
-TEST_CASE("a contact has the rows of what is named and no more") {
+TEST_CASE("a contact has the rows of the listed effects and no more") {
   const fx::Friction friction{0.5, {}};
   CHECK(live_rows({}) == 1);
   CHECK(live_rows({fx::Restitution{0.5, 0, {}}}) == 1);
@@ -83,7 +83,7 @@ TEST_CASE("a contact has the rows of what is named and no more") {
   CHECK(live_rows({friction, fx::RollingResistance{0.005, 0.005, {}}}) == 6);
 }
 
-TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and the rows counted are those asked for") {
+TEST_CASE("without rolling resistance no contact requests rolling rows, and the counted rows are the requested ones") {
   fx::Effects smooth({fx::Friction{0.5, fx::MaterialSelector::of(1)}}, kLongStep);
   OdeSession session;
   Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -100,7 +100,7 @@ TEST_CASE("without rolling resistance no contact asks ODE for rolling rows, and 
   CHECK(rows_of(smooth) == 1 + 3);
 }
 
-TEST_CASE("a list without forces visits no body and keeps nothing of it") {
+TEST_CASE("a list without forces visits no body and stores none") {
   OdeSession session;
   EffectsWorld scene({earth(), fx::Friction{0.5, {}}, fx::Damping{1, 1}, fx::SurfaceLayer{1e-4}}, kLongStep);
   CHECK_FALSE(scene.effects.visits_bodies());
@@ -115,7 +115,7 @@ TEST_CASE("a list without forces visits no body and keeps nothing of it") {
   CHECK(dragged.effects.costs().back().bodies == 1);
 }
 
-TEST_CASE("trajectories are the same to the bit with an effect that no contact has") {
+TEST_CASE("trajectories are the same to the bit with an effect that applies to no contact") {
   const std::vector<fx::Effect> plain = {earth(), fx::Friction{0.5, {}}, fx::Restitution{0.3, 0.1, {}}};
   std::vector<fx::Effect> more = plain;
   more.emplace_back(fx::RollingResistance{0.01, 0.01, fx::MaterialSelector::of(7)});

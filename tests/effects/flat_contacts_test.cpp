@@ -89,7 +89,7 @@ class Ball {
 
 }  // namespace
 
-TEST_CASE("adhesion acts in the middle of a flat contact, at any tilt within the depth, whoever finds the contacts") {
+TEST_CASE("adhesion acts in the middle of a flat contact, at any tilt within the depth, with any collider") {
   OdeSession session;
   EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
   const dSpaceID space = scene.world.space();
@@ -140,7 +140,7 @@ TEST_CASE("adhesion of a body that stands on an edge acts at the edge") {
   }
 }
 
-TEST_CASE("what a region shares acts at the centre of a rectangle, whatever else is listed, in any order, at any depths") {
+TEST_CASE("a force on a region acts at the centre of a rectangle, with any further contacts, order and depths") {
   const std::array<Place, 4> corners = {{{-0.01, -0.02}, {0.05, -0.02}, {0.05, 0.03}, {-0.01, 0.03}}};
   Random random(5);
   Ball sticky(fx::Adhesion{kPullOff, {}});
@@ -163,7 +163,7 @@ TEST_CASE("what a region shares acts at the centre of a rectangle, whatever else
   }
 }
 
-TEST_CASE("the middle of an edge, of a point and of points that are one but for rounding") {
+TEST_CASE("the middle of a region: an edge, a point, and points equal up to rounding") {
   Ball ball(fx::Adhesion{kPullOff, {}});
   const auto middle = [&](const std::vector<Place>& places) {
     std::vector<dContact> contacts;
@@ -179,7 +179,7 @@ TEST_CASE("the middle of an edge, of a point and of points that are one but for 
   CHECK(distance(middle({{0, 0}, {0.04, 1e-17}, {0.04, -1e-17}, {0.01, 1e-17}}), {0.02, 0}) < tolerance);
 }
 
-TEST_CASE("the middle moves no farther than 4/pi times the contacts do, also where they become one or leave the border") {
+TEST_CASE("the middle of a region moves by at most 4/pi times the contacts, also when they become one or leave the border") {
   Random random(11);
   Ball ball(fx::Adhesion{kPullOff, {}});
   for (int draw = 0; draw < 2000; ++draw) {
@@ -244,7 +244,7 @@ class Valley {
 
 }  // namespace
 
-TEST_CASE("each slope of a mesh sticks once, into however many triangles it is cut, in whatever order contacts are listed") {
+TEST_CASE("each slope of a mesh sticks once, at any number of triangles and order of contacts") {
   OdeSession session;
   EffectsWorld scene({fx::Adhesion{kPullOff, {}}}, kLongStep);
   const Valley valley(scene.world.space());

@@ -40,7 +40,7 @@ double excess_of_cone(const EffectsWorld& scene, double coefficient) {
 
 }  // namespace
 
-TEST_CASE("a puck slides v^2 / (2 mu g) in every direction, straight") {
+TEST_CASE("a puck slides straight by v^2 / (2 mu g) in every direction") {
   for (const double coefficient : {0.1, 0.5}) {
     for (const double angle : {0.0, 0.4, 45 * kDegree, 2.0}) {
       CAPTURE(coefficient);
@@ -81,7 +81,7 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
   }
 }
 
-TEST_CASE("no contact ever exceeds the cone") {
+TEST_CASE("no friction force exceeds Coulomb's cone") {
   // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. The distribution of a
   // face's load over four contacts is not determined, and it converges more slowly than with one, whatever the number of
   // iterations.
@@ -143,7 +143,7 @@ TEST_CASE("materials combine by the geometric mean, unless the pair is listed") 
   }
 }
 
-TEST_CASE("anisotropic friction: both axes, and between them the force that dissipates most") {
+TEST_CASE("anisotropic friction has its coefficient along each axis, and the most dissipating force in between") {
   const double along = 0.1;
   const double across = 0.4;
   const fx::AnisotropicFriction grain{along, across, {1, 1, 0}, {}};

@@ -8,7 +8,7 @@
 
 using namespace fit;
 
-TEST_CASE("a dumbbell is taken apart") {
+TEST_CASE("a dumbbell is fitted by two bodies") {
   const std::vector<Body> truth = make_compound("dumbbell");
   const Cloud cloud = scatter_union(truth, 700, 3e-4, 1);
   const std::vector<FittedBody> fitted = fit_union(cloud, 3, {.family = Family::Superellipsoid});
@@ -22,7 +22,7 @@ TEST_CASE("a dumbbell is taken apart") {
   }
 }
 
-TEST_CASE("a cube is one body, with and without noise") {
+TEST_CASE("a cube is fitted by one body, with and without noise") {
   // Its edges are sharper than any body's: two bodies are a little nearer than one.
   for (const double noise : {0.0, 0.01}) {
     Cloud cloud;

@@ -39,7 +39,7 @@ TEST_CASE("hard cases: no query raises a floating-point exception") {
   }
 }
 
-TEST_CASE("hard cases: making their shapes, and refusing others, raises no floating-point exception") {
+TEST_CASE("hard cases: making or refusing a shape raises no floating-point exception") {
   {
     const Traps traps("the shapes of the catalogue");
     CHECK(!hard_cases().empty());

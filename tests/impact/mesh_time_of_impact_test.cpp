@@ -36,7 +36,7 @@ std::vector<MeshTriangle> hills(int cells) {
 
 }  // namespace
 
-TEST_CASE("triangles: the first of them, where the nearest triangle is as near as the tolerance, and none before") {
+TEST_CASE("triangles: at the impact the nearest triangle is within the tolerance, and none is nearer before") {
   const std::vector<MeshTriangle> triangles = hills(8);
   RandomMotions random(11);
   int hits = 0;
@@ -96,7 +96,7 @@ TEST_CASE("triangles: at the impact with a closed mesh no contact is deeper than
   CHECK(hits > 200);
 }
 
-TEST_CASE("triangles: without any, bodies are apart") {
+TEST_CASE("triangles: without triangles bodies are apart") {
   const MeshImpact found = find_mesh_time_of_impact(Sphere(1), {}, {}, {}, 2);
   CHECK(found.impact.status == ImpactStatus::Apart);
   CHECK(found.impact.time == 2);

@@ -38,7 +38,7 @@ double first_zero(const Gap& gap, double fastest, double horizon) {
 
 }  // namespace
 
-TEST_CASE("pose_at: the centre goes straight on, and the body turns about it") {
+TEST_CASE("pose_at: the centre moves in a straight line, and the body rotates about it") {
   Motion motion = moving({1, 2, 3}, {0.5, 0, 0}, {0, 0, 2});
   motion.centre = {1, 0, 0};
   const Pose pose = pose_at(motion, 0.75);
@@ -47,7 +47,7 @@ TEST_CASE("pose_at: the centre goes straight on, and the body turns about it") {
   CHECK(pose_at(motion, 0).position == motion.pose.position);
 }
 
-TEST_CASE("balls: the root of a quadratic equation, hit or miss") {
+TEST_CASE("balls: the time of impact is the root of a quadratic equation, or there is none") {
   RandomMotions random(1);
   int hits = 0, misses = 0;
   for (int k = 0; k < 3000; ++k) {
@@ -83,7 +83,7 @@ TEST_CASE("balls: the root of a quadratic equation, hit or miss") {
   CHECK(misses > 1000);
 }
 
-TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad/s") {
+TEST_CASE("a rotating needle that falls on a plane hits at the time of the closed form, up to 1000 rad/s") {
   RandomMotions random(2);
   int hits = 0;
   for (int k = 0; k < 600; ++k) {
@@ -125,7 +125,7 @@ TEST_CASE("a needle that turns falls on a plane: the closed form, up to 1000 rad
   CHECK(hits > 1000);
 }
 
-TEST_CASE("bodies that touch at first: they hit at once, unless they part") {
+TEST_CASE("bodies that touch at the start hit at once, unless they separate") {
   const Sphere ball(0.5);
   const Box brick(Vector3(0.5, 0.4, 0.3));
   const Ellipsoid oval(Vector3(0.5, 0.4, 0.3));
@@ -169,7 +169,7 @@ TEST_CASE("bodies that touch at first: they hit at once, unless they part") {
   CHECK(find_time_of_impact(cube, {}, cube, moving({1, 1, 1}, {-1, -1, -1}), 1).status == ImpactStatus::Hits);
 }
 
-TEST_CASE("deep overlap at first is told as such") {
+TEST_CASE("a deep overlap at the start is reported as such") {
   const Impact impact = find_time_of_impact(Sphere(1), {}, Ellipsoid(Vector3(1, 2, 3)), moving({0.5, 0, 0}, {10, 0, 0}), 1);
   CHECK(impact.status == ImpactStatus::Overlapping);
   CHECK(impact.time == 0);
@@ -178,7 +178,7 @@ TEST_CASE("deep overlap at first is told as such") {
   CHECK(impact.may_hit());
 }
 
-TEST_CASE("fly-bys with a clearance of a thousandth of the size pass, and overlaps of as much hit") {
+TEST_CASE("fly-bys with a clearance of a thousandth of the size pass, and with an overlap of as much hit") {
   RandomMotions random(4);
   for (int k = 0; k < 400; ++k) {
     CAPTURE(k);
@@ -203,7 +203,7 @@ TEST_CASE("fly-bys with a clearance of a thousandth of the size pass, and overla
   }
 }
 
-TEST_CASE("what rolls or spins beside a wall takes a few evaluations") {
+TEST_CASE("a body that rolls or spins beside a wall takes a few evaluations") {
   const Box wall(Vector3(10, 10, 1));
   const Motion below = moving({0, 0, -1}, Vector3::Zero());
   const auto evaluations = [&](const Shape& shape, double height, const Vector3& spin, const Matrix3& rotation) {
@@ -224,7 +224,7 @@ TEST_CASE("what rolls or spins beside a wall takes a few evaluations") {
   CHECK(evaluations(Rounded(std::make_shared<Ellipsoid>(Vector3(0.3, 0.3, 0.2)), 0.1), 0.4, {0, 1000, 0}, lying) <= 12);
 }
 
-TEST_CASE("the same impact when bodies are swapped, moved together, scaled, or time is") {
+TEST_CASE("the impact is the same when bodies are swapped, moved together or scaled, or time is scaled") {
   RandomMotions random(5);
   for (const MotionKind& kind : kMotionKinds) {
     for (int k = 0; k < 60; ++k) {
@@ -270,7 +270,7 @@ TEST_CASE("the same impact when bodies are swapped, moved together, scaled, or t
   }
 }
 
-TEST_CASE("the slow search has the support functions of the bodies, in long double") {
+TEST_CASE("the long double support functions of the slow search agree with the bodies") {
   RandomMotions random(8);
   for (int k = 0; k < 2000; ++k) {
     const std::shared_ptr<const Shape> shape = random.shape();
@@ -279,7 +279,7 @@ TEST_CASE("the slow search has the support functions of the bodies, in long doub
   }
 }
 
-TEST_CASE("random pairs: none missed, none late, none early, by a slow search") {
+TEST_CASE("random pairs: no impact is missed, late or early by a slow search") {
   for (const MotionKind& kind : kMotionKinds) {
     RandomMotions random(6);
     long evaluations = 0;
@@ -310,7 +310,7 @@ TEST_CASE("random pairs: none missed, none late, none early, by a slow search") 
   }
 }
 
-TEST_CASE("a horizon far beyond the impact costs no digits, and one far beyond a fly-by few evaluations") {
+TEST_CASE("a horizon far beyond the impact costs no digits, and far beyond a fly-by few evaluations") {
   const Box wall(Vector3(0.5, 0.5, 0.5));
   const Ellipsoid oval(Vector3(1, 0.8, 0.6));
   for (const Vector3& spin : {Vector3(0, 0, 0), Vector3(0.3, 0.5, 0.2)}) {
@@ -347,7 +347,7 @@ TEST_CASE("a horizon far beyond the impact costs no digits, and one far beyond a
   }
 }
 
-TEST_CASE("time of impact: what is out of range is refused, what is not finite is told") {
+TEST_CASE("time of impact: arguments out of range are refused, and motions that are not finite return InvalidInput") {
   const Sphere ball(1);
   const Motion there = moving({5, 0, 0}, {-1, 0, 0});
   CHECK_THROWS_AS(find_time_of_impact(ball, {}, ball, there, -1), std::invalid_argument);

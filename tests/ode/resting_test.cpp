@@ -225,7 +225,7 @@ TEST_CASE("a flat body falls asleep within twice the time of a dBox") {
   }
 }
 
-TEST_CASE("a body that stands on a small face or a short line leans no more than others when it falls asleep") {
+TEST_CASE("a body that stands on a small face or a short line falls asleep no more tilted than others") {
   const OdeSession session;
   for (const Stubby& what : {Stubby{"capsule, half-length 0.1 radii", create_stubby_capsule, true},
                              Stubby{"capsule, half-length 0.3 radii", create_short_capsule, true},
@@ -251,7 +251,7 @@ TEST_CASE("a flat body lies as still as a dBox on a plane") {
   }
 }
 
-TEST_CASE("a stack of five stands as still as five dBoxes") {
+TEST_CASE("a stack of five is as still as five dBoxes") {
   const OdeSession session;
   const Residue boxes = residue_of_stack({});
   MESSAGE("dBox: ", 1e6 * boxes.energy, " uJ, ", 1e3 * boxes.drift, " mm");
@@ -306,7 +306,7 @@ double lowest_point_of_can(dGeomID geom, dSpaceID space, double radius, double h
 
 }  // namespace
 
-TEST_CASE("a can on its side does not sink, at any step") {
+TEST_CASE("a can on its side does not sink at any step") {
   const OdeSession session;
   constexpr double kRadius = 0.05;
   for (const double exponent : {8.0, 20.0, 60.0, 200.0}) {

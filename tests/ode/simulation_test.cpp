@@ -19,7 +19,7 @@ void make_elastic(World& world) {
 
 }  // namespace
 
-TEST_CASE("superellipsoids dropped on a plane come to rest on it and lose energy only") {
+TEST_CASE("superellipsoids dropped on a plane come to rest and only lose energy") {
   OdeSession session;
   World world;
   world.room = 1;
@@ -60,7 +60,7 @@ TEST_CASE("superellipsoids dropped on a plane come to rest on it and lose energy
   CHECK(world.depth < 0.02 * 0.05);
 }
 
-TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of tests/data/README.md") {
+TEST_CASE("a frictionless elastic drop of a tilted ellipsoid has the velocities of tests/data/README.md") {
   // tests/data/README.md: "Frictionless, elastic drop on a plane at 1 m/s, tilted about y: (0.5,0.3,0.25; 2,2) at 15 deg: v_z
   // after 0.3620502923 m/s, |omega| 3.7286342504 rad/s; (0.5,0.3,0.25; 4,4) at 15 deg: -0.0222325084, 3.4155393160."
   struct Case {
@@ -91,7 +91,7 @@ TEST_CASE("frictionless elastic drop of a tilted ellipsoid: the closed form of t
   }
 }
 
-TEST_CASE("two bodies collide head on, without gravity: momentum and energy are kept") {
+TEST_CASE("two bodies that collide head on keep momentum and energy") {
   OdeSession session;
   World world;
   world.room = 1;

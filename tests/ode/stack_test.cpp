@@ -52,7 +52,7 @@ void check_pair(dGeomID g1, dGeomID g2, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("every kind of collider: the same digits over any stack, and nothing computed with what was not set") {
+TEST_CASE("every kind of collider gives the same digits over any stack, and computes nothing with uninitialized memory") {
   OdeSession session;
   snSetWarmStart(0);  // results are then a pure function of the pair
   Random random(17);
@@ -67,7 +67,7 @@ TEST_CASE("every kind of collider: the same digits over any stack, and nothing c
   }
 }
 
-TEST_CASE("triangles and ground: the same digits over any stack, and nothing computed with what was not set") {
+TEST_CASE("meshes and heightfields give the same digits over any stack, and compute nothing with uninitialized memory") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(18);
@@ -86,7 +86,7 @@ TEST_CASE("triangles and ground: the same digits over any stack, and nothing com
 
 // The normals of the two ends of the capsule are as high as each other, and both are, but for rounding, lower than its support
 // function: the rotations are rounded by more than the coordinates.
-TEST_CASE("a body of micrometres within a short capsule") {
+TEST_CASE("a body of micrometres inside a short capsule gives the same digits over any stack") {
   OdeSession session;
   snSetWarmStart(0);
   const Geom capsule(dCreateCapsule(nullptr, dReal(0.036479867631577401), dReal(0.00056562692823155548)));

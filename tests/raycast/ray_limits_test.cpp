@@ -49,7 +49,7 @@ std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, s
 
 }  // namespace
 
-TEST_CASE("scale, place and attitude make no difference") {
+TEST_CASE("rays: scale, place and orientation change no answer") {
   RandomRays random(160);
   for (int k = 0; k < 500; ++k) {
     CAPTURE(k);
@@ -82,7 +82,7 @@ TEST_CASE("scale, place and attitude make no difference") {
   }
 }
 
-TEST_CASE("through the centre along the axes, where everything is degenerate") {
+TEST_CASE("rays through the centre along the axes hit, although every search direction is degenerate") {
   for (const Superellipsoid& shape : superellipsoids(1.01, 1000)) {
     CAPTURE(text(shape));
     for (int axis = 0; axis < 3; ++axis) {
@@ -101,7 +101,7 @@ TEST_CASE("through the centre along the axes, where everything is degenerate") {
   }
 }
 
-TEST_CASE("tangent rays, origins on the boundary: an answer on the boundary or none, and no trap") {
+TEST_CASE("tangent rays and rays from the boundary hit on the boundary or miss, without a trap") {
   RandomRays random(180);
   for (int k = 0; k < 2000; ++k) {
     CAPTURE(k);
@@ -122,7 +122,7 @@ TEST_CASE("tangent rays, origins on the boundary: an answer on the boundary or n
   }
 }
 
-TEST_CASE("any shape, any size, from anywhere: a sound answer, and no trap") {
+TEST_CASE("rays at any shape of any size from anywhere have a valid answer, without a trap") {
   RandomRays random(240);
   std::vector<Vector3> points;
   int hits = 0;
@@ -156,7 +156,7 @@ TEST_CASE("any shape, any size, from anywhere: a sound answer, and no trap") {
   CHECK(hits > 5000);
 }
 
-TEST_CASE("the proximity of a body and a ray") {
+TEST_CASE("the gap of a sphere and a ray is the distance of the centre from the ray less the radius") {
   RandomRays random(200);
   for (int k = 0; k < 1000; ++k) {
     CAPTURE(k);
@@ -177,7 +177,7 @@ TEST_CASE("the proximity of a body and a ray") {
   }
 }
 
-TEST_CASE("refusals, limits and numbers that are not finite") {
+TEST_CASE("rays: invalid arguments are refused, and the limit of evaluations is reported") {
   const Superellipsoid shape({1, 0.5, 0.7}, 3, 5);
   const Vector3 o(-3, 0.1, 0.2), v = Vector3(1, 0.02, 0.03).normalized();
   CHECK_THROWS_WITH_AS(find_ray_hit(shape, {}, o, v, -1), "length of the ray = -1 m is outside [0, inf] m", std::invalid_argument);

@@ -77,7 +77,7 @@ void add_cells(const Part& part, double edge, double weight, Sums& sums) {
 
 }  // namespace
 
-TEST_CASE("compound: two balls of unlike density, in closed form") {
+TEST_CASE("compound: two balls of different density have the closed form") {
   const World world;
   constexpr double kRadius = 0.1, kDistance = 0.3;
   const std::vector<Part> parts = {make_part(snCreateEllipsoid(nullptr, kRadius, kRadius, kRadius), 3000, 0, 0, kDistance),
@@ -98,7 +98,7 @@ TEST_CASE("compound: two balls of unlike density, in closed form") {
   dBodyDestroy(body);
 }
 
-TEST_CASE("compound: tapered, turned and moved parts against sums over a lattice of cells") {
+TEST_CASE("compound: tapered, rotated and moved parts agree with sums over a lattice of cells") {
   const World world;
   const std::vector<Part> parts = {
       make_part(snCreateSuperovoid(nullptr, 0.55, 0.5, 0.35, 3.5, 4, 0.15, 0.15), 2900, 0.1, -0.2, 0.3),

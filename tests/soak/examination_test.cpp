@@ -62,7 +62,7 @@ Finding examine_liar(const std::function<void(const Vector3& n, Jet& jet)>& lie)
 
 }  // namespace
 
-TEST_CASE("nothing is wrong with two balls, queried in every way") {
+TEST_CASE("no violation is reported for two balls, queried in every way") {
   const Finding finding = examine_thoroughly(balls());
   for (const std::string& violation : finding.violations) FAIL_CHECK(violation);
   CHECK(finding.queries >= 11);
@@ -71,7 +71,7 @@ TEST_CASE("nothing is wrong with two balls, queried in every way") {
   CHECK(finding.error_of_bound <= 1);
 }
 
-TEST_CASE("a gap that is not the one that the bodies were placed with is reported") {
+TEST_CASE("a gap other than the placed gap is reported") {
   for (const double placed : {0.6, 0.4}) {
     Sample sample = balls();
     sample.placed_gap = placed;

@@ -58,7 +58,7 @@ bool has_contact(const ContactManifold& manifold) {
 
 }  // namespace
 
-TEST_CASE("a ball that flies at a wall: one contact with the gap of now, on the ball, with the wall's normal") {
+TEST_CASE("a ball that flies at a wall has one contact on the ball, with the present gap and the wall's normal") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(1, 1, 0.01));
   for (const double speed : {1.0, 10.0, 1000.0}) {
@@ -76,7 +76,7 @@ TEST_CASE("a ball that flies at a wall: one contact with the gap of now, on the 
   }
 }
 
-TEST_CASE("the normal is that of the impact, not that of now") {
+TEST_CASE("the normal of a contact ahead is the normal at the impact") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(0.5, 0.5, 0.5));
   // The nearest feature is the edge x = z = 0.5, and the ball flies past it on to the top.
@@ -87,7 +87,7 @@ TEST_CASE("the normal is that of the impact, not that of now") {
   CHECK(manifold.deepest.gap == doctest::Approx(0.15));
 }
 
-TEST_CASE("random pairs: no impact is missed, and what passes by has no contact") {
+TEST_CASE("random pairs: no impact is missed, and a body that passes by has no contact") {
   Random random(5);
   int impacts = 0;
   int passes = 0;
@@ -162,7 +162,7 @@ TEST_CASE("a fast impact at one end acts nearer to the centre of mass") {
   }
 }
 
-TEST_CASE("a body that turns has its corners where it comes down, and those of two bodies are as far apart") {
+TEST_CASE("the faster a body rotates, the farther apart are its manifold points ahead, on a plane and on a body") {
   const Superellipsoid brick({0.1, 0.07, 0.05}, 8, 8);
   const Box floor(Vector3(1, 1, 0.1));
   const auto half_length_at = [&](double turn, bool on_plane) {
@@ -192,7 +192,7 @@ TEST_CASE("a body that turns has its corners where it comes down, and those of t
   }
 }
 
-TEST_CASE("nothing is found from numbers that are none, and nothing is lost") {
+TEST_CASE("with a velocity that is not finite a body keeps its present contact") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Box wall(Vector3(1, 1, 0.01));
   const Pose touching{Vector3(0, 0, 0.06 - 1e-4), Matrix3::Identity()};

@@ -50,7 +50,7 @@ TEST_CASE("a ball that hits the floor slides on into the wall behind") {
   CHECK(found[1].triangle >= 2);
 }
 
-TEST_CASE("from behind there is no impact, and what moves away or is too slow has no contact") {
+TEST_CASE("a body behind the surface, moving away or too slow has no contact") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
   const auto has_contact = [&](const Vector3& position, const Vector3& velocity) {
@@ -63,7 +63,7 @@ TEST_CASE("from behind there is no impact, and what moves away or is too slow ha
   CHECK(!has_contact(Vector3(0, 0, -0.15), Vector3(0, 0, 5)));
 }
 
-TEST_CASE("a ball that is apart from the back of a sheet, or from its border, has no contact that overlaps") {
+TEST_CASE("a ball near the back or the border of a sheet has no contact with an overlap") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> sheet = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},
                                            {{Vector3(-1, -1, 0), Vector3(0, 1, 0), Vector3(-1, 1, 0)}, 1}};
@@ -83,7 +83,7 @@ TEST_CASE("a ball that is apart from the back of a sheet, or from its border, ha
   CHECK(least_gap(Vector3(-0.5, 0, 0.0499)) == doctest::Approx(-1e-4).epsilon(1e-6));
 }
 
-TEST_CASE("the surface moves as well") {
+TEST_CASE("contacts ahead with a moving surface use the relative velocity") {
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> triangles = corner();
   MotionAhead surface;
@@ -93,7 +93,7 @@ TEST_CASE("the surface moves as well") {
   CHECK(found[0].manifold.deepest.gap == doctest::Approx(0.1));
 }
 
-TEST_CASE("the triangles that count are within the reach, and no others") {
+TEST_CASE("all triangles that a body may meet are within the reach") {
   MeshContactsAhead ahead;
   const BodyAhead ball = flying(kBall, Vector3(0, 0, 0.15), Vector3(200, 0, -50));
   const MeshContactsAhead::Reach reach = MeshContactsAhead::reach_of(ball, {}, kStep);
@@ -103,7 +103,7 @@ TEST_CASE("the triangles that count are within the reach, and no others") {
   }
 }
 
-TEST_CASE("a brick comes to rest on a sheet with four corners, and those over the border are drawn in") {
+TEST_CASE("a brick that lands on a sheet has four manifold points, none beyond the border") {
   const Superellipsoid brick({0.1, 0.07, 0.05}, 60, 60);
   MeshContactsAhead ahead;
   const std::vector<MeshTriangle> table = {{{Vector3(-1, -1, 0), Vector3(0, -1, 0), Vector3(0, 1, 0)}, 0},

@@ -31,7 +31,7 @@ ContactManifold above_floor(const Shape& shape, const Matrix3& rotation, double 
 
 }  // namespace
 
-TEST_CASE("a level brick above a floor has four corners with the gap of the brick") {
+TEST_CASE("a level brick above a floor has four manifold points with the gap of the brick") {
   for (const double gap : {0.1, 1e-3, 0.0, -1e-4}) {
     const ContactManifold manifold = above_floor(kBrick, Matrix3::Identity(), gap);
     REQUIRE(manifold.corner_count == 4);
@@ -44,7 +44,7 @@ TEST_CASE("a level brick above a floor has four corners with the gap of the bric
   }
 }
 
-TEST_CASE("what a face leans is the gap of its corners, the nearest first") {
+TEST_CASE("the manifold points of a tilted face have the gap that is left there, the smallest first") {
   for (const double angle : {0.001, 0.01, 0.05}) {
     const ContactManifold manifold = above_floor(kBrick, turned(angle, Vector3::UnitY()), 1e-3);
     REQUIRE(manifold.corner_count == 4);
@@ -58,7 +58,7 @@ TEST_CASE("what a face leans is the gap of its corners, the nearest first") {
   }
 }
 
-TEST_CASE("round bodies have one contact, a can on its side two, a standing one four") {
+TEST_CASE("round bodies have one contact ahead, a can on its side two, a standing can four") {
   const Ellipsoid ball(Vector3(0.05, 0.05, 0.05));
   const Superellipsoid round({0.1, 0.07, 0.05}, 4, 4);
   const Superellipsoid can({0.05, 0.05, 0.2}, 2, 60);
@@ -71,7 +71,7 @@ TEST_CASE("round bodies have one contact, a can on its side two, a standing one 
   }
 }
 
-TEST_CASE("corners do not move as the gap goes through nothing") {
+TEST_CASE("manifold points do not move when the gap passes through 0") {
   for (const double angle : {0.0, 0.03}) {
     const Matrix3 rotation = turned(angle, Vector3(1, 2, 0));
     const ContactManifold before = above_floor(kBrick, rotation, 1e-9);
@@ -85,7 +85,7 @@ TEST_CASE("corners do not move as the gap goes through nothing") {
   }
 }
 
-TEST_CASE("two bodies: the corners of what their faces have in common, on the body that has the share, and the same when swapped") {
+TEST_CASE("two bodies have manifold points on the intersection of their faces, placed by `share`, also when swapped") {
   const Box table(Vector3(0.5, 0.5, 0.1));
   const Pose pose1;
   const Pose pose2{Vector3(0.45, 0, 0.17), Matrix3::Identity()};  // it hangs over by half of its length; gap 0.02
@@ -113,7 +113,7 @@ TEST_CASE("two bodies: the corners of what their faces have in common, on the bo
   }
 }
 
-TEST_CASE("with less room the nearest corner keeps its gap") {
+TEST_CASE("with a smaller max_contacts the nearest manifold point keeps its gap") {
   const ContactManifold all = above_floor(kBrick, turned(0.02, Vector3(1, 2, 0)), 1e-3);
   REQUIRE(all.corner_count == 4);
   Pose pose{Vector3(0, 0, 0), turned(0.02, Vector3(1, 2, 0))};
@@ -132,7 +132,7 @@ TEST_CASE("with less room the nearest corner keeps its gap") {
   }
 }
 
-TEST_CASE("with room for three a brick that leans is held around its centre, whichever corner is the nearest") {
+TEST_CASE("with max_contacts 3 a tilted brick is supported around its centre, whichever manifold point is the nearest") {
   for (int k = 0; k < 36; ++k) {
     const double direction = (5 + 10 * k) * std::numbers::pi / 180;
     Pose pose{Vector3::Zero(), turned(0.05, Vector3(std::cos(direction), std::sin(direction), 0))};

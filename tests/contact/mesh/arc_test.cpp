@@ -30,7 +30,7 @@ double highest_sample(const Arc& arc, SupportProbe& probe) {
 
 }  // namespace
 
-TEST_CASE("the slope is the derivative of the gap") {
+TEST_CASE("the slope over an arc is the derivative of the gap") {
   Draw draw(11);
   const Ellipsoid body({1, 0.7, 0.5});
   for (int i = 0; i < 100; ++i) {
@@ -44,7 +44,7 @@ TEST_CASE("the slope is the derivative of the gap") {
   }
 }
 
-TEST_CASE("the maximum over an arc, against sampling") {
+TEST_CASE("the maximum over an arc agrees with dense sampling") {
   Draw draw(12);
   int maxima = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -84,7 +84,7 @@ TEST_CASE("the maximum over an arc, against sampling") {
   CHECK(maxima > 500);
 }
 
-TEST_CASE("a flat side across the edge: the point of it that is over the edge") {
+TEST_CASE("a flat side across an edge touches in the point over the edge") {
   const Superellipsoid body({1, 1, 0.5}, 200, 200);
   SupportProbe probe(body, Matrix3::Identity());
   Arc arc;
@@ -100,7 +100,7 @@ TEST_CASE("a flat side across the edge: the point of it that is over the edge") 
   CHECK(found.point.z() == relative(-0.5).epsilon(1e-6));
 }
 
-TEST_CASE("too few evaluations are reported") {
+TEST_CASE("a search of an arc that runs out of evaluations reports it") {
   const Superellipsoid body({1, 0.7, 0.5}, 5, 3);
   SupportProbe probe(body, Draw(13).rotation());
   Arc arc;

@@ -68,7 +68,7 @@ void check_is_plane_contact(const std::vector<MeshContact>& contacts, const Prox
 
 }  // namespace
 
-TEST_CASE("a tessellated floor is a plane: the same contact, the same digits") {
+TEST_CASE("a tessellated floor gives the contact of a plane, with the same digits") {
   Draw draw(1);
   const Vector3 up = Vector3::UnitZ();
   const std::vector<MeshTriangle> coarse = floor_mesh(4, 4).placed();
@@ -89,7 +89,7 @@ TEST_CASE("a tessellated floor is a plane: the same contact, the same digits") {
   }
 }
 
-TEST_CASE("a turned and tessellated floor far from the origin is a plane") {
+TEST_CASE("a rotated and tessellated floor far from the origin gives the contact of a plane") {
   Draw draw(2);
   for (int i = 0; i < 200; ++i) {
     CAPTURE(i);
@@ -109,7 +109,7 @@ TEST_CASE("a turned and tessellated floor far from the origin is a plane") {
   }
 }
 
-TEST_CASE("a rod deep in a fine floor, of which only what touches the rod's box is known") {
+TEST_CASE("a rod deep in a fine floor has its contact, although only triangles in its box are known") {
   const Ellipsoid rod({0.05, 0.05, 1});
   const std::vector<MeshTriangle> floor = floor_mesh(40, 0.1).placed();
   int standing = 0;
@@ -134,7 +134,7 @@ TEST_CASE("a rod deep in a fine floor, of which only what touches the rod's box 
   CHECK(standing > 200);
 }
 
-TEST_CASE("closed convex meshes against the solid hull of their vertices") {
+TEST_CASE("contacts with closed convex meshes agree with the solid hull of their vertices") {
   Draw draw(3);
   const std::array<TriangleMesh, 4> meshes = {
       icosahedron_mesh(), box_mesh({0.9, 1.4, 0.7}), hull_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}),
@@ -172,7 +172,8 @@ TEST_CASE("closed convex meshes against the solid hull of their vertices") {
 }
 
 // A flat side has nearly the same normal at an edge and at the edge's end, where the contact is once the body reaches beyond it.
-TEST_CASE("a body nearly parallel to a closed mesh, beyond the end of an edge: the gap of the solid hull, at a place in the mesh") {
+TEST_CASE(
+    "a body nearly parallel to a closed mesh, beyond the end of an edge, has the gap of the solid hull at a place in the mesh") {
   Draw draw(4);
   int overlapping = 0;
   for (int i = 0; i < 1200; ++i) {
@@ -204,7 +205,7 @@ TEST_CASE("a body nearly parallel to a closed mesh, beyond the end of an edge: t
   CHECK(overlapping > 1000);
 }
 
-TEST_CASE("a ball on one triangle: the face's normal where it stands, the distance of its centre beside the border") {
+TEST_CASE("a ball on one triangle has the face's normal where it stands, and the distance of its centre beside the border") {
   Draw draw(4);
   int standing[3] = {0, 0, 0};
   int beside[3] = {0, 0, 0};
@@ -253,7 +254,7 @@ TEST_CASE("a ball on one triangle: the face's normal where it stands, the distan
   for (const int count : beside) CHECK(count > 20);
 }
 
-TEST_CASE("no contact with one triangle pushes behind it, and the deepest in turn push out") {
+TEST_CASE("no contact with one triangle pushes behind it, and moving out by the deepest contact ends apart") {
   Draw draw(9);
   int contacts_seen = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -278,7 +279,7 @@ TEST_CASE("no contact with one triangle pushes behind it, and the deepest in tur
   CHECK(contacts_seen > 1000);
 }
 
-TEST_CASE("steps, T-junctions and borders make no ghosts") {
+TEST_CASE("steps, T-junctions and borders make no ghost contacts") {
   const Ellipsoid body({0.5, 0.7, 0.3});
   // A floor of two strips whose vertices do not match, and a body that moves across the seam.
   TriangleMesh floor;
@@ -326,7 +327,7 @@ TEST_CASE("steps, T-junctions and borders make no ghosts") {
   CHECK(at(0.37, 0.19)[0].proximity.gap + at(0.37, 0.19)[1].proximity.gap < -0.01);
 }
 
-TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are no seams") {
+TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are not merged as seams") {
   const Sphere ball(0.5);
   const auto strips = [](const std::vector<Vector3>& profile) {  // of a floor along y, by x and z
     TriangleMesh mesh;
@@ -362,7 +363,7 @@ TEST_CASE("creases of 1e-3 rad and steps of 1e-4 of the size are no seams") {
   CHECK(contacts[1].proximity.normal.x() == relative(-0.1).epsilon(0.05));
 }
 
-TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
+TEST_CASE("a sheet is single-sided: a body beside or behind it has no contact") {
   const Ellipsoid rod({0.1, 0.1, 2});
   const std::vector<MeshTriangle> sheet = floor_mesh(4, 1).placed();
   CHECK(contacts_of(rod, {{0, 0, -2.001}, Matrix3::Identity()}, sheet).empty());
@@ -381,7 +382,7 @@ TEST_CASE("a sheet has one side, and a body beside or behind it no contact") {
   CHECK((contacts[0].proximity.normal - Vector3(-1, 0, -1).normalized()).norm() < 0.01);
 }
 
-TEST_CASE("a plate: the shorter separating translation") {
+TEST_CASE("a body in a thin plate gets the shorter separating translation") {
   const Ellipsoid body({1, 1, 1});
   const std::vector<MeshTriangle> plate = box_mesh({20, 20, 0.1}).placed();
   for (const double height : {0.3, -0.2}) {
@@ -392,7 +393,7 @@ TEST_CASE("a plate: the shorter separating translation") {
   }
 }
 
-TEST_CASE("degenerate, repeated and unusable triangles") {
+TEST_CASE("degenerate, repeated and unusable triangles change no contact") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const Ellipsoid body({0.5, 0.7, 0.3});

@@ -9,7 +9,7 @@
 using namespace supernormal;
 using namespace supernormal::test;
 
-TEST_CASE("valleys and room corners: one contact for each side") {
+TEST_CASE("valleys and room corners give one contact for each side") {
   const Ellipsoid ball(Vector3::Ones());
   // Two slopes meet at 90 degrees, with the valley along y.
   TriangleMesh valley;
@@ -66,7 +66,7 @@ void check_is_held_by_all_walls(const std::vector<MeshContact>& contacts, const 
 
 }  // namespace
 
-TEST_CASE("a sharp tip pressed into a corner of three walls is held by all of them") {
+TEST_CASE("a sharp tip pressed into a corner of three walls has a contact with each wall") {
   Draw draw(5);
   const std::vector<MeshTriangle> room = box_mesh({3, 4, 5}, true).placed();
   // The walls are the same, but each goes on behind the others: the mesh crosses itself.
@@ -86,7 +86,7 @@ TEST_CASE("a sharp tip pressed into a corner of three walls is held by all of th
   }
 }
 
-TEST_CASE("in a finely divided bowl a few contacts say it all") {
+TEST_CASE("a body in a finely divided bowl gets a few contacts") {
   TriangleMesh bowl = floor_mesh(60, 0.05);
   for (Vector3& vertex : bowl.vertices) vertex.z() = 0.25 * (vertex.x() * vertex.x() + vertex.y() * vertex.y());
   const std::vector<MeshTriangle> triangles = bowl.placed();

@@ -26,7 +26,7 @@ Vec size_of_box(dGeomID geom) {
 
 }  // namespace
 
-TEST_CASE("a time that is none is refused, with its value and the range, and nothing changes") {
+TEST_CASE("an invalid look-ahead time is refused, with its value and the range, and changes nothing") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Vec before = size_of_box(geom);
@@ -46,7 +46,7 @@ TEST_CASE("a time that is none is refused, with its value and the range, and not
   CHECK(snGeomSetLookAhead(nullptr, dReal(0.01)) == 0);
 }
 
-TEST_CASE("snContactLookAhead lets a gap close within the step, and leaves other contacts alone") {
+TEST_CASE("snContactLookAhead lets a gap close within the step, and does not change other contacts") {
   dContact contact = contact_of_depth(dReal(-0.5));
   snContactLookAhead(&contact, dReal(0.25));
   CHECK(contact.geom.depth == 0);
@@ -84,7 +84,7 @@ TEST_CASE("snContactLookAhead lets a gap close within the step, and leaves other
   CHECK(refused_with("snContactLookAhead: contact = NULL"));
 }
 
-TEST_CASE("the box covers the motion within the time, and is that of the body alone again without it") {
+TEST_CASE("the bounding box covers the motion within the look-ahead time, and only the body without it") {
   OdeSession session;
   World world;
   dWorldSetGravity(world.id(), 0, 0, 0);
@@ -111,7 +111,7 @@ TEST_CASE("the box covers the motion within the time, and is that of the body al
   CHECK(size_of_box(geom) == still);
 }
 
-TEST_CASE("without look-ahead no contact has a negative depth, and the contacts are the same bits as ever") {
+TEST_CASE("without look-ahead no contact has a negative depth, and the contacts have the same bits as before") {
   OdeSession session;
   Random random(11);
   const Geom floor(dCreatePlane(nullptr, 0, 0, 1, 0));

@@ -23,7 +23,7 @@ double depth_of(dGeomID geom, const Vec& p) { return snGeomPointDepth(geom, dRea
 
 }  // namespace
 
-TEST_CASE("a sphere: radius minus distance") {
+TEST_CASE("point depth: a sphere has the radius minus the distance") {
   OdeSession session;
   Random random(13);
   const Geom geom(snCreateEllipsoid(nullptr, 2, 2, 2));
@@ -39,7 +39,7 @@ TEST_CASE("a sphere: radius minus distance") {
   CHECK(depth_of(geom, centre) == relative(2).epsilon(1e-14));
 }
 
-TEST_CASE("an ellipsoid: centre, axes, focal points, far away") {
+TEST_CASE("point depth: an ellipsoid has the closed form at its centre, on its axes and far away") {
   OdeSession session;
   const double a = 3, b = 2, c = 1;
   const Geom geom(snCreateEllipsoid(nullptr, dReal(a), dReal(b), dReal(c)));
@@ -64,7 +64,7 @@ TEST_CASE("an ellipsoid: centre, axes, focal points, far away") {
   }
 }
 
-TEST_CASE("superellipsoids in any pose: along the normal lines") {
+TEST_CASE("point depth: superellipsoids in any pose have the distance along their normals") {
   OdeSession session;
   Random random(14);
   for (int i = 0; i < 300; ++i) {
@@ -78,7 +78,7 @@ TEST_CASE("superellipsoids in any pose: along the normal lines") {
   }
 }
 
-TEST_CASE("with rounding the distance is that of the core less the radius") {
+TEST_CASE("point depth: a rounding reduces the distance by its radius") {
   OdeSession session;
   Random random(15);
   const Geom rounded(snCreateSuperellipsoid(nullptr, 1, 1, 1, 5, 5));
@@ -90,7 +90,7 @@ TEST_CASE("with rounding the distance is that of the core less the radius") {
   }
 }
 
-TEST_CASE("support: the farthest boundary point, whatever the length of the direction") {
+TEST_CASE("support: the farthest boundary point is returned for a direction of any length") {
   OdeSession session;
   Random random(16);
   for (int i = 0; i < 100; ++i) {

@@ -88,7 +88,7 @@ void check_answer(dGeomID body, dGeomID collider, const snProximity& answer) {
 
 }  // namespace
 
-TEST_CASE("points on both surfaces, a gap apart along the normal; moved by the gap they touch; less, and they overlap") {
+TEST_CASE("proximity: the points are on both surfaces, and a displacement by the gap makes the geoms touch") {
   OdeSession session;
   snSetWarmStart(0);
   for (const ColliderKind kind : kColliderKinds) {
@@ -123,7 +123,7 @@ TEST_CASE("points on both surfaces, a gap apart along the normal; moved by the g
   }
 }
 
-TEST_CASE("geoms without size are points, segments and plates") {
+TEST_CASE("proximity: geoms without size are points, segments and plates") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(51);
@@ -157,7 +157,7 @@ TEST_CASE("geoms without size are points, segments and plates") {
   }
 }
 
-TEST_CASE("geoms with lengths that are no lengths are refused, and collide with nothing") {
+TEST_CASE("proximity: geoms with invalid lengths are refused, and collide with nothing") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   snProximity answer;

@@ -30,7 +30,7 @@ struct Parameters {
 
 }  // namespace
 
-TEST_CASE("half-axes and exponents, at creation") {
+TEST_CASE("refusals: half-axes and exponents at creation") {
   OdeSession session;
   struct Case {
     dReal a, b, c, delta, epsilon;
@@ -54,7 +54,7 @@ TEST_CASE("half-axes and exponents, at creation") {
   CHECK(snGeomClass() == -1);  // no refused geom is alive
 }
 
-TEST_CASE("a refused change leaves the geom as it was") {
+TEST_CASE("refusals: a refused change leaves the geom unchanged") {
   OdeSession session;
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, 2, 3, 4, 5));
   REQUIRE(snGeomSetRounding(geom, dReal(0.25)) == 1);
@@ -76,7 +76,7 @@ TEST_CASE("a refused change leaves the geom as it was") {
   for (int i = 0; i < 6; ++i) CHECK(box_before[i] == box_after[i]);
 }
 
-TEST_CASE("geoms that are not ours, or not the kind asked for") {
+TEST_CASE("refusals: geoms of another class or of another kind of body") {
   OdeSession session;
   const Geom sphere(dCreateSphere(nullptr, 1));
   dMass mass;
@@ -101,7 +101,7 @@ TEST_CASE("geoms that are not ours, or not the kind asked for") {
   CHECK(value == 7);
 }
 
-TEST_CASE("solver settings") {
+TEST_CASE("refusals: solver settings") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const auto check_both = [&](snSolver solver, dReal tolerance, int limit, const char* value, const char* range) {
@@ -122,7 +122,7 @@ TEST_CASE("solver settings") {
   }
 }
 
-TEST_CASE("mass, support, point, proximity") {
+TEST_CASE("refusals: mass, support, point and proximity") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom other(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -179,7 +179,7 @@ TEST_CASE("mass, support, point, proximity") {
   CHECK(answer.gap == 7);
 }
 
-TEST_CASE("the text belongs to the thread") {
+TEST_CASE("refusals: each thread has its own text of the last error") {
   OdeSession session;
   CHECK(snCreateEllipsoid(nullptr, -1, 1, 1) == nullptr);
   std::string before, after;

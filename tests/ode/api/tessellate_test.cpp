@@ -24,7 +24,7 @@ double volume(const snMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("a mesh has the volume of its geom, and its corners the geom's normals") {
+TEST_CASE("a mesh has the volume of its geom, and its vertices have the geom's normals") {
   OdeSession session;
   const Geom geom(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 3, 3));
   REQUIRE(snGeomSetRounding(geom, dReal(0.05)) == 1);
@@ -47,7 +47,7 @@ TEST_CASE("a mesh has the volume of its geom, and its corners the geom's normals
   snMeshRelease(nullptr);
 }
 
-TEST_CASE("a mesh is refused, and empty, where it would be none") {
+TEST_CASE("a mesh with invalid arguments is refused and empty") {
   OdeSession session;
   const Geom geom(snCreateEllipsoid(nullptr, 3, 2, 1));
   snMesh mesh;

@@ -74,7 +74,7 @@ struct TestWorld {
 
 }  // namespace
 
-TEST_CASE("time of impact: with every collider the gap is positive before, and closes then; in either order") {
+TEST_CASE("time of impact: with every collider the gap is positive before and closes at the impact, in either order") {
   const OdeSession session;
   Random random(1);
   const double rounding = within_rounding(1e-8, 50);
@@ -125,7 +125,7 @@ TEST_CASE("time of impact: with every collider the gap is positive before, and c
   }
 }
 
-TEST_CASE("time of impact: a sheet of triangles, at rest, moving or turning, and past its border") {
+TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or rotating, and misses it beyond its border") {
   const OdeSession session;
   const TestWorld world;
   const MeshGeom floor(floor_arrays(20, 20, 0.5));  // 10 m x 10 m from the origin
@@ -166,7 +166,7 @@ TEST_CASE("time of impact: a sheet of triangles, at rest, moving or turning, and
   CHECK(gap_of(ball, floor) > 0);
 }
 
-TEST_CASE("time of impact: touching geoms that part, fly-bys and overlaps") {
+TEST_CASE("time of impact: touching geoms that separate, fly-bys and overlaps have the right status") {
   const OdeSession session;
   const TestWorld world;
   const Geom ball(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.5), dReal(0.5)));
@@ -186,7 +186,7 @@ TEST_CASE("time of impact: touching geoms that part, fly-bys and overlaps") {
   }
 }
 
-TEST_CASE("time of impact: what is refused") {
+TEST_CASE("time of impact: invalid arguments are refused") {
   const OdeSession session;
   const TestWorld world;
   const Geom ball(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -214,7 +214,7 @@ TEST_CASE("time of impact: what is refused") {
   CHECK(snGeomTimeOfImpact(box, ball, 0, &impact) == 1);
 }
 
-TEST_CASE("time of impact: no velocity asks a heightfield without pose for its pose, where ODE would abort") {
+TEST_CASE("time of impact: a heightfield without a pose is not asked for its pose") {
   const OdeSession session;
   const TestWorld world;
   const Terrain terrain(Terrain::Layout{}, [](int /*i*/, int /*j*/) { return 0.0; });
@@ -232,7 +232,7 @@ TEST_CASE("time of impact: no velocity asks a heightfield without pose for its p
   }
 }
 
-TEST_CASE("time of impact: a heightfield, as snGeomProximity has it") {
+TEST_CASE("time of impact: a heightfield agrees with snGeomProximity") {
   const OdeSession session;
   const TestWorld world;
   Terrain::Layout layout;

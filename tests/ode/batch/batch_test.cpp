@@ -166,7 +166,7 @@ void check_same(const Account& account, const Account& expected) {
 
 }  // namespace
 
-TEST_CASE("a batch on any number of threads gives the contacts, statistics and errors of one after the other") {
+TEST_CASE("a batch on any number of threads gives the contacts, statistics and errors of sequential calls") {
   const OdeSession session;
   for (const int warm_start : {1, 0}) {
     snSetWarmStart(warm_start);
@@ -189,7 +189,7 @@ TEST_CASE("a batch on any number of threads gives the contacts, statistics and e
   }
 }
 
-TEST_CASE("a batch passes over pairs that the program does not want, and pairs of one body") {
+TEST_CASE("a batch skips pairs that the filter rejects, and pairs of one body") {
   const OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const dWorldID world = dWorldCreate();
@@ -218,7 +218,7 @@ TEST_CASE("a batch passes over pairs that the program does not want, and pairs o
   dWorldDestroy(world);
 }
 
-TEST_CASE("a batch enters spaces within the space") {
+TEST_CASE("a batch enters nested spaces") {
   const OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const dSpaceID inner = dSimpleSpaceCreate(space);
@@ -232,7 +232,7 @@ TEST_CASE("a batch enters spaces within the space") {
   dSpaceDestroy(space);
 }
 
-TEST_CASE("a batch says what is wrong with its arguments") {
+TEST_CASE("a batch refuses invalid arguments with a message") {
   const OdeSession session;
   const auto refusal = [](const auto& call) {
     CHECK(call());

@@ -20,7 +20,7 @@ constexpr double kMissedMost = 0.01;
 
 }  // namespace
 
-TEST_CASE("out of an overlap by 0.96 of the depth: still touching; by another 0.08: apart") {
+TEST_CASE("out of an overlap: moved by 0.96 of the depth bodies still touch, and by another 0.08 they are apart") {
   OdeSession session;
   for (const ColliderKind kind : kColliderKinds) {
     CAPTURE(name_of(kind));
@@ -47,7 +47,7 @@ TEST_CASE("out of an overlap by 0.96 of the depth: still touching; by another 0.
   }
 }
 
-TEST_CASE("the depth of points: at the centre, on the surface, anywhere") {
+TEST_CASE("the depth of points is right at the centre, on the surface and in between") {
   OdeSession session;
   Random random(41);
   const Geom probe(dCreateSphere(nullptr, 1));

@@ -148,7 +148,7 @@ void lay(dGeomID body, dGeomID under, double angle, double direction, double dep
 
 }  // namespace
 
-TEST_CASE("there are never more contacts than there is room for, the deepest first") {
+TEST_CASE("there are at most max_contacts contacts, the deepest first") {
   const OdeSession session;
   const Geom floor(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom brick(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), 20, 20));
@@ -161,7 +161,7 @@ TEST_CASE("there are never more contacts than there is room for, the deepest fir
   }
 }
 
-TEST_CASE("swapped geoms have the same contacts, the normals turned") {
+TEST_CASE("swapped geoms have the same contacts with reversed normals") {
   const OdeSession session;
   snSetWarmStart(0);
   const Geom lower(snCreateSuperellipsoid(nullptr, dReal(0.1), dReal(0.07), dReal(0.05), 20, 12));
@@ -179,7 +179,7 @@ TEST_CASE("swapped geoms have the same contacts, the normals turned") {
   }
 }
 
-TEST_CASE("what carries a flat body does not jump while it tilts, nor while it comes in deeper") {
+TEST_CASE("the load on a flat body does not jump while it tilts or comes in deeper") {
   const OdeSession session;
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   const Geom box(dCreateBox(nullptr, dReal(0.5), dReal(0.5), dReal(0.2)));
@@ -204,7 +204,7 @@ TEST_CASE("what carries a flat body does not jump while it tilts, nor while it c
   }
 }
 
-TEST_CASE("no force jumps while a flat body tilts or comes in deeper, whatever the room for contacts") {
+TEST_CASE("no force on a flat body jumps while it tilts or comes in deeper, at any max_contacts") {
   const OdeSession session;
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
   for (const int room : {2, 3, 4, 8}) {

@@ -222,7 +222,7 @@ bool lay(const Solid& upper, const Solid& lower, double depth, bool is_leaning, 
 
 }  // namespace
 
-TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overlap of both") {
+TEST_CASE("our bodies with each other and with ODE's geoms: a contact acts within the overlap of both") {
   OdeSession session;
   Random random(36);
   std::vector<Kind> all(kOurs.begin(), kOurs.end());
@@ -258,7 +258,7 @@ TEST_CASE("our bodies and each other, on ODE's: a contact acts within the overla
   if (!kIsSinglePrecision) CHECK(unknown <= pairs / 100);
 }
 
-TEST_CASE("our bodies on planes and heightfields: a contact acts within the overlap of both") {
+TEST_CASE("our bodies with planes and heightfields: a contact acts within the overlap of both") {
   OdeSession session;
   Random random(37);
   for (const Kind& one : kOurs) {

@@ -45,7 +45,7 @@ void check_contact(const dContactGeom& contact, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-TEST_CASE("a contact moves the geoms apart, and nothing less does") {
+TEST_CASE("a displacement by a contact's depth separates the geoms, and a smaller one does not") {
   OdeSession session;
   Random random(1);
   for (const ColliderKind kind : kColliderKinds) {
@@ -85,7 +85,7 @@ TEST_CASE("a contact moves the geoms apart, and nothing less does") {
   }
 }
 
-TEST_CASE("both call orders give the same contact, turned around") {
+TEST_CASE("both call orders give the same contact with the reversed normal") {
   OdeSession session;
   Random random(2);
   for (const bool warm_start : {true, false}) {
@@ -115,7 +115,7 @@ TEST_CASE("both call orders give the same contact, turned around") {
   }
 }
 
-TEST_CASE("skip and flags: nothing is written beside the contacts asked for") {
+TEST_CASE("skip and flags: nothing is written outside of the requested contacts") {
   OdeSession session;
   const Geom body(snCreateSuperellipsoid(nullptr, 1, 1, 1, 4, 4));
   const auto colliders = make_colliders_at({0.7, 0.3, 0});
@@ -136,7 +136,7 @@ TEST_CASE("skip and flags: nothing is written beside the contacts asked for") {
   }
 }
 
-TEST_CASE("the array is not touched when the geoms are apart") {
+TEST_CASE("the contact array is unchanged when the geoms are apart") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 2, 3));
   place(body, {10, 0, 0});
@@ -149,7 +149,7 @@ TEST_CASE("the array is not touched when the geoms are apart") {
   }
 }
 
-TEST_CASE("geoms of one body do not collide; a body with itself neither") {
+TEST_CASE("geoms of one body do not collide, nor does a geom with itself") {
   OdeSession session;
   const dWorldID world = dWorldCreate();
   const dBodyID body = dBodyCreate(world);
@@ -180,7 +180,7 @@ void check_no_contact(dGeomID one, dGeomID other) {
 
 }  // namespace
 
-TEST_CASE("a geom whose pose is not a number gives no contact and does not stop a space") {
+TEST_CASE("a geom whose pose is not finite gives no contact and does not stop a space") {
   OdeSession session;
   const dReal nan = std::numeric_limits<dReal>::quiet_NaN();
   const dSpaceID space = dHashSpaceCreate(nullptr);

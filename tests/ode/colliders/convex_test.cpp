@@ -66,7 +66,7 @@ bool same(const std::vector<dContactGeom>& a, const std::vector<dContactGeom>& b
 
 }  // namespace
 
-TEST_CASE("all vertices are found, wherever the geom is") {
+TEST_CASE("dConvex: all vertices are found in any pose") {
   OdeSession session;
   Random random(30);
   const Vector3 axes(0.7, 0.5, 0.9);
@@ -93,7 +93,7 @@ TEST_CASE("all vertices are found, wherever the geom is") {
   }
 }
 
-TEST_CASE("the corners of a box: as dBox") {
+TEST_CASE("dConvex: the vertices of a box collide as a dBox") {
   OdeSession session;
   Random random(31);
   for (int i = 0; i < 300; ++i) {
@@ -110,7 +110,7 @@ TEST_CASE("the corners of a box: as dBox") {
   }
 }
 
-TEST_CASE("inside a dGeomTransform that moves: ODE's bounding box is that of an earlier pose") {
+TEST_CASE("dConvex: inside a moving dGeomTransform the vertices are found, although ODE's bounding box is of an earlier pose") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(32);
@@ -139,7 +139,7 @@ TEST_CASE("inside a dGeomTransform that moves: ODE's bounding box is that of an 
   CHECK(touching > 100);
 }
 
-TEST_CASE("dGeomSetConvex: the next query sees the new vertices, and a bounding box left behind is no disaster") {
+TEST_CASE("dConvex: the next query after dGeomSetConvex sees the new vertices, also with an outdated bounding box") {
   OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   const ConvexArrays small(box_corners(0.1, 0.1, 0.1));
@@ -169,7 +169,7 @@ TEST_CASE("dGeomSetConvex: the next query sees the new vertices, and a bounding 
   dSpaceDestroy(space);
 }
 
-TEST_CASE("coplanar, repeated, collinear, few and many points") {
+TEST_CASE("dConvex: coplanar, repeated, collinear, few and many points are valid") {
   OdeSession session;
   Random random(33);
   std::vector<Vec> grid;
@@ -223,7 +223,7 @@ TEST_CASE("coplanar, repeated, collinear, few and many points") {
   }
 }
 
-TEST_CASE("more vertices than dCollide can list, and vertices that are no numbers, are refused") {
+TEST_CASE("dConvex: more vertices than dCollide can list, and vertices that are not finite, are refused") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   snProximity answer;

@@ -141,7 +141,7 @@ const Lying kLying[] = {
 
 }  // namespace
 
-TEST_CASE("bullets: none is through a wall of any kind, at 1 to 1000 m/s and steps of 1 to 50 ms") {
+TEST_CASE("bullets: none passes through a wall of any kind, at 1 to 1000 m/s and steps of 1 to 50 ms") {
   OdeSession session;
   for (const Wall wall : kWalls) {
     Random random(static_cast<unsigned>(wall) + 1);
@@ -161,7 +161,7 @@ TEST_CASE("bullets: none is through a wall of any kind, at 1 to 1000 m/s and ste
   CHECK(through > 20);
 }
 
-TEST_CASE("bullets that spin at 300 rad/s: none is through") {
+TEST_CASE("bullets that spin at 300 rad/s: none passes through a wall") {
   OdeSession session;
   for (const Wall wall : kWalls) {
     Random random(static_cast<unsigned>(wall) + 100);
@@ -169,7 +169,9 @@ TEST_CASE("bullets that spin at 300 rad/s: none is through") {
   }
 }
 
-TEST_CASE("bullets whose centre of mass is up to three half-axes off their middle, with and without friction: none is through") {
+TEST_CASE(
+    "bullets with the centre of mass up to three half-axes off their middle, with and without friction: none passes through a "
+    "wall") {
   OdeSession session;
   for (const Wall wall : kWalls) {
     for (const double mu : {0.0, 0.5}) {
@@ -223,7 +225,7 @@ TEST_CASE("two free bodies that meet off centre do not go through each other") {
   }
 }
 
-TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
+TEST_CASE("a body that meets a wall face on stops at the wall, to a millionth of its size") {
   OdeSession session;
   for (const double speed : {1.0, 10.0, 99.0}) {
     for (const double step : {1e-3, 10e-3, 50e-3}) {
@@ -253,7 +255,7 @@ TEST_CASE("what meets a wall face on ends at it, to a millionth of its size") {
   }
 }
 
-TEST_CASE("fly-bys with a clearance of a thousandth of the size keep their velocity, and bodies that meet do not") {
+TEST_CASE("bodies that fly by with a clearance of a thousandth of the size keep their velocity, and bodies that meet do not") {
   OdeSession session;
   for (const Passed passed : kAllPassed) {
     CAPTURE(name_of(passed));
@@ -294,7 +296,7 @@ TEST_CASE("bodies dropped on a plane, a box and a sheet rest at their height at 
   }
 }
 
-TEST_CASE("on slopes below the angle of friction nothing creeps") {
+TEST_CASE("on slopes below the angle of friction no body creeps") {
   OdeSession session;
   for (const Lying& lying : kLying) {
     if (lying.is_on_side) continue;
@@ -326,7 +328,7 @@ TEST_CASE("on slopes below the angle of friction nothing creeps") {
   }
 }
 
-TEST_CASE("a ball and a can roll down a slope as their closed forms say") {
+TEST_CASE("a ball and a can roll down a slope with the acceleration of their closed forms") {
   OdeSession session;
   const double incline = 10 * kDegree;
   for (const double step : {0.001, 0.005, 0.02}) {
@@ -354,7 +356,7 @@ TEST_CASE("a ball and a can roll down a slope as their closed forms say") {
   }
 }
 
-TEST_CASE("a geom beside its body's centre, and every space: the same") {
+TEST_CASE("look-ahead gives the same contacts for a geom off its body's centre and in every space") {
   OdeSession session;
   dSpaceID (*const make_space[])() = {[] { return dSimpleSpaceCreate(nullptr); }, [] { return dHashSpaceCreate(nullptr); },
                                       [] { return dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_ZXY); },
@@ -380,7 +382,7 @@ TEST_CASE("a geom beside its body's centre, and every space: the same") {
   }
 }
 
-TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets are stopped with any room") {
+TEST_CASE("there are at most max_contacts contacts ahead, the nearest first, and bullets stop at any max_contacts") {
   OdeSession session;
   World world;
   const Front front(world.space(), Wall::Box, 0.01);
@@ -417,7 +419,7 @@ TEST_CASE("room for n contacts gives at most n, the nearest first, and bullets a
   }
 }
 
-TEST_CASE("a pair looks ahead by the larger time of the two, and both of two bullets are stopped") {
+TEST_CASE("a pair looks ahead by the larger time of both geoms, and two bullets stop each other") {
   OdeSession session;
   for (const double speed : {10.0, 300.0}) {
     World world;
@@ -441,7 +443,7 @@ TEST_CASE("a pair looks ahead by the larger time of the two, and both of two bul
   }
 }
 
-TEST_CASE("a batch has the same contacts as dCollide") {
+TEST_CASE("a batch has the same contacts ahead as dCollide") {
   OdeSession session;
   World world;
   Random random(4);

@@ -110,7 +110,7 @@ const std::array<MeshArrays, 3>& hollow_meshes() {
 
 }  // namespace
 
-TEST_CASE("a ball and a mesh with hollows: as far as its centre from the nearest triangle") {
+TEST_CASE("the gap of a ball and a mesh with hollows is the distance of its centre less the radius") {
   OdeSession session;
   Random random(81);
   for (const MeshArrays& arrays : hollow_meshes()) {
@@ -139,7 +139,9 @@ TEST_CASE("a ball and a mesh with hollows: as far as its centre from the nearest
   }
 }
 
-TEST_CASE("a body and a mesh with hollows: the gap is the depth of the deepest contact, and there is one if it is not positive") {
+TEST_CASE(
+    "the gap of a body and a mesh with hollows is minus the depth of the deepest contact, and a gap that is not positive has a "
+    "contact") {
   OdeSession session;
   Random random(82);
   std::size_t contact_count = 0;

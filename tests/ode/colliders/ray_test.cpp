@@ -93,7 +93,7 @@ void check_on_boundary(dGeomID body, const dContactGeom& contact, const Vec& dir
 
 }  // namespace
 
-TEST_CASE("as dSphere against rays, from outside and inside") {
+TEST_CASE("rays hit a spherical body as they hit a dSphere, from outside and inside") {
   OdeSession session;
   Random random(31);
   const Geom ray(dCreateRay(nullptr, 1));
@@ -202,7 +202,7 @@ TEST_CASE("ODE's ray battery for our bodies") {
   CHECK(hits > kRepetitions / 2);
 }
 
-TEST_CASE("rays of any length, lengths of no use") {
+TEST_CASE("rays of any valid length hit, and rays of invalid length do not") {
   OdeSession session;
   const Geom body(snCreateSuperellipsoid(nullptr, 1, dReal(0.7), dReal(0.5), 4, 3));
   const Geom ray(dCreateRay(nullptr, 0));
@@ -227,7 +227,7 @@ TEST_CASE("rays of any length, lengths of no use") {
   CHECK(norm(to_vec(contacts[0].normal) - Vec{-1, 0, 0}) < 1e-9);
 }
 
-TEST_CASE("by dGeomRaySet or by pose, at rest or carried by a body with an offset") {
+TEST_CASE("a ray hits the same when set by dGeomRaySet, by its pose or by a body with an offset") {
   OdeSession session;
   Random random(33);
   const dWorldID world = dWorldCreate();
@@ -283,7 +283,7 @@ void keep_nearest(void* data, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
-TEST_CASE("a ray finds the same bodies in every kind of space as one by one") {
+TEST_CASE("a ray finds the same bodies in every kind of space as by single calls") {
   OdeSession session;
   const dVector3 centre = {0, 0, 0, 0}, extents = {20, 20, 20, 0};
   for (int kind = 0; kind < 4; ++kind) {
@@ -317,7 +317,7 @@ TEST_CASE("a ray finds the same bodies in every kind of space as one by one") {
   }
 }
 
-TEST_CASE("room, counts and the statistics") {
+TEST_CASE("a ray with any max_contacts is counted in the statistics") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   const Geom ray(dCreateRay(nullptr, 10));
@@ -335,7 +335,7 @@ TEST_CASE("room, counts and the statistics") {
   CHECK(statistics.not_converged == 0);
 }
 
-TEST_CASE("snGeomProximity of a body and a ray: the distance of the segment") {
+TEST_CASE("snGeomProximity of a body and a ray returns the distance of the segment") {
   OdeSession session;
   Random random(35);
   const Geom ray(dCreateRay(nullptr, 1));

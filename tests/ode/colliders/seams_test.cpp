@@ -195,7 +195,7 @@ class SlideOverSeams {
 
 }  // namespace
 
-TEST_CASE("a body anywhere on a floor with seams: the normal and the depth of the plane" * doctest::skip(kIsSinglePrecision)) {
+TEST_CASE("a body anywhere on a floor with seams has the normal and the depth of the plane" * doctest::skip(kIsSinglePrecision)) {
   const OdeSession session;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
@@ -234,7 +234,7 @@ TEST_CASE("a body anywhere on a floor with seams: the normal and the depth of th
   }
 }
 
-TEST_CASE("a body slides over seams as over a plane" * doctest::skip(kIsSinglePrecision)) {
+TEST_CASE("a body slides over seams as it slides over a plane" * doctest::skip(kIsSinglePrecision)) {
   const OdeSession session;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
@@ -256,7 +256,7 @@ TEST_CASE("a body slides over seams as over a plane" * doctest::skip(kIsSinglePr
   }
 }
 
-TEST_CASE("a body that hangs over the border of a sheet is held, and falls when its middle is beyond") {
+TEST_CASE("an overhanging body stays on the border of a sheet, and falls when its middle is beyond the border") {
   const OdeSession session;
   for (const double beyond : {-0.02, 0.02}) {
     for (const Kind kind : {Kind::Ball, Kind::Brick, Kind::Can}) {

@@ -53,7 +53,7 @@ Pair make_sphere(double radius, int kind) {
 
 }  // namespace
 
-TEST_CASE("as dSphere against dSphere, dPlane and one another") {
+TEST_CASE("spherical bodies collide as dSphere does with dSphere, dPlane and one another") {
   OdeSession session;
   Random random(10);
   for (int i = 0; i < 500; ++i) {
@@ -86,7 +86,7 @@ TEST_CASE("as dSphere against dSphere, dPlane and one another") {
   }
 }
 
-TEST_CASE("an ellipsoid and a plane: the closed form") {
+TEST_CASE("an ellipsoid and a plane have the depth of the closed form") {
   OdeSession session;
   Random random(11);
   const Vec axes = {0.5, 1.0, 1.7};
@@ -161,7 +161,7 @@ Vec draw_near(dGeomID geom, double distance, Random& random) {
 
 }  // namespace
 
-TEST_CASE("as dSphere against dBox, dCapsule and dCylinder") {
+TEST_CASE("spherical bodies collide as dSphere does with dBox, dCapsule and dCylinder") {
   OdeSession session;
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-15), 1000);  // the normal is good to the root of the tolerance
   Random random(12);

@@ -37,7 +37,7 @@ void check_swapped(const std::vector<dContactGeom>& one, const std::vector<dCont
 
 }  // namespace
 
-TEST_CASE("a floor of triangles is a dPlane, in both orders") {
+TEST_CASE("a floor of triangles gives the contacts of a dPlane, in both orders") {
   OdeSession session;
   Random random(31);
   const MeshGeom floor(floor_arrays(60, 60, 0.125));
@@ -128,7 +128,7 @@ dGeomID make_slider(const std::string& kind) {
 }  // namespace
 
 // With single precision micrometres do not show over 10 m: they are the spacing of its numbers.
-TEST_CASE("10 m across 20 000 triangles: as on a plane" * doctest::skip(kIsSinglePrecision)) {
+TEST_CASE("10 m across 20 000 triangles a body slides as on a plane" * doctest::skip(kIsSinglePrecision)) {
   OdeSession session;
   struct Case {
     const char* kind;
@@ -164,7 +164,8 @@ TEST_CASE("10 m across 20 000 triangles: as on a plane" * doctest::skip(kIsSingl
   }
 }
 
-TEST_CASE("10 m across a turned and moved floor, whose vertices are rounded" * doctest::skip(kIsSinglePrecision)) {
+TEST_CASE("10 m across a rotated and moved floor with rounded vertices a body slides as on a plane" *
+          doctest::skip(kIsSinglePrecision)) {
   OdeSession session;
   Random random(32);
   const MeshGeom floor(floor_arrays(100, 100, 0.1));  // 0.1 is no float
@@ -196,7 +197,7 @@ TEST_CASE("10 m across a turned and moved floor, whose vertices are rounded" * d
   CHECK(off_line < 1e-6);
 }
 
-TEST_CASE("a turned and moved block against dBox: sphere-shaped bodies") {
+TEST_CASE("a spherical body has the same contacts with a rotated and moved block of triangles as with a dBox") {
   OdeSession session;
   Random random(33);
   const MeshGeom block(box_arrays(1, 0.75, 0.5));
@@ -235,7 +236,7 @@ TEST_CASE("a turned and moved block against dBox: sphere-shaped bodies") {
   CHECK(contacts > 500);
 }
 
-TEST_CASE("distances: the nearest triangle, however far") {
+TEST_CASE("the distance of a mesh is the distance of its nearest triangle, at any distance") {
   OdeSession session;
   Random random(34);
   const MeshGeom block(box_arrays(1, 0.75, 0.5));
@@ -280,7 +281,7 @@ TEST_CASE("distances: the nearest triangle, however far") {
   }
 }
 
-TEST_CASE("a room: one contact for each wall, the deepest when there is room for less") {
+TEST_CASE("a body in a corner of a mesh room has one contact for each wall, and with a smaller max_contacts the deepest ones") {
   OdeSession session;
   const MeshGeom room(box_arrays(3, 4, 5, true));
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
@@ -308,7 +309,7 @@ TEST_CASE("a room: one contact for each wall, the deepest when there is room for
   for (const Spaced& s : spaced) CHECK(std::all_of(s.between.begin(), s.between.end(), [](char c) { return c == 'x'; }));
 }
 
-TEST_CASE("meshes of one triangle, of none that is usable, and with repeated triangles") {
+TEST_CASE("meshes of one triangle, without a usable triangle and with repeated triangles have the right contacts") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.7), dReal(0.3)));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -360,7 +361,7 @@ int wants_even(dGeomID /*mesh*/, dGeomID /*geom*/, int index) { return index % 2
 
 }  // namespace
 
-TEST_CASE("the callbacks of the mesh are heard and left in place") {
+TEST_CASE("the callbacks of a mesh are called and stay set") {
   OdeSession session;
   const MeshGeom floor(floor_arrays(8, 8, 0.5));
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.4), dReal(0.4), dReal(0.4)));
@@ -391,7 +392,7 @@ TEST_CASE("the callbacks of the mesh are heard and left in place") {
   CHECK(told.by == nullptr);
 }
 
-TEST_CASE("ODE closed and opened again, and bodies that are no numbers") {
+TEST_CASE("meshes collide after ODE was closed and opened again, and ignore bodies that are not finite") {
   for (int round = 0; round < 2; ++round) {
     OdeSession session;
     const MeshGeom floor(floor_arrays(8, 8, 0.5));

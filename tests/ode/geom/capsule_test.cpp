@@ -68,7 +68,7 @@ class Fall {
 
 }  // namespace
 
-TEST_CASE("capsule: size, mass and depth are those of ODE's") {
+TEST_CASE("capsule: size, mass and depth are equal to ODE's") {
   OdeSession session;
   const Geom ours(snCreateCapsule(nullptr, kRadius, kLength));
   REQUIRE(ours != nullptr);
@@ -97,7 +97,7 @@ TEST_CASE("capsule: size, mass and depth are those of ODE's") {
   }
 }
 
-TEST_CASE("capsule: lying on a plane, a box or a capsule it has a contact at each end, as deep as it is there") {
+TEST_CASE("capsule: on a plane, a box or a capsule a lying capsule has a contact at each end, with the depth there") {
   OdeSession session;
   const Geom capsule(snCreateCapsule(nullptr, kRadius, kLength));
   const Geom plane(dCreatePlane(nullptr, 0, 0, 1, 0));
@@ -138,7 +138,7 @@ TEST_CASE("capsule: lying on a plane, a box or a capsule it has a contact at eac
   }
 }
 
-TEST_CASE("capsule: it lies still, whatever the step, the room for contacts and what is below") {
+TEST_CASE("capsule: a lying capsule stays still at any step and max_contacts, on any geom") {
   for (const bool is_on_box : {false, true}) {
     for (const double step : {0.005, 0.02, 0.05}) {
       for (const int room : {2, 3, 4, 8}) {
@@ -159,7 +159,7 @@ TEST_CASE("capsule: it lies still, whatever the step, the room for contacts and 
   }
 }
 
-TEST_CASE("capsule: refusals") {
+TEST_CASE("capsule: invalid parameters are refused") {
   OdeSession session;
   CHECK(snCreateCapsule(nullptr, 0, 1) == nullptr);
   CHECK(refused_with("snCreateCapsule: radius = 0"));

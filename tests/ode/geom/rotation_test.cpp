@@ -96,7 +96,7 @@ void check_refused(dGeomID g1, dGeomID g2, const std::string& who) {
 
 }  // namespace
 
-TEST_CASE("rotations rounded to float: queries converge, to what the nearest rotations have") {
+TEST_CASE("rotations rounded to float: queries converge to the answers of the nearest rotations") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(60);
@@ -125,7 +125,7 @@ TEST_CASE("rotations rounded to float: queries converge, to what the nearest rot
   CHECK(other_maxima <= kPairs / 2000);
 }
 
-TEST_CASE("what is not near a rotation is refused by name, and gives no contact and no NaN") {
+TEST_CASE("a matrix that is not near a rotation is refused by name, and gives no contact and no NaN") {
   OdeSession session;
   Random random(61);
   Matrix3 shear = Matrix3::Identity(), mirror = Matrix3::Identity();
@@ -158,7 +158,7 @@ TEST_CASE("what is not near a rotation is refused by name, and gives no contact 
   check_refused(box, body, "a dBox");
 }
 
-TEST_CASE("a rotation typed with three decimals is one") {
+TEST_CASE("a rotation with three decimals is accepted") {
   OdeSession session;
   const Geom body(snCreateEllipsoid(nullptr, 1, 1, 1));
   Matrix3 typed;

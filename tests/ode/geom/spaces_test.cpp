@@ -85,7 +85,7 @@ Pairs touching_without_space(const std::vector<dGeomID>& geoms) {
 
 }  // namespace
 
-TEST_CASE("every space finds exactly the pairs that touch") {
+TEST_CASE("every space finds exactly the touching pairs") {
   OdeSession session;
   for (const SpaceKind& kind : space_kinds()) {
     CAPTURE(kind.name);
@@ -102,7 +102,7 @@ TEST_CASE("every space finds exactly the pairs that touch") {
   }
 }
 
-TEST_CASE("a plane that no body touches calls nobody") {
+TEST_CASE("a plane that no body touches causes no near callback") {
   OdeSession session;
   const std::vector<std::array<dReal, 4>> planes = {
       {0, 0, 1, -8}, {1, 0, 0, -8}, {0, -1, 0, -8}, {dReal(0.6), dReal(0.48), dReal(0.64), -12}};
@@ -125,7 +125,7 @@ TEST_CASE("a plane that no body touches calls nobody") {
   }
 }
 
-TEST_CASE("a box whose corner is in the bounding box but not near the body is pruned; one that is near is not") {
+TEST_CASE("a box whose corner is in a body's bounding box but not near the body is culled, and a near one is not") {
   OdeSession session;
   const dSpaceID space = dSimpleSpaceCreate(nullptr);
   snCreateEllipsoid(space, 1, 1, 1);
@@ -177,7 +177,7 @@ int check_same_contacts(dGeomID transform, dGeomID direct, dGeomID other) {
 
 }  // namespace
 
-TEST_CASE("inside a dGeomTransform") {
+TEST_CASE("a body inside a dGeomTransform has the contacts of the body itself") {
   OdeSession session;
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
   Random random(5);
@@ -202,7 +202,7 @@ TEST_CASE("inside a dGeomTransform") {
   CHECK(touching > 200);
 }
 
-TEST_CASE("a collider inside a dGeomTransform") {
+TEST_CASE("a collider inside a dGeomTransform has the contacts of the collider itself") {
   OdeSession session;
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
   Random random(8);

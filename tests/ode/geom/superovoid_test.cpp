@@ -50,7 +50,7 @@ TEST_CASE("superovoid: parameters are kept, changed and refused") {
   CHECK(refused_with("half-axis b = -1 m"));
 }
 
-TEST_CASE("superovoid: the functions of one kind of body refuse the other kinds") {
+TEST_CASE("superovoid: the functions of one kind of body refuse other kinds") {
   OdeSession session;
   const Geom egg(snCreateSuperovoid(nullptr, 3, 2, 1, 2, 2, 0, 0));
   const Geom ellipsoid(snCreateEllipsoid(nullptr, 3, 2, 1));
@@ -60,7 +60,7 @@ TEST_CASE("superovoid: the functions of one kind of body refuse the other kinds"
   CHECK(refused_with("geom is a superovoid, but must be an ellipsoid or a superellipsoid"));
 }
 
-TEST_CASE("superovoid: without taper it touches as the superellipsoid does") {
+TEST_CASE("superovoid: without taper the contacts are the superellipsoid's") {
   OdeSession session;
   snSetWarmStart(0);
   Random random(81);
@@ -79,7 +79,7 @@ TEST_CASE("superovoid: without taper it touches as the superellipsoid does") {
   }
 }
 
-TEST_CASE("superovoid: mass, and an egg that comes to rest on its side") {
+TEST_CASE("superovoid: an egg has the right mass and comes to rest on its side") {
   OdeSession session;
   const double a = 0.3, c = 0.4, taper = 0.3, density = 1000;
   World world;

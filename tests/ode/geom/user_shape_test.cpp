@@ -50,7 +50,7 @@ snShape describe(Egg& egg, bool with_hessian) {
 
 }  // namespace
 
-TEST_CASE("collides as the built-in body of the same form") {
+TEST_CASE("user shape: the contacts are those of the built-in body of the same form") {
   OdeSession session;
   // The functions of a user's body return dReals: with single precision the query converges to no more than that.
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(within_rounding(1e-9, 100)), 1000);
@@ -81,7 +81,7 @@ TEST_CASE("collides as the built-in body of the same form") {
   }
 }
 
-TEST_CASE("release is called once, when the geom dies; never on a refusal") {
+TEST_CASE("user shape: release is called once, when the geom is destroyed, and never after a refusal") {
   OdeSession session;
   Egg egg;
   const snShape good = describe(egg, true);
@@ -105,7 +105,7 @@ TEST_CASE("release is called once, when the geom dies; never on a refusal") {
   CHECK(egg.released == 1);
 }
 
-TEST_CASE("parameters of a superellipsoid it has none") {
+TEST_CASE("user shape: the parameters of a superellipsoid are refused") {
   OdeSession session;
   Egg egg;
   const snShape shape = describe(egg, false);
@@ -117,7 +117,7 @@ TEST_CASE("parameters of a superellipsoid it has none") {
   CHECK(a == 7);
 }
 
-TEST_CASE("an exception in a callback ends as an error of the call and not in ODE") {
+TEST_CASE("user shape: an exception in a callback becomes the error of the call and does not reach ODE") {
   OdeSession session;
   Egg egg;
   const snShape shape = describe(egg, true);

@@ -48,7 +48,7 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-TEST_CASE("no allocation in a collider, a box or a query after the first") {
+TEST_CASE("after the first call no collider, bounding box or query allocates") {
   OdeSession session;
   {
     const long before = allocations;
@@ -106,7 +106,7 @@ TEST_CASE("no allocation in a collider, a box or a query after the first") {
   CHECK(contacts_seen > 1000);
 }
 
-TEST_CASE("no allocation in a batch after the first") {
+TEST_CASE("after the first batch no batch allocates") {
   OdeSession session;
   Random random(27);
   const dSpaceID space = dSimpleSpaceCreate(nullptr);

@@ -45,7 +45,7 @@ std::vector<dContactGeom> two_steps(std::vector<Geom>& pile) {
 
 }  // namespace
 
-TEST_CASE("a separated pair costs one evaluation from the second time on") {
+TEST_CASE("warm start: a separated pair costs one evaluation from the second time on") {
   OdeSession session;
   Random random(24);
   int spheres_remembered = 0;
@@ -69,7 +69,7 @@ TEST_CASE("a separated pair costs one evaluation from the second time on") {
   CHECK(spheres_remembered > 40);
 }
 
-TEST_CASE("a touching pair that hardly moved costs two evaluations") {
+TEST_CASE("warm start: a touching pair that hardly moved costs two evaluations") {
   OdeSession session;
   Random random(25);
   std::vector<unsigned long long> counts;
@@ -88,7 +88,7 @@ TEST_CASE("a touching pair that hardly moved costs two evaluations") {
   CHECK(counts[counts.size() / 2] <= 2);
 }
 
-TEST_CASE("warm or cold, the contacts are the same within the tolerance") {
+TEST_CASE("warm start: the contacts are the same as from a cold start, within the tolerance") {
   OdeSession session;
   auto pile = make_pile(6);
   const auto warm = two_steps(pile);
@@ -111,7 +111,7 @@ TEST_CASE("warm or cold, the contacts are the same within the tolerance") {
   CHECK(shallow > 50);
 }
 
-TEST_CASE("off: bit for bit a function of the poses") {
+TEST_CASE("without warm start the contacts are a function of the poses, bit for bit") {
   OdeSession session;
   snSetWarmStart(0);
   auto pile = make_pile(3);
@@ -122,7 +122,7 @@ TEST_CASE("off: bit for bit a function of the poses") {
   CHECK(same_bits(two_steps(pile), once));
 }
 
-TEST_CASE("on: the same scene built again gives the same bits, wherever its geoms lie in memory and whatever was remembered") {
+TEST_CASE("warm start: the same scene built again gives the same bits, at any addresses and cache contents") {
   OdeSession session;
   constexpr int kPerSide = 8;  // 130 816 pairs, as many as the table holds: some are pushed out of it, the same ones in every run
   std::vector<dContactGeom> first;
@@ -137,7 +137,7 @@ TEST_CASE("on: the same scene built again gives the same bits, wherever its geom
   CHECK(same_bits(two_steps(pile), first));
 }
 
-TEST_CASE("a pair that was moved by the program starts afresh and finds what it finds without memory") {
+TEST_CASE("warm start: a pair that the program has moved far starts cold, with the answer of a cold start") {
   OdeSession session;
   Random random(27);
   for (int i = 0; i < 400; ++i) {
@@ -175,7 +175,7 @@ TEST_CASE("a pair that was moved by the program starts afresh and finds what it 
   }
 }
 
-TEST_CASE("a pair that turned far in its place starts afresh") {
+TEST_CASE("warm start: a pair that has rotated far starts cold") {
   OdeSession session;
   const Geom g1(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 8, 8));
   const Geom g2(snCreateSuperellipsoid(nullptr, 1, dReal(0.8), dReal(0.6), 8, 8));
@@ -195,7 +195,7 @@ TEST_CASE("a pair that turned far in its place starts afresh") {
   CHECK_FALSE(is_warm_after_turn(0.7));
 }
 
-TEST_CASE("a pair of which one has changed its shape starts afresh and finds what it finds without memory") {
+TEST_CASE("warm start: a pair with a changed shape starts cold, with the answer of a cold start") {
   OdeSession session;
   Random random(28);
   const auto half = [&] { return dReal(random.uniform(0.4, 1)); };
@@ -253,7 +253,7 @@ TEST_CASE("a pair of which one has changed its shape starts afresh and finds wha
   }
 }
 
-TEST_CASE("a geom that takes a dead one's address does not take its memory") {
+TEST_CASE("warm start: a geom at the address of a destroyed one starts cold") {
   OdeSession session;
   const Geom g1(snCreateEllipsoid(nullptr, 1, dReal(0.8), dReal(0.6)));
   for (int i = 0; i < 20; ++i) {
@@ -287,7 +287,7 @@ std::vector<dContactGeom> run_scene() {
 
 }  // namespace
 
-TEST_CASE("two threads at a time find what one finds") {
+TEST_CASE("warm start: two threads at a time find the contacts of one") {
   OdeSession session;
   for (const bool warm_start : {false, true}) {
     CAPTURE(warm_start);

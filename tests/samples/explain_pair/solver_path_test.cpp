@@ -65,14 +65,14 @@ void check_path(const Pair& pair, Solver solver) {
 
 }  // namespace
 
-TEST_CASE("solver path: it is the library's, and ends at its answer") {
+TEST_CASE("solver path: the path has the library's evaluations and ends at its answer") {
   for (const Pair& pair : sample_pairs()) {
     for (const Solver solver : {Solver::Hybrid, Solver::Newton, Solver::FixedPoint}) check_path(pair, solver);
   }
 }
 
 TEST_CASE(
-    "solver path: the methods of the literature end where the hybrid does, if they say so, and draw nothing of other bodies") {
+    "solver path: the methods of the literature agree with the hybrid if they claim convergence, and draw only superellipsoids") {
   int drawn = 0;
   for (const Pair& pair : sample_pairs()) {
     const Explanation plain = explain(pair, {});
@@ -93,7 +93,7 @@ TEST_CASE(
   CHECK(explain(hard_case("colliders: an ellipsoid above a box, gap -0.0625"), {}, Methods::OfLiteratureToo).paths.size() == 1);
 }
 
-TEST_CASE("solver path: cuts and intervals hold") {
+TEST_CASE("solver path: cuts and intervals contain the answer") {
   std::mt19937_64 engine(4);
   std::normal_distribution<double> gauss;
   for (const Pair& pair : sample_pairs()) {
@@ -123,7 +123,7 @@ TEST_CASE("solver path: cuts and intervals hold") {
   }
 }
 
-TEST_CASE("solver path: fewer evaluations are the first of the whole path") {
+TEST_CASE("solver path: a path with fewer evaluations is the start of the whole path") {
   for (const Pair& pair : sample_pairs()) {
     const std::vector<Vector3> whole = recorded(pair, {});
     for (std::size_t k = 1; k < std::min<std::size_t>(whole.size(), 30); ++k) {
@@ -136,7 +136,7 @@ TEST_CASE("solver path: fewer evaluations are the first of the whole path") {
   }
 }
 
-TEST_CASE("solver path: of bodies with kinks, whichever is first") {
+TEST_CASE("solver path: bodies with nonsmooth points have a path in either order") {
   for (const char* name :
        {"colliders: an ellipsoid above a box, gap -0.0625", "colliders: an ellipsoid at a box's edge, gap 0.0625"}) {
     const Pair pair = hard_case(name);

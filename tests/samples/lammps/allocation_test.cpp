@@ -25,7 +25,7 @@ void* operator new(std::size_t size) {
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
-TEST_CASE("lammps: a pair in contact and apart is solved without an allocation") {
+TEST_CASE("lammps: a pair in contact or apart is solved without allocation") {
   for (const NormalLaw law : {NormalLaw::Hooke, NormalLaw::Hertz}) {
     const ContactMaterial material{.law = law, .stiffness = 1e5, .restitution = 0.5, .friction = 0.3, .rolling_length = 1e-4};
     TwoBodies pair{{{0.02, 0.015, 0.01}, 3, 1.5}, {{0.01, 0.01, 0.02}, 8, 8}, prepared(material)};

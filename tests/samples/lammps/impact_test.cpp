@@ -27,7 +27,7 @@ double reduced_mass(const TwoBodies& pair) { return 0.5 * pair.first.mass; }
 
 }  // namespace
 
-TEST_CASE("lammps: an elastic impact on a linear spring takes pi sqrt(m/k)") {
+TEST_CASE("lammps: an elastic impact on a linear spring lasts pi sqrt(m/k)") {
   TwoBodies pair = balls(kRadius, kSpeed, hooke(1));
   const double period = std::numbers::pi * std::sqrt(reduced_mass(pair) / kStiffness);
   const Impact impact = collide(pair, period / 2000);
@@ -36,7 +36,7 @@ TEST_CASE("lammps: an elastic impact on a linear spring takes pi sqrt(m/k)") {
   CHECK(pair.second.body.velocity.x() == relative(0.5 * kSpeed).epsilon(1e-6));
 }
 
-TEST_CASE("lammps: elastic impacts after Hertz have his overlap and time") {
+TEST_CASE("lammps: elastic Hertz impacts have the overlap and time of the closed form") {
   ContactMaterial material{.law = NormalLaw::Hertz, .stiffness = effective_modulus(1e8, 0.3)};
   TwoBodies pair = balls(kRadius, kSpeed, material);
   // Two equal balls: the relative radius is half of one (Johnson, Contact Mechanics, section 11.4).
@@ -49,7 +49,7 @@ TEST_CASE("lammps: elastic impacts after Hertz have his overlap and time") {
   CHECK(pair.second.body.velocity.x() == relative(0.5 * kSpeed).epsilon(1e-6));
 }
 
-TEST_CASE("lammps: impacts lose what the restitution says, at every velocity") {
+TEST_CASE("lammps: impacts have the given restitution at every velocity") {
   for (const NormalLaw law : {NormalLaw::Hooke, NormalLaw::Hertz}) {
     for (const double restitution : {0.05, 0.1, 0.3, 0.7, 0.95}) {
       for (const double speed : {0.01, 1.0}) {
@@ -63,7 +63,7 @@ TEST_CASE("lammps: impacts lose what the restitution says, at every velocity") {
   }
 }
 
-TEST_CASE("lammps: an impact off the line of centres has its restitution in the mass that is felt there") {
+TEST_CASE("lammps: an impact off the line of centres has the restitution for the effective mass there") {
   ContactMaterial material = hooke(0.6);
   TwoBodies pair{{{0.02, 0.005, 0.005}, 2, 2}, {{0.02, 0.005, 0.005}, 2, 2}, prepared(material)};
   pair.second.place({0.025, 0.01, 0}, Eigen::Quaterniond::Identity());
@@ -87,7 +87,7 @@ TEST_CASE("lammps: an impact off the line of centres has its restitution in the 
   CHECK(-out / in == relative(0.6).epsilon(0.01));
 }
 
-TEST_CASE("lammps: in an oblique impact that sticks, the tangential spring makes its part of an oscillation") {
+TEST_CASE("lammps: in an oblique impact that sticks, the tangential spring makes the part of an oscillation of the closed form") {
   // Without rotation of the normal the tangential motion is that of a spring on the mass 1/(1/m + R^2/I) = 2/7 m of the relative
   // motion: its velocity has changed by cos(omega_t t) when the contact ends (Schaefer, Dippel and Wolf, J. Phys. I 6, 5 (1996)).
   for (const double ratio : {0.1, 2 / 7.0, 0.8}) {

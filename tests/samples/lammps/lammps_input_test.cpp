@@ -48,7 +48,7 @@ std::string refusal(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("to LAMMPS: a box of grains, with their masses, and springs that give by a hundredth") {
+TEST_CASE("to LAMMPS: a box of grains has the masses of the scene, and springs that overlap by a hundredth") {
   const Scene scene = scene_of("short");
   const LammpsInput input = lammps_input(scene);
   CHECK(has(input.commands, "wall/supernormal box 0 0 0 0.05 0.05"));
@@ -78,14 +78,14 @@ TEST_CASE("to LAMMPS: a box of grains, with their masses, and springs that give 
   CHECK(number_after(input.commands, "\nrun ") == relative(scene.time.duration / step).epsilon(1e-5));
 }
 
-TEST_CASE("to LAMMPS: a drum turns from when it does in the scene") {
+TEST_CASE("to LAMMPS: a drum rotates from the time of the scene") {
   const LammpsInput input = lammps_input(scene_of("drum"));
   CHECK(has(input.commands, "cylinder 0 0 0.06 0 1 0 0.06"));
   CHECK(has(input.commands, "move rotate 0 1 0 0 0 0.06 20 from 0.5"));
   CHECK(has(input.commands, "plane 0 0.05 0.06 0 -1 0"));
 }
 
-TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid goes when the outlet opens") {
+TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid is removed when the outlet opens") {
   const Scene scene = scene_of("heap");
   const LammpsInput input = lammps_input(scene);
   CHECK(has(input.commands, "fix tray all wall/supernormal box -0.15 -0.15 0 0.15 0.15 1e3 hooke"));
@@ -109,13 +109,13 @@ TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid goes when th
   CHECK(number_after(text, "f ") == mesh.triangles[0][0] + 1);
 }
 
-TEST_CASE("to LAMMPS: a scene's own springs are kept") {
+TEST_CASE("to LAMMPS: the springs of a scene are kept") {
   Scene scene = scene_of("short");
   scene.effects.emplace_back(fx::Hertz{1e8, 0.3, 0.7, {}});
   CHECK(has(lammps_input(scene).commands, "hertz 100000000 0.3 restitution 0.7 friction 0.4"));
 }
 
-TEST_CASE("to LAMMPS: what has no counterpart is refused by name") {
+TEST_CASE("to LAMMPS: a setting without a counterpart is refused by name") {
   CHECK(has(refusal(scene_of("terrain")), "a container of kind terrain has no counterpart"));
   Scene scene = scene_of("short");
   scene.effects.emplace_back(fx::StokesDrag{});

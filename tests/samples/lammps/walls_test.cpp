@@ -41,7 +41,7 @@ const Vector3 kAxes(0.02, 0.012, 0.008);  // m
 
 }  // namespace
 
-TEST_CASE("lammps: a ball touches the three walls of a corner, each as a plane") {
+TEST_CASE("lammps: a ball in a corner touches three walls, each as a plane") {
   BoxWall box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
   const ParticleShape ball(Vector3::Constant(0.01), 2, 2);
   const auto contacts = contacts_of(box, ball, at({0.0905, -0.091, 0.092}));
@@ -56,7 +56,7 @@ TEST_CASE("lammps: a ball touches the three walls of a corner, each as a plane")
   CHECK_THROWS_AS(BoxWall({0, 0, 0}, {1, 1, 0}), std::invalid_argument);
 }
 
-TEST_CASE("lammps: a ball in a drum is as deep as it sticks out") {
+TEST_CASE("lammps: a ball in a drum overlaps it by the length that sticks out") {
   const ParticleShape ball(Vector3::Constant(0.01), 2, 2);
   const Vector3 axis = Vector3(1, 2, 0.5).normalized(), point(0.3, 0.1, -0.2);
   CylinderWall drum(point, axis, 0.1);
@@ -118,7 +118,7 @@ TEST_CASE("lammps: a rod across a drum lies on both of its ends") {
   CHECK(contacts[0].normal.x() == relative(-contacts[1].normal.x()).epsilon(1e-9));
 }
 
-TEST_CASE("lammps: a floor of triangles is a plane") {
+TEST_CASE("lammps: a floor of triangles has the contacts of a plane") {
   MeshWall mesh(square(0.5));
   PlaneWall plane(Vector3::Zero(), Vector3::UnitZ());
   const ParticleShape shape(kAxes, 3, 1.6);
@@ -134,7 +134,7 @@ TEST_CASE("lammps: a floor of triangles is a plane") {
   CHECK_THROWS_AS(MeshWall({}), std::invalid_argument);
 }
 
-TEST_CASE("lammps: a belt drags a ball along, and a wall's force and torque are those on the particle turned round") {
+TEST_CASE("lammps: a belt drags a ball along, and the wall's force and torque are opposite to the particle's") {
   PlaneWall plane(Vector3::Zero(), Vector3::UnitZ());
   Particle ball(Vector3::Constant(0.01), 2, 2);
   const ContactMaterial material = prepared({.stiffness = 1e4, .friction = 0.5});
@@ -157,7 +157,7 @@ TEST_CASE("lammps: a belt drags a ball along, and a wall's force and torque are 
   CHECK(history.count == 0);
 }
 
-TEST_CASE("lammps: in a corner each wall has springs of its own, whatever the order of the contacts") {
+TEST_CASE("lammps: in a corner each wall has its own springs, in any order of the contacts") {
   BoxWall box({-0.1, -0.1, 0}, {0.1, 0.1, 0.2});
   Particle ball(Vector3::Constant(0.01), 2, 2);
   ball.set_velocity({0, 0.1, 0}, Vector3::Zero());

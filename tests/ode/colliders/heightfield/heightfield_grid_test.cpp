@@ -93,7 +93,7 @@ void check_triangles(std::span<const MeshTriangle> triangles, const Terrain& ter
 
 }  // namespace
 
-TEST_CASE("the grid is found: every landscape, finite and infinite, wherever one looks") {
+TEST_CASE("the grid of every landscape is found at any place, finite or infinite") {
   const OdeSession session;
   Random random(31);
   for (const Landscape& landscape : landscapes()) {
@@ -124,7 +124,7 @@ TEST_CASE("the grid is found: every landscape, finite and infinite, wherever one
   }
 }
 
-TEST_CASE("small grids, long cells") {
+TEST_CASE("small grids and long cells are found") {
   const OdeSession session;
   for (const std::pair<int, int>& size : {std::pair(2, 2), std::pair(2, 3), std::pair(3, 2), std::pair(3, 3), std::pair(2, 40)}) {
     const int columns = size.first;
@@ -147,7 +147,7 @@ TEST_CASE("small grids, long cells") {
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
 }
 
-TEST_CASE("the triangles are the samples, from every source") {
+TEST_CASE("the vertices of the triangles are the samples, from every source") {
   const OdeSession session;
   Random random(32);
   for (const Source source : {Source::Callback, Source::Byte, Source::Short, Source::Single, Source::Double}) {
@@ -171,7 +171,7 @@ TEST_CASE("the triangles are the samples, from every source") {
   }
 }
 
-TEST_CASE("what the program changes is seen") {
+TEST_CASE("a query sees the changes of the program") {
   const OdeSession session;
   Terrain terrain({9, 9, 8, 8}, rough(6, 1));
   const Geom geom(terrain.create());
@@ -190,7 +190,7 @@ TEST_CASE("what the program changes is seen") {
   check_triangles(patch.read(HeightfieldProbe::looking_at(geom), region), terrain, region);
 }
 
-TEST_CASE("a rebuilt heightfield, or another one at its address, is read as a new one") {
+TEST_CASE("a heightfield built anew, or another one at its address, is read again") {
   const OdeSession session;
   Random random(33);
   const std::vector<Landscape> all = landscapes();
@@ -221,7 +221,7 @@ TEST_CASE("a rebuilt heightfield, or another one at its address, is read as a ne
   CHECK(wrong <= (kIsSinglePrecision ? 3000 / 240 : 0));
 }
 
-TEST_CASE("an infinite heightfield far from the origin") {
+TEST_CASE("the grid of an infinite heightfield is valid far from the origin") {
   const OdeSession session;
   const Terrain terrain({7, 9, 2.3, 3.1, true}, rough(11, 0.3));
   const Geom geom(terrain.create());
@@ -248,7 +248,7 @@ TEST_CASE("an infinite heightfield far from the origin") {
   CHECK_THROWS_AS(patch.read(HeightfieldProbe::looking_at(geom), {1e12, 1e12 + 1, 0, 1}), std::domain_error);
 }
 
-TEST_CASE("a plane shows no grid, and is one") {
+TEST_CASE("a plane heightfield shows no grid and is read as a plane") {
   const OdeSession session;
   const auto slope = [](int i, int j) { return 0.5 * i - 0.25 * j; };
   for (const Terrain::Height& height : {Terrain::Height([](int, int) { return 0.3; }), Terrain::Height(slope)}) {
@@ -263,7 +263,7 @@ TEST_CASE("a plane shows no grid, and is one") {
   }
 }
 
-TEST_CASE("samples that are not numbers are holes") {
+TEST_CASE("samples that are NaN are holes") {
   const OdeSession session;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Terrain terrain({9, 9, 8, 8}, rough(12, 1));
@@ -281,7 +281,7 @@ TEST_CASE("samples that are not numbers are holes") {
   CHECK(patch.read(HeightfieldProbe::looking_at(geom), all).empty());
 }
 
-TEST_CASE("more cells than can be read: points of the surface") {
+TEST_CASE("a region with too many cells is read at points of the surface") {
   const OdeSession session;
   const Terrain terrain({1201, 1201, 12, 12}, hills(0.1, 0.02));
   const Geom geom(terrain.create());

@@ -96,7 +96,7 @@ Vector3 nearest_on(const std::vector<MeshTriangle>& triangles, const Vector3& p)
 
 }  // namespace
 
-TEST_CASE("a level heightfield is a plane") {
+TEST_CASE("a level heightfield gives the contacts of a plane") {
   const OdeSession session;
   Random random(41);
   for (const bool repeats : {false, true}) {
@@ -125,7 +125,7 @@ TEST_CASE("a level heightfield is a plane") {
   }
 }
 
-TEST_CASE("a slope is a plane, before and after its grid is known") {
+TEST_CASE("a sloped heightfield gives the contacts of a plane, before and after its grid is known") {
   const OdeSession session;
   Random random(42);
   for (const bool is_bumpy : {false, true}) {
@@ -150,7 +150,7 @@ TEST_CASE("a slope is a plane, before and after its grid is known") {
   }
 }
 
-TEST_CASE("a sphere on rough ground: as far as its centre from the nearest triangle") {
+TEST_CASE("a sphere on rough ground is as far as its centre from the nearest triangle") {
   const OdeSession session;
   Random random(43);
   for (const Source source : {Source::Double, Source::Callback, Source::Short}) {
@@ -199,7 +199,7 @@ TEST_CASE("a sphere on rough ground: as far as its centre from the nearest trian
   }
 }
 
-TEST_CASE("any body on rough ground: the contacts with all triangles") {
+TEST_CASE("any body on rough ground has the contacts with all triangles") {
   const OdeSession session;
   Random random(45);
   const Terrain terrain({11, 9, 10, 9.6}, rough(46, 0.6));
@@ -234,7 +234,7 @@ TEST_CASE("any body on rough ground: the contacts with all triangles") {
   CHECK(count > 300);
 }
 
-TEST_CASE("the peak of a pyramid: as the solid of the same shape") {
+TEST_CASE("the peak of a pyramid collides as the solid of the same shape") {
   const OdeSession session;
   Random random(47);
   const Terrain terrain({9, 9, 8, 8}, [](int i, int j) { return i == 4 && j == 4 ? 0.8 : 0.0; });
@@ -273,7 +273,7 @@ TEST_CASE("the peak of a pyramid: as the solid of the same shape") {
   CHECK(touching > 30);
 }
 
-TEST_CASE("what has sunk comes up") {
+TEST_CASE("a sunk body comes up") {
   const OdeSession session;
   Random random(48);
   const Terrain terrain({11, 11, 10, 10}, rough(49, 0.5));
@@ -294,7 +294,7 @@ TEST_CASE("what has sunk comes up") {
   }
 }
 
-TEST_CASE("both orders, as many contacts as there is room for, into contacts of any size") {
+TEST_CASE("a heightfield in both orders, with any max_contacts and skip") {
   const OdeSession session;
   Random random(50);
   const Terrain terrain({21, 21, 4, 4}, rough(51, 0.2));
@@ -327,7 +327,7 @@ TEST_CASE("both orders, as many contacts as there is room for, into contacts of 
   CHECK(norm(to_vec(forward.normal) + to_vec(backward.normal)) == 0);
 }
 
-TEST_CASE("gaps from high above and from beside") {
+TEST_CASE("a heightfield has the right gap from high above and from beside") {
   const OdeSession session;
   Random random(52);
   const Terrain terrain({9, 9, 8, 8}, rough(53, 1));
@@ -346,7 +346,7 @@ TEST_CASE("gaps from high above and from beside") {
   }
 }
 
-TEST_CASE("nothing that is not finite gets through, and nothing aborts") {
+TEST_CASE("a heightfield with values that are not finite gives no such contact and no abort") {
   const OdeSession session;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const Geom body(snCreateEllipsoid(nullptr, dReal(0.5), dReal(0.4), dReal(0.3)));

@@ -49,7 +49,7 @@ dGeomID create_egg(dSpaceID space) { return snCreateEllipsoid(space, dReal(0.08)
 
 }  // namespace
 
-TEST_CASE("small bodies dropped on ridges and peaks stay above: dSphere does not") {
+TEST_CASE("small bodies dropped on ridges and peaks stay above, where dSphere does not") {
   const OdeSession session;
   const Terrain ridge({9, 9, 8, 8}, [](int i, int /*j*/) { return 2.0 - 0.8 * std::abs(i - 4); });
   const Terrain peak({9, 9, 8, 8}, [](int i, int j) { return i == 4 && j == 4 ? 1.5 : 0.0; });
@@ -72,7 +72,7 @@ TEST_CASE("small bodies dropped on ridges and peaks stay above: dSphere does not
   }
 }
 
-TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
+TEST_CASE("50 bodies on a terrain for 20 s do not fall through") {
   const OdeSession session;
   Random random(61);
   World world;
@@ -110,7 +110,7 @@ TEST_CASE("50 bodies on a terrain for 20 s: none gets through") {
   }
 }
 
-TEST_CASE("an infinite heightfield carries what rolls a long way") {
+TEST_CASE("an infinite heightfield carries a body that rolls far") {
   const OdeSession session;
   World world;
   set_up(world);
