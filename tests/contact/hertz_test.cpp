@@ -13,13 +13,13 @@ using namespace supernormal::test;
 
 namespace {
 
-/// A contact whose ellipse has the half-axes 1 and b, under a pressure of 1 in its middle, on bodies of modulus 1: Johnson, section
-/// 3.3.
+/// A contact with an ellipse of half-axes 1 and b, under a pressure of 1 in its middle, on bodies of modulus 1: Johnson,
+/// section 3.3.
 struct Ellipse {
   explicit Ellipse(double b) {
     const double e = std::sqrt(1 - b * b);
     const double K = std::comp_ellint_1(e), E = std::comp_ellint_2(e);
-    const double A = b / (e * e) * (K - E), B = b / (e * e) * (E / (b * b) - K);  // half of the relative curvatures
+    const double A = b / (e * e) * (K - E), B = b / (e * e) * (E / (b * b) - K);  // half of the relative curvature, along both axes
     const double force = 2.0 / 3 * std::numbers::pi * b;
     const double round_depth = std::cbrt(9.0 / 16 * force * force * 2 * std::sqrt(A * B));
     ratio = B / A;
@@ -28,7 +28,7 @@ struct Ellipse {
   double ratio, correction;
 };
 
-/// The velocity (of 1) after an impact of a unit mass on F = x^(3/2) with the damper of ratio b, by short Euler steps.
+/// The rebound velocity of an impact of a unit mass at velocity 1 on F = x^(3/2) with the damper of ratio b, by short Euler steps.
 double rebound(double b) {
   constexpr double kStep = 1e-6;
   double x = 0, v = 1;

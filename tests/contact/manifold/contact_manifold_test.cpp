@@ -1,4 +1,4 @@
-// Tests of the contact manifold, the points that flat bodies rest on.
+// Tests of the contact manifold, the points on which flat bodies rest.
 #include "supernormal/contact/contact_manifold.hpp"
 
 #include <doctest/doctest.h>
@@ -27,8 +27,8 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// Tolerance of repeated corners, relative to the extent of the body: on a flat face the support point that they refer to depends
-// on the last digits of the normal.
+// Tolerance of repeated manifold points, relative to the extent of the body. On a flat face the support point, to which they refer,
+// depends on the last digits of the normal.
 constexpr double kCornerTolerance = 1e-3;
 
 double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
@@ -50,7 +50,8 @@ ContactManifold manifold_on_floor(const Shape& shape, const Matrix3& rotation, d
   return find_plane_contact_manifold(shape, pose, find_plane_proximity(shape, pose, Vector3::UnitZ(), 0));
 }
 
-/// The manifold of two bodies with parallel faces, the second on top of the first by (x, y), overlapping by `depth`.
+/// The manifold of two bodies with parallel faces. The second lies on top of the first, shifted by (x, y), and overlaps it by
+/// `depth`.
 ContactManifold manifold_of_stacked(const Shape& lower, const Shape& upper, double x, double y, double turn, double depth) {
   const Pose pose1;
   const Pose pose2{Vector3(x, y, lower.half_extents().z() + upper.half_extents().z() - depth),
@@ -58,7 +59,7 @@ ContactManifold manifold_of_stacked(const Shape& lower, const Shape& upper, doub
   return find_contact_manifold(lower, pose1, upper, pose2, find_proximity(lower, pose1, upper, pose2));
 }
 
-/// The largest distance of a corner of one manifold from the nearest one of the other.
+/// The largest distance of a point of one manifold from the nearest point of the other.
 double distance_of_corners(const ContactManifold& a, const ContactManifold& b) {
   double largest = 0;
   for (int i = 0; i < a.corner_count; ++i) {
@@ -127,11 +128,11 @@ TEST_CASE("a flat body on a floor has four manifold points, close to the body") 
       const RayHit hit = find_ray_hit(body, pose, below, Vector3::UnitZ(), 1);
       REQUIRE(hit.hit);
       CHECK(hit.point.z() <= manifold.margin * (1 + 1e-6));
-      // The corner is in the tangent plane, and the body not far above it.
+      // The manifold point is in the tangent plane, and the body is not far above it.
       CHECK(corner.point.z() <= 0);
       CHECK(hit.point.z() - corner.point.z() <= manifold.margin + depth * (1 + 1e-6));
     }
-    // The corners span most of the face.
+    // The manifold points span most of the face.
     CHECK((manifold.corners[2].point - manifold.corners[0].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
     CHECK((manifold.corners[3].point - manifold.corners[1].point).norm() >= std::hypot(half_axes.x(), half_axes.y()));
   }
@@ -167,7 +168,7 @@ TEST_CASE("a can has two manifold points on its side and four on its end") {
   REQUIRE(lying.corner_count == 2);
   const Vector3 between = lying.corners[1].point - lying.corners[0].point;
   CHECK(std::abs(between.y()) >= 0.1);
-  // The corners are on the line on which it rolls.
+  // The manifold points are on the line on which it rolls.
   CHECK(std::abs(between.x()) <= 1e-12);
   CHECK(std::abs(lying.corners[0].point.x() - lying.deepest.contact.x()) <= 1e-12);
 }
@@ -183,7 +184,7 @@ TEST_CASE("a can on its side has a manifold point at each end, with the depth th
       const ContactManifold manifold =
           reduced_to(manifold_on_floor(can, tilt(0.5 * std::numbers::pi + lean, std::numbers::pi / 2), depth * kRadius), 8);
       const double depth_of_far_end = depth * kRadius - 2 * kHalfLength * std::sin(lean);
-      if (depth_of_far_end < -1e-3 * kRadius) continue;  // it is in the air
+      if (depth_of_far_end < -1e-3 * kRadius) continue;  // this end is in the air
       REQUIRE(manifold.corner_count == 2);
       const Vector3 between = manifold.corners[1].point - manifold.corners[0].point;
       CHECK(between.norm() == test::relative(2 * kHalfLength).epsilon(0.08));
@@ -234,7 +235,7 @@ TEST_CASE("a rounded body has the support polygon of the body without its roundi
   const ContactManifold of_brick = manifold_on_floor(brick, Matrix3::Identity(), 1e-4);
   const ContactManifold of_rounded = manifold_on_floor(rounded, Matrix3::Identity(), 1e-4);
   REQUIRE(of_rounded.corner_count == 4);
-  // The tilts are made for the whole body's half-extents.
+  // The tilts are chosen for the whole body's half-extents.
   CHECK(distance_of_corners(of_brick, of_rounded) <= 2e-3);
 }
 
@@ -249,7 +250,7 @@ TEST_CASE("a body has the same manifold points on a box and on a plane") {
     const ContactManifold on_box = find_contact_manifold(brick, pose, table, under, find_proximity(brick, pose, table, under));
     REQUIRE(on_plane.corner_count == 4);
     REQUIRE(on_box.corner_count == 4);
-    // The corners on a plane are points of the body, the others are in the plane of the contact.
+    // Manifold points on a plane are points of the body. The others are in the plane of the contact.
     for (ManifoldCorner& corner : on_plane.corners) corner.point.z() = on_box.corners[0].point.z();
     CHECK(distance_of_corners(on_plane, on_box) <= 1e-4);
   }

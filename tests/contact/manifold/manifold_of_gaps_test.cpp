@@ -1,4 +1,4 @@
-// Tests of the manifold of bodies that are apart, by the gaps of its corners.
+// Tests of the manifold of bodies that are apart, with the gap of each manifold point.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -88,7 +88,7 @@ TEST_CASE("manifold points do not move when the gap passes through 0") {
 TEST_CASE("two bodies have manifold points on the intersection of their faces, placed by `share`, also when swapped") {
   const Box table(Vector3(0.5, 0.5, 0.1));
   const Pose pose1;
-  const Pose pose2{Vector3(0.45, 0, 0.17), Matrix3::Identity()};  // it hangs over by half of its length; gap 0.02
+  const Pose pose2{Vector3(0.45, 0, 0.17), Matrix3::Identity()};  // it overhangs by half of its length; gap 0.02
   const Proximity proximity = find_proximity(table, pose1, kBrick, pose2);
   REQUIRE(proximity.gap == doctest::Approx(0.02));
   for (const double share : {0.0, 0.5, 1.0}) {
@@ -122,7 +122,7 @@ TEST_CASE("with a smaller max_contacts the nearest manifold point keeps its gap"
   const ContactManifold manifold = find_plane_manifold_of_gaps(kBrick, pose, proximity);
   for (int room = 1; room <= 5; ++room) {
     const ContactManifold reduced = reduced_to(manifold, room);
-    CHECK(reduced.corner_count == (room < 3 ? 0 : std::min(room, 4)));  // two would hold a line of the face
+    CHECK(reduced.corner_count == (room < 3 ? 0 : std::min(room, 4)));  // two contacts would support a line of the face
     CHECK(reduced.deepest.gap == doctest::Approx(1e-3));
     for (int k = 0; k < reduced.corner_count; ++k) {
       const double depth = reduced.corners[static_cast<std::size_t>(k)].depth;
@@ -140,7 +140,7 @@ TEST_CASE("with max_contacts 3 a tilted brick is supported around its centre, wh
     const Proximity proximity = find_plane_proximity(kBrick, pose, Vector3::UnitZ(), 0);
     const ContactManifold three = reduced_to(find_plane_manifold_of_gaps(kBrick, pose, proximity), 3);
     REQUIRE(three.corner_count == 3);
-    // The parts of a weight at the centre that each of the three bears.
+    // The parts of a weight at the centre that the three points bear.
     Matrix3 corners;
     for (int corner = 0; corner < 3; ++corner) {
       const Vector3& point = three.corners[static_cast<std::size_t>(corner)].point;

@@ -1,4 +1,4 @@
-// Searches of a whole arc against dense sampling: bodies with edges have several maxima there.
+// Searches of a whole arc against dense sampling. Bodies with edges have several maxima there.
 #include "contact/mesh/arc_search.hpp"
 
 #include <doctest/doctest.h>

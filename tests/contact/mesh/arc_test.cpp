@@ -52,7 +52,7 @@ TEST_CASE("the maximum over an arc agrees with dense sampling") {
     const std::unique_ptr<Shape> body = draw.body();
     SupportProbe probe(*body, draw.rotation());
     Arc arc = random_arc(draw);
-    // The edge is placed so that the gap along the normal in the middle is this one, and the point is nearly over the edge.
+    // The edge is placed so that the gap along the normal in the middle has this value, and the point is nearly over the edge.
     const ArcSample middle = arc.sample(0.5 * arc.end, probe);
     arc.edge_point = middle.point + draw.uniform(0, 0.03) * arc.normal(0.5 * arc.end) + 0.02 * draw.direction();
     const ArcSample low = arc.sample(0, probe);
@@ -70,10 +70,10 @@ TEST_CASE("the maximum over an arc agrees with dense sampling") {
     CHECK(found.converged);
     CHECK(found.error <= 1e-11);
     CHECK(found.gap <= 1e-11);
-    // The maximum is local, and over the edge: seen along the normal the point is on the edge's line.
+    // The maximum is local and over the edge: projected along the normal, the point is on the edge's line.
     CHECK(std::abs(found.normal.dot(found.point - arc.edge_point) - found.gap) < 1e-14);
     CHECK(std::abs(arc.from.cross(arc.towards).cross(found.normal).dot(found.point - arc.edge_point)) < 1e-9);
-    // One arc in 4000 has another maximum too, which is lower than an end.
+    // One arc in 4000 also has another maximum, which is lower than an end.
     CHECK(found.gap >= std::max(low.gap, high.gap));
     // The body is nowhere deeper.
     CHECK(std::abs(probe.deepest(found.normal).height - found.normal.dot(found.point)) < 2e-11);

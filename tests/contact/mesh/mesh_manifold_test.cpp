@@ -1,4 +1,4 @@
-// Tests that the corners of a contact manifold stay on the floor.
+// Tests that the manifold points stay on the floor.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ TEST_CASE("on a floor of triangles in any order all manifold points stay") {
 
 TEST_CASE("on triangles with vertices 1e-6 of their size apart all manifold points stay, at any depth") {
   std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> apart(-3e-7, 3e-7);  // of triangles with sides of 1
+  std::uniform_real_distribution<double> apart(-3e-7, 3e-7);  // for triangles with sides of 1
   for (const double depth : {1e-5, 1e-8, 1e-11}) {
     for (int repetition = 0; repetition < 20; ++repetition) {
       std::vector<MeshTriangle> floor;

@@ -1,5 +1,5 @@
-// Gaps of bodies and closed meshes, apart and overlapping, against branch and bound on the solid hull: no solver of lib/proximity
-// is in the reference.
+// Gaps of bodies and closed meshes, apart and overlapping, against branch and bound on the solid hull. The reference uses no solver
+// of lib/proximity.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
