@@ -19,7 +19,7 @@ struct Ellipse {
   explicit Ellipse(double b) {
     const double e = std::sqrt(1 - b * b);
     const double K = std::comp_ellint_1(e), E = std::comp_ellint_2(e);
-    const double A = b / (e * e) * (K - E), B = b / (e * e) * (E / (b * b) - K);  // half of the relative curvature, along both axes
+    const double A = b / (e * e) * (K - E), B = b / (e * e) * (E / (b * b) - K);  // half of the relative curvature along each axis
     const double force = 2.0 / 3 * std::numbers::pi * b;
     const double round_depth = std::cbrt(9.0 / 16 * force * force * 2 * std::sqrt(A * B));
     ratio = B / A;

@@ -1,4 +1,4 @@
-// What acts on a region of contact as a whole: where its resultant is, whatever contacts a collider lists.
+// Forces on a region of contact: where their resultant acts, for any contacts that a collider lists.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using Place = std::array<double, 2>;
 
 double distance(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// Sets up what dCollide finds between two geoms, and returns how many contacts that were.
+/// Sets up the contacts that dCollide finds between two geoms, and returns their number.
 int set_up(fx::Effects& effects, dGeomID g1, dGeomID g2) {
   std::array<dContact, 64> contacts{};
   const int count = dCollide(g1, g2, static_cast<int>(contacts.size()), &contacts[0].geom, sizeof(dContact));
@@ -31,7 +31,7 @@ void forget_forces(dBodyID body) {
   dBodySetTorque(body, 0, 0, 0);
 }
 
-/// Where the force on a body, which is along z, acts, from the body's centre.
+/// The point, relative to the body's centre, at which the force on the body along z acts.
 Place line_of_force(dBodyID body) {
   const dReal* const force = dBodyGetForce(body);
   const dReal* const torque = dBodyGetTorque(body);
@@ -184,7 +184,7 @@ TEST_CASE("the middle of a region moves by at most 4/pi times the contacts, also
   Ball ball(fx::Adhesion{kPullOff, {}});
   for (int draw = 0; draw < 2000; ++draw) {
     const double way = std::pow(10, random.uniform(-9, -2));
-    const double width = std::pow(10, random.uniform(-8, -1));  // across the line on which they lie
+    const double width = std::pow(10, random.uniform(-8, -1));  // across the line of the contacts
     std::vector<dContact> before, after;
     for (int k = 1 + static_cast<int>(random.uniform(0, 6)); k > 0; --k) {
       const Place place = {random.uniform(-0.05, 0.05), random.uniform(-1, 1) * width};
@@ -199,7 +199,7 @@ TEST_CASE("the middle of a region moves by at most 4/pi times the contacts, also
 
 namespace {
 
-/// A valley along y between two slopes at a right angle, of squares that are cut in two.
+/// A valley along y between two slopes at a right angle, made of squares cut in two.
 class Valley {
  public:
   explicit Valley(dSpaceID space) : data_(dGeomTriMeshDataCreate()) {
@@ -253,7 +253,7 @@ TEST_CASE("each slope of a mesh sticks once, at any number of triangles and orde
   dMass mass;
   dMassSetBox(&mass, 1000, dReal(0.1), dReal(0.1), dReal(0.1));
   const double deep = 0.0499;
-  // ODE's own box is cut by each triangle: their normals differ by the rounding of vertices to single precision.
+  // ODE's own box is cut by each triangle. The normals differ by the rounding of vertices to single precision.
   for (const dGeomID geom : {brick, box}) {
     const dBodyID body = scene.world.add(geom, mass);
     turn(body, {0, 1, 0}, -std::atan2(0.8, 0.6));

@@ -1,4 +1,4 @@
-// Tests of Coulomb's cone: how far bodies slide, when they start to, and that the force stays in the cone.
+// Tests of Coulomb's cone: how far bodies slide, when they start to slide, and that the force stays in the cone.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -63,7 +63,7 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
       CAPTURE(beyond);
       OdeSession session;
       const double angle = limit + beyond;
-      // Gravity leans instead of the plane, so that it can lean in any direction.
+      // Gravity is tilted instead of the plane, so the incline can have any direction.
       const double across = kGravity * std::sin(angle);
       const fx::Gravity leaning{{across * std::cos(turn), across * std::sin(turn), -kGravity * std::cos(angle)}};
       EffectsWorld scene({leaning, fx::Friction{coefficient, {}}}, kStep);
@@ -82,9 +82,8 @@ TEST_CASE("on an incline a puck stays up to the angle of friction and slides abo
 }
 
 TEST_CASE("no friction force exceeds Coulomb's cone") {
-  // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. The distribution of a
-  // face's load over four contacts is not determined, and it converges more slowly than with one, whatever the number of
-  // iterations.
+  // Quickstep takes the limits from its last iteration but one, so they hold as well as it converges. The distribution of a face's
+  // load over four contacts is not determined, so it converges more slowly than for one contact, at any number of iterations.
   struct Case {
     double exponent;
     double tolerance;  // relative to the largest load
@@ -166,7 +165,7 @@ TEST_CASE("anisotropic friction has its coefficient along each axis, and the mos
       for (int i = 0; i < 40; ++i) scene.step();
       return (-1 / (40 * kStep * kGravity)) * (to_vec(dBodyGetLinearVel(puck)) - before);
     };
-    // The force is 0.5 % less than the ellipse on its axes: the rectangle keeps a tenth of the other side.
+    // The force is 0.5 % less than the ellipse on its axes, because the rectangle keeps a tenth of the other side.
     CHECK(norm(decelerate(axes_angle)) == relative(along).epsilon(0.01));
     CHECK(norm(decelerate(axes_angle + 90 * kDegree)) == relative(across).epsilon(0.01));
     const Vec force = decelerate(axes_angle + 45 * kDegree);

@@ -70,7 +70,7 @@ TEST_CASE("a body slower than the threshold does not bounce") {
   const dBodyID ball = scene.add_ball(kRadius, kDensity, {0, 0, kRadius});
   dBodySetLinearVel(ball, 0, 0, dReal(-0.19));
   scene.run_until(0.01);
-  CHECK(dBodyGetLinearVel(ball)[2] < 0.05);  // the velocity with which the overlap of a step is pushed out
+  CHECK(dBodyGetLinearVel(ball)[2] < 0.05);  // the velocity by which the overlap of a step is pushed out
   dBodySetPosition(ball, 0, 0, dReal(kRadius));
   dBodySetLinearVel(ball, 0, 0, dReal(-0.21));
   scene.run_until(0.01);
@@ -78,8 +78,8 @@ TEST_CASE("a body slower than the threshold does not bounce") {
 }
 
 TEST_CASE("energy never grows at restitution up to 1") {
-  // In free flight ODE's steps keep v^2/2 + g z up to a term that is the same at the same velocity, so energies are compared
-  // after whole bounces.
+  // In free flight ODE's steps keep v^2/2 + g z up to a term that depends on the velocity alone. So energies are compared after
+  // whole bounces.
   for (const double e : {0.7, 1.0}) {
     OdeSession session;
     EffectsWorld scene({earth(), fx::Restitution{e, 0, {}}}, 5e-4);
@@ -158,7 +158,7 @@ TEST_CASE("Hertz: a ball on a plane has the contact time and overlap of the clos
   const double v = 0.5;
   const double mass = kDensity * 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3);
   const double k = 4.0 / 3 * kStar * std::sqrt(kRadius);
-  for (const double steps : {200.0, 25.0}) {  // steps of a contact
+  for (const double steps : {200.0, 25.0}) {  // the contact lasts this many steps
     CAPTURE(steps);
     const double step = hertz_time(mass, k, v) / steps;
     OdeSession session;
@@ -249,7 +249,7 @@ TEST_CASE("a flat body rests on springs at the depth where they carry its weight
   turn(body, {1, 0.5, 0}, 2 * kDegree);
   scene.run_until(3);
   CHECK(scene.depth == relative(mass_of(body) * kGravity / k).epsilon(0.02));
-  // The unrest is no more than rigid contacts leave, half of g times the step (samples/studies/README.md).
+  // The remaining motion is no more than with rigid contacts, half of g times the step (samples/studies/README.md).
   CHECK(norm(to_vec(dBodyGetLinearVel(body))) < 0.5 * kGravity * 5e-4);
   CHECK(norm(to_vec(dBodyGetAngularVel(body))) < 0.5 * kGravity * 5e-4 / 0.05);
 }

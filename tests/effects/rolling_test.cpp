@@ -1,4 +1,4 @@
-// Tests of resistance to rolling and spinning, which are lengths.
+// Tests of resistance to rolling and spinning. Both coefficients are lengths.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"

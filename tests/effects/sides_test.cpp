@@ -1,4 +1,4 @@
-// Tests of contacts whose bodies are not those of their geoms: walls that move or whose surface moves.
+// Tests of contacts whose bodies differ from the bodies of their geoms: moving walls and moving surfaces.
 #include <doctest/doctest.h>
 
 #include "effects/effects_world.hpp"
@@ -8,7 +8,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Gives the plane z = 0, which stands, the velocity of a kinematic body.
+/// Gives the plane z = 0, which stays in place, the velocity of a kinematic body.
 dBodyID add_belt(EffectsWorld& scene, const Vec& velocity, const Vec& spin = {0, 0, 0}) {
   const dBodyID belt = dBodyCreate(scene.id());
   dBodySetKinematic(belt);
@@ -18,13 +18,13 @@ dBodyID add_belt(EffectsWorld& scene, const Vec& velocity, const Vec& spin = {0,
   return belt;
 }
 
-/// The body's position moves with its velocity, and the belt's surface does not.
+/// The body moves with its velocity. The belt's surface stays in place.
 void step(EffectsWorld& scene, dBodyID belt) {
   scene.step();
   dBodySetPosition(belt, 0, 0, 0);
 }
 
-/// The velocity of a ball after it has hit a plane that comes to meet it.
+/// The velocity of a ball after it has hit a plane that moves towards it.
 double rebound(const std::vector<fx::Effect>& effects, double approach, double rise) {
   OdeSession session;
   EffectsWorld scene(effects, kStep / 10);

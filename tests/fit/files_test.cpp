@@ -235,7 +235,7 @@ TEST_CASE("a body is fitted equally well a million of its sizes from the origin"
     CHECK(std::abs(fitted.body.delta - 4) < 1e-6);
     CHECK(std::abs(fitted.body.epsilon - 4) < 1e-6);
     CHECK((fitted.body.position - far.position).norm() < 1e-8);
-    // The place that is pasted has as many digits as the body needs.
+    // The printed position has as many digits as the body needs.
     CHECK(c_lines(std::vector<FittedBody>{fitted}, "far", "").find("dGeomSetPosition(far, ") != std::string::npos);
   }
   CHECK(digits_of(1e6, 0.8, 9) == 16);
@@ -258,7 +258,8 @@ TEST_CASE("polygons of a .ply are cut into triangles, and other elements are ski
     const Vector3 twice = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
     area += std::abs(twice.z()) / 2;
   }
-  CHECK(area == doctest::Approx(1.25));  // of the arrowhead: nothing twice, and the third triangle seen from above is flat
+  CHECK(area == doctest::Approx(
+                    1.25));  // the area of the arrowhead: no part counts twice, and the third triangle has no area seen from above
 }
 
 TEST_CASE("a broken .ply is refused with the place of the error") {
@@ -307,7 +308,7 @@ TEST_CASE("unused vertices and flat faces of a file do not count as surface") {
   const Vector3 middle = (whole.vertices.points[first[0]] + whole.vertices.points[first[1]]) / 2;
   stray << middle.x() << ' ' << middle.y() << ' ' << middle.z() << "\n5 5 5\n";
   for (const Triangle& t : whole.triangles) stray << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
-  stray << "3 " << first[0] << ' ' << first[1] << ' ' << whole.vertices.points.size() << '\n';  // flat, on an edge
+  stray << "3 " << first[0] << ' ' << first[1] << ' ' << whole.vertices.points.size() << '\n';  // a flat face on an edge
   const Data data = read_data(folder.write("stray.ply", stray.str()), 1);
   CHECK(data.note == "1 vertices that no triangle has are left out");
   const FitError error = find_error(std::vector<Body>{body}, data);
@@ -430,7 +431,7 @@ TEST_CASE("the printed lines of C compile and create the bodies") {
   dReal a = 0, b = 0, c = 0, delta = 0, epsilon = 0;
   REQUIRE(snGeomSuperellipsoidGetParams(geoms[0], &a, &b, &c, &delta, &epsilon) == 1);
   CHECK(double{delta} == doctest::Approx(3));
-  // The boundary of the geom is where that of the body is.
+  // The geom and the body have the same boundary.
   for (std::size_t k = 0; k < 3; ++k) {
     const Cloud cloud = scatter(fitted[k].body, {.points = 20});
     for (const Vector3& x : cloud.points) {

@@ -122,7 +122,7 @@ TEST_CASE("gross outliers affect neither the search nor the extent") {
 }
 
 TEST_CASE("points are removed only beyond an empty shell") {
-  // A needle's ends, half of a body and a second group of a fifth of the points are no outliers.
+  // The ends of a needle, half of a body and a second group with a fifth of the points are no outliers.
   Body needle = make_body(Family::Ellipsoid, 2, 2);
   needle.half_axes = {50, 1, 1};
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
@@ -140,7 +140,7 @@ TEST_CASE("points are removed only beyond an empty shell") {
 }
 
 TEST_CASE("parameters that the data do not determine are reported") {
-  // A body of revolution may turn about its axis.
+  // A body of revolution may be rotated about its axis.
   Body truth = make_body(Family::Ellipsoid, 2, 2);
   truth.half_axes = {1.5, 0.8, 0.8};
   for (const double noise : {0.0, 0.01}) {
@@ -164,7 +164,7 @@ TEST_CASE("standard errors agree with the spread of repeated fits") {
   }
   for (int i = 0; i < kTaper; ++i) {
     CAPTURE(i);
-    // The mean of 40 squares is within a factor of 2 of its expectation but once in 10^4.
+    // The mean of 40 squares is outside a factor of 2 of its expectation once in 10^4.
     CHECK(square[i] / expected[i] > 0.45);
     CHECK(square[i] / expected[i] < 2.1);
   }

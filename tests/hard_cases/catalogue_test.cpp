@@ -1,4 +1,4 @@
-// Every case of the catalogue: the hybrid's answers against the reference, and conditions that hold without one.
+// Every case of the catalogue: the hybrid's answers against the reference, and conditions that hold without a reference.
 #include "support/hard_cases/catalogue.hpp"
 
 #include <doctest/doctest.h>
@@ -38,7 +38,7 @@ std::string describe(const HardCase& one) {
   return one.name + " (" + one.reason + ")\n  " + describe(one.body1) + "\n  " + describe(one.body2) + "\n  ";
 }
 
-/// Reports one failure a case, with the settings.
+/// Reports one failure for each case, with the settings.
 void report(const HardCase& one, const Settings& settings, const Violations& violations) {
   if (violations.empty()) return;
   std::string sentences;

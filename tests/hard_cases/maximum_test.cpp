@@ -1,4 +1,4 @@
-// The search for a normal that is higher than an answer's interval finds one where there is one.
+// The search for a normal higher than an answer's interval finds one if there is one.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ using namespace supernormal::samples;
 
 namespace {
 
-/// The answer that a climb gives which ends before the maximum, by an angle.
+/// The answer of an ascent that ends before the maximum, by an angle.
 Proximity beside(const HardCase& one, Proximity answer, double angle) {
   answer.normal = (answer.normal + angle * answer.normal.unitOrthogonal()).normalized();
   GapFunction gap(*one.shape1, one.pose1, *one.shape2, one.pose2);

@@ -1,4 +1,4 @@
-// Tests that parameters and poses with which nothing can be computed are refused: by a clear message, or by a status.
+// Tests that unusable parameters and poses are refused by a clear message, or by a status.
 #include <doctest/doctest.h>
 
 #include <stdexcept>

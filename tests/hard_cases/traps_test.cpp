@@ -1,4 +1,4 @@
-// The catalogue in a program that has trapped floating-point exceptions: one that is raised ends it.
+// The catalogue in a program that traps floating-point exceptions: an exception ends the program.
 #include "support/traps.hpp"
 
 #include <doctest/doctest.h>

@@ -15,7 +15,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// A hilly sheet of 2 * cells^2 triangles, about the origin, 1 m a cell.
+/// A sheet with hills of 2 * cells^2 triangles, about the origin, 1 m a cell.
 std::vector<MeshTriangle> hills(int cells) {
   const auto point = [&](int i, int j) {
     const double x = i - 0.5 * cells, y = j - 0.5 * cells;
@@ -69,7 +69,7 @@ TEST_CASE("triangles: at the impact the nearest triangle is within the tolerance
 }
 
 TEST_CASE("triangles: at the impact with a closed mesh no contact is deeper than the tolerance") {
-  // Elsewhere the planes of the faces are far above what touches an edge or a vertex from outside.
+  // For an open mesh, a body that touches an edge or a vertex from outside is far below the planes of the faces.
   const std::array<Vector3, 4> corners = {Vector3(-1, -1, 0), Vector3(1, -1, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)};
   const std::vector<MeshTriangle> tetrahedron = {{{corners[0], corners[2], corners[1]}, 0},
                                                  {{corners[0], corners[1], corners[3]}, 1},

@@ -28,7 +28,8 @@ Motion moving(const Vector3& position, const Vector3& velocity, const Vector3& a
   return motion;
 }
 
-/// The first t in [0, horizon] at which `gap` is 0, by steps in which it cannot fall to 0; the horizon if there is none.
+/// The first t in [0, horizon] at which `gap` is 0, by steps in which it cannot reach 0. The result is the horizon if there is
+/// none.
 template <typename Gap>
 double first_zero(const Gap& gap, double fastest, double horizon) {
   double t = 0;
@@ -117,7 +118,7 @@ TEST_CASE("a rotating needle that falls on a plane hits at the time of the close
     const Ellipsoid spindle(Vector3(radius, radius, length));
     check(find_plane_time_of_impact(needle, motion, Vector3::UnitZ(), 0, horizon), capsule, 1e-12);
     check(find_plane_time_of_impact(spindle, motion, Vector3::UnitZ(), 0, horizon), ellipsoid, 1e-12);
-    // A wide box is as good as a plane, for two bodies.
+    // Between two bodies, a wide box acts as a plane.
     const Motion floor = moving({0, 0, -50}, Vector3::Zero());
     check(find_time_of_impact(needle, motion, Box(Vector3(1000, 1000, 50)), floor, horizon), capsule, 5e-11);
     check(find_time_of_impact(Box(Vector3(1000, 1000, 50)), floor, spindle, motion, horizon), ellipsoid, 5e-11);
@@ -149,19 +150,19 @@ TEST_CASE("bodies that touch at the start hit at once, unless they separate") {
       CHECK(find_time_of_impact(floor, below, brick, moving({0, 0, 0.3 + gap}, {3, 0, speed}), 1).status == ImpactStatus::Apart);
       CHECK(find_time_of_impact(floor, below, brick, moving({0, 0, 0.3 + gap}, {3, 0, speed}, {0, 0, 9}), 1).status ==
             ImpactStatus::Apart);
-      // It rises slower than its edge comes down.
+      // The brick rises more slowly than its edge comes down.
       const Impact edge = find_time_of_impact(floor, below, brick, moving({0, 0, 0.3 + gap}, {0, 0, speed}, {0, 3 * speed, 0}), 1);
       CHECK(edge.status == ImpactStatus::Hits);
       CHECK(edge.time == 0);
       CHECK(find_plane_time_of_impact(oval, moving({0, 0, 0.3 + gap}, {3, 0, speed}), Vector3::UnitZ(), 0, 1).status ==
             ImpactStatus::Apart);
     }
-    // It parts, and comes back with its other end.
+    // It separates and comes back with its other end.
     const Impact back = find_time_of_impact(floor, below, oval, moving({0, 0, 0.3 + gap}, {0, 0, 0.02}, {0, 1, 0}), 3);
     CHECK(back.status == ImpactStatus::Hits);
     CHECK((back.time == 0 || back.time > 0.07));
   }
-  // Vertex on vertex, where every normal of an octant is a common one.
+  // Vertex on vertex: every normal of an octant is a common normal.
   const Box cube(Vector3(0.5, 0.5, 0.5));
   for (const Vector3& way : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(1, 1, 1), Vector3(0.1, 1, -0.05)}) {
     CHECK(find_time_of_impact(cube, {}, cube, moving({1, 1, 1}, way), 1).status == ImpactStatus::Apart);
@@ -183,7 +184,7 @@ TEST_CASE("fly-bys with a clearance of a thousandth of the size pass, and with a
   for (int k = 0; k < 400; ++k) {
     CAPTURE(k);
     MovingPair pair = random.draw(kMotionKinds[0], 1);
-    // Straight past one another: the normal at the nearest point is across the way.
+    // In straight lines past each other: the normal at the nearest point is perpendicular to the motion.
     const Vector3 n = random.direction();
     const Vector3 v = std::pow(10, random.uniform(0, 3)) * n.unitOrthogonal();
     const double sign = k % 2 == 0 ? 1 : -1;
@@ -237,7 +238,7 @@ TEST_CASE("the impact is the same when bodies are swapped, moved together or sca
         if (other.status == ImpactStatus::NotConverged) return;
         CHECK(other.status == impact.status);
         if (impact.status != ImpactStatus::Hits) return;
-        // Each is where the gap is within the tolerance, and nothing was before.
+        // At each impact the gap is within the tolerance, and no gap was before.
         const Long between = std::max(gap_at(pair, other.time / time), gap_at(pair, impact.time));
         CHECK(between <= 1.01e-9 * pair.unit);
         CHECK(other.proximity.gap <= 1.01e-9 * pair.unit * length);
@@ -337,7 +338,7 @@ TEST_CASE("a horizon far beyond the impact costs no digits, and far beyond a fly
       CHECK(find_plane_time_of_impact(oval, away, Vector3::UnitX(), 0, horizon).status == ImpactStatus::Apart);
     }
   }
-  // What turns in its place, by 0.2 rad.
+  // A body that rotates in its place, by 0.2 rad.
   const Motion slow = moving({0, 0, 1.2}, {0, 0, 0}, {0, 1e-3, 0});
   const Box long_box(Vector3(2, 0.5, 0.5));
   const double first = find_time_of_impact(long_box, slow, wall, {}, 1000).time;
@@ -373,7 +374,7 @@ TEST_CASE("time of impact: arguments out of range are refused, and motions that 
     const Impact turning = find_time_of_impact(ball, {}, ball, moving({5, 0, 0}, {-1, 0, 0}, {0, 0, 5}), 3 - gap);
     CHECK(turning.status == impact.status);
   }
-  // At the horizon, and with none.
+  // Around the horizon, and with horizon 0.
   CHECK(find_time_of_impact(ball, {}, ball, there, 3.0001).status == ImpactStatus::Hits);
   CHECK(find_time_of_impact(ball, {}, ball, there, 2.9999).status == ImpactStatus::Apart);
   CHECK(find_time_of_impact(ball, {}, ball, there, 0).status == ImpactStatus::Apart);
