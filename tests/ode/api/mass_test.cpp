@@ -8,7 +8,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// Checks the principal moments per mass against the second moments, and that nothing is off the diagonal.
+// Checks the principal moments for mass 1 against the second moments, and that all products of inertia are 0.
 void check_inertia(const dMass& mass, const Vec& squares) {
   const double m = mass.mass;
   CHECK(mass.I[0] == relative(m * (squares[1] + squares[2])).epsilon(within_rounding(1e-12)));
@@ -17,14 +17,14 @@ void check_inertia(const dMass& mass, const Vec& squares) {
   for (const int off_diagonal : {1, 2, 4, 6, 8, 9}) CHECK(std::abs(mass.I[off_diagonal]) < 1e-14 * m);
 }
 
-// A ball of radius 1 that does not have its centre at the origin: h(n) = 1 + offset.n.
+// A ball of radius 1 with its centre off the origin: h(n) = 1 + offset.n.
 constexpr Vec kOffset = {0.2, -0.1, 0.3};
 dReal ball_support(const void* /*user*/, const dReal n[3]) { return dReal(1 + dot(kOffset, to_vec(n))); }
 void ball_point(const void* /*user*/, const dReal n[3], dReal point[3]) {
   for (std::size_t i = 0; i < 3; ++i) point[i] = dReal(n[i] + kOffset[i]);
 }
 
-// An ellipsoid with half-axes of some 10 km in no special attitude: h(n) = |A n|.
+// An ellipsoid with half-axes of some 10 km in a general orientation: h(n) = |A n|.
 Vec oblique(const Vec& n) { return {9000 * n[0] + 4000 * n[1], 11000 * n[1] + 3000 * n[2], 7000 * n[2] + 2000 * n[0]}; }
 dReal oblique_support(const void* /*user*/, const dReal n[3]) { return dReal(norm(oblique(to_vec(n)))); }
 void oblique_point(const void* /*user*/, const dReal n[3], dReal point[3]) {

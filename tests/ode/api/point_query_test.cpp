@@ -10,8 +10,8 @@ using namespace supernormal::test;
 
 namespace {
 
-// A point at signed distance `depth` inside the boundary point with a given normal. Inwards this is exact up to the smallest
-// radius of curvature, beyond which another boundary point is nearer.
+// A point at signed distance `depth` inside the boundary point with a given normal. Inwards this is exact up to the smallest radius
+// of curvature; beyond it another boundary point is nearer.
 Vec point_at_depth(dGeomID geom, const Vec& direction, double depth) {
   const dVector3 n = {dReal(direction[0]), dReal(direction[1]), dReal(direction[2]), 0};
   dVector3 boundary;
@@ -51,13 +51,13 @@ TEST_CASE("point depth: an ellipsoid has the closed form at its centre, on its a
     CHECK(depth_of(geom, {0, -b - outside, 0}) == relative(-outside).epsilon(within_rounding(1e-8, 3 / outside)));
     CHECK(depth_of(geom, {0, 0, c + outside}) == relative(-outside).epsilon(within_rounding(1e-8, 3 / outside)));
   }
-  // Inside, on the x-axis, the nearest point is the end of the axis only beyond the centre of curvature a - c^2/a; between the
+  // On the x-axis inside, the nearest point is the end of the axis only beyond the centre of curvature a - c^2/a. Between the
   // centres, by symmetry in the xz-plane: distance^2 = c^2 (1 - x^2 / (a^2 - c^2)).
   CHECK(std::abs(depth_of(geom, {2.8, 0, 0}) - 0.2) < within_rounding(1e-9));
   for (const double x : {0.3, 1.0, 2.0}) {
     CHECK(std::abs(depth_of(geom, {x, 0, 0}) - c * std::sqrt(1 - x * x / (a * a - c * c))) < within_rounding(1e-9));
   }
-  // The point is far away, along a line normal to the surface (the answer has the digits of the point's coordinates).
+  // The point is far away, along a line normal to the surface. The answer has the digits of the point's coordinates.
   const Vec n = {0.48, 0.6, 0.64};
   for (const double distance : {1e3, 1e6, 1e9}) {
     CHECK(depth_of(geom, point_at_depth(geom, n, -distance)) == relative(-distance).epsilon(1e-12));

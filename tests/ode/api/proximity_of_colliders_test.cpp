@@ -18,8 +18,8 @@ snProximity proximity(dGeomID g1, dGeomID g2) {
   return answer;
 }
 
-// The signed distance from the surface where it is positive, by the formulas of the shapes; inside, some number that is not
-// positive, and 0 on the surface.
+// The signed distance from the surface outside, by the formulas of the shapes. Inside, some number that is not positive; on the
+// surface 0.
 double distance_from(dGeomID collider, const Vec& point) {
   dVector3 local{};
   if (dGeomGetClass(collider) != dPlaneClass) {
@@ -55,7 +55,7 @@ double distance_from(dGeomID collider, const Vec& point) {
   }
 }
 
-// There is no formula for a dConvex: a small sphere at the point touches it from the side of the normal.
+// There is no formula for a dConvex. A small sphere at the point touches it from the side of the normal.
 bool is_on(dGeomID collider, const Vec& point, const Vec& outward) {
   const double tolerance = within_rounding(3e-9);
   if (dGeomGetClass(collider) != dConvexClass) return std::abs(distance_from(collider, point)) < tolerance;

@@ -14,7 +14,7 @@ snProximity proximity_of(dGeomID g1, dGeomID g2) {
   return answer;
 }
 
-// Checks conditions that every answer must satisfy by itself.
+// Checks conditions that every answer must satisfy.
 void check_consistent(const snProximity& p, double rounding) {
   CHECK(norm(to_vec(p.normal)) == relative(1).epsilon(within_rounding(1e-14)));
   const Vec d = to_vec(p.point2) - to_vec(p.point1);
@@ -65,7 +65,7 @@ TEST_CASE("proximity: a sphere has the gap of its centre less the radius, in bot
       check_consistent(p, 1e-12);
     }
     CHECK(norm(to_vec(forth.normal) + to_vec(back.normal)) < 1e-4);
-    // The point on the sphere is on the sphere, and the normal leaves its centre for the body.
+    // The witness point is on the sphere, and the normal points from its centre to the body.
     CHECK(norm(to_vec(forth.point2) - (centre - radius * to_vec(forth.normal))) < within_rounding(1e-12));
     CHECK(norm(to_vec(back.point1) - (centre + radius * to_vec(back.normal))) < within_rounding(1e-12));
   }

@@ -1,4 +1,4 @@
-// Tests that bad parameters are refused with the parameter, its value and the range, and that nothing changes.
+// Tests that invalid parameters are refused with the parameter, its value and the range, and that nothing changes.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -71,7 +71,7 @@ TEST_CASE("refusals: a refused change leaves the geom unchanged") {
     check_error("snGeomSetRounding", "radius = ", "[0, 1e+30] m");
   }
   CHECK(Parameters(geom) == before);
-  dGeomSetPosition(geom, 0, 0, 0);  // this has the box computed again
+  dGeomSetPosition(geom, 0, 0, 0);  // so that ODE computes the box again
   dGeomGetAABB(geom, box_after);
   for (int i = 0; i < 6; ++i) CHECK(box_before[i] == box_after[i]);
 }
@@ -115,7 +115,7 @@ TEST_CASE("refusals: solver settings") {
   check_both(SN_SOLVER_HYBRID, kNan, 10, "tolerance = nan", "[1e-15, 1]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 0, "max_evaluations = 0", "[1, 1000000]");
   check_both(SN_SOLVER_HYBRID, dReal(1e-9), 1000001, "max_evaluations = 1000001", "[1, 1000000]");
-  // C passes any int, before anything has checked it.
+  // C passes any int, unchecked.
   for (const int number : {3, 7, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
     check_both(static_cast<snSolver>(number), dReal(1e-9), 10, ("solver = " + std::to_string(number) + " ").c_str(),
                "SN_SOLVER_FIXED_POINT (2)");

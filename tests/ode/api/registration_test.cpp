@@ -1,4 +1,4 @@
-// Tests that the class is registered once, whoever else opens and closes ODE.
+// Tests that the class is registered once, although other programs open and close ODE.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ bool works() {
 }  // namespace
 
 TEST_CASE("registration: the first creation registers the class, and snClose removes it") {
-  CHECK(snGeomClass() == -1);  // ODE is not even initialised
+  CHECK(snGeomClass() == -1);  // ODE is not yet initialised
   const dGeomID geom = snCreateEllipsoid(nullptr, 1, 1, 1);
   REQUIRE(geom != nullptr);
   CHECK(snGeomClass() >= dFirstUserClass);
@@ -126,7 +126,7 @@ TEST_CASE("registration: without a free class the call is refused and does not a
   dSetDebugHandler(nullptr);
   CHECK(handler_is_back);
 
-  dCloseODE();  // ours was given back: this one really closes ODE
+  dCloseODE();  // our share was returned, so this call really closes ODE
   CHECK(works());
   snClose();
 }
@@ -167,7 +167,7 @@ TEST_CASE("registration: a geom's data are destroyed with the geom, also by its 
   const dSpaceID space = dHashSpaceCreate(nullptr);
   for (int i = 0; i < 10; ++i) snCreateSuperellipsoid(space, 1, 1, 1, 3, 3);
   snClose();
-  CHECK(snGeomClass() >= 0);  // ten alive
+  CHECK(snGeomClass() >= 0);  // ten geoms are alive
   dSpaceDestroy(space);
   snClose();
   CHECK(snGeomClass() == -1);

@@ -33,7 +33,7 @@ TEST_CASE("a mesh has the volume of its geom, and its vertices have the geom's n
   snMesh mesh;
   REQUIRE(snGeomTessellate(geom, dReal(1e-4), &mesh) == 1);
   CHECK(volume(mesh) == relative(mass.mass).epsilon(1e-3));
-  CHECK(volume(mesh) < mass.mass);  // its corners are on the boundary of a convex body
+  CHECK(volume(mesh) < mass.mass);  // its vertices are on the boundary of a convex body
   for (int k = 0; k < mesh.points; ++k) {
     const dReal* n = mesh.normal + 3 * k;
     const dVector3 direction = {n[0], n[1], n[2]};

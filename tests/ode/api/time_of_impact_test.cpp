@@ -1,4 +1,4 @@
-// snGeomTimeOfImpact with every collider, against snGeomProximity along the way.
+// snGeomTimeOfImpact with every collider, against snGeomProximity along the path.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -142,7 +142,7 @@ TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or 
   CHECK(impact_of(floor, ball, 1).normal[2] > 0.999);
   CHECK(impact_of(ball, floor, 0.49).hits == 0);
 
-  // Of 3000 m/s, past thousands of its sizes; and from below.
+  // At 3000 m/s, past thousands of its sizes, and from below.
   mover.set({-1000 + 5, 5, 1000.3}, {1000, 0, -1000}, {300, 200, 100});
   CHECK(std::abs(impact_of(ball, floor, 2).time - 1) < 1e-3);
   mover.set({5, 5, -10.3}, {0, 0, 100}, {0, 0, 0});
@@ -150,7 +150,7 @@ TEST_CASE("time of impact: a body hits a sheet of triangles, at rest, moving or 
   mover.set({-1000 + 5, 10.41, 1000.3}, {1000, 0, -1000}, {0, 0, 0});
   CHECK(impact_of(ball, floor, 2).hits == 0);
 
-  // The floor comes up, and turns about an axis through (5, 5).
+  // The floor moves up, and rotates about an axis through (5, 5).
   Mover lift(world.id, floor);
   dGeomSetOffsetPosition(floor, -5, -5, 0);
   lift.set({5, 5, 0}, {0, 0, 4}, {0, 0, 0});

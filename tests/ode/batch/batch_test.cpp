@@ -1,4 +1,4 @@
-// Tests that a batch gives the contacts of one dCollide after the other, bit for bit, whichever thread solves a pair.
+// Tests that a batch gives the contacts of sequential calls of dCollide, bit for bit, whichever thread solves a pair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,12 +19,12 @@ using namespace supernormal::test;
 
 namespace {
 
-// 150 bodies, three of each of ODE's geoms, a plane and a mesh, crowded; one body is made of callbacks, which throw when told to.
+// 150 crowded bodies, three of each of ODE's geoms, a plane and a mesh. One body has callbacks, which throw on demand.
 struct Crowd {
   dSpaceID space = dHashSpaceCreate(nullptr);
   std::vector<ColliderGeom> colliders;
   std::vector<dGeomID> geoms;
-  std::vector<std::size_t> numbers;  // numbers of the geoms, as their data
+  std::vector<std::size_t> numbers;  // numbers of the geoms, stored as their data
   MeshGeom mesh;
   bool throws = false;
 
@@ -129,7 +129,7 @@ struct Account {
 
 using Collide = std::function<void(dSpaceID, std::vector<Line>&)>;
 
-// Makes three steps of a new crowd, in a new thread, which remembers no normals.
+// Makes three steps of a new crowd in a new thread, which has an empty cache.
 Account account_of(const Collide& collide_space) {
   Account account;
   std::thread([&] {

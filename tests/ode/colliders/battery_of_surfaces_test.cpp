@@ -1,4 +1,4 @@
-// The move-out check of battery_test.cpp for the colliders of many triangles. Rays have theirs in ray_test.cpp.
+// The move-out check of battery_test.cpp for the colliders with many triangles. ray_test.cpp has the check for rays.
 #include <doctest/doctest.h>
 
 #include "ode/battery_bodies.hpp"

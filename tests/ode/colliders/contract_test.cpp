@@ -63,14 +63,14 @@ TEST_CASE("a displacement by a contact's depth separates the geoms, and a smalle
         if (contacts.empty()) continue;
         ++overlapping;
         check_contact(contacts[0], g1, g2);
-        // The other contacts are the corners of a flat overlap.
+        // The other contacts are the manifold points of a flat overlap.
         for (std::size_t k = 1; k < contacts.size(); ++k) {
           CHECK(contacts[k].depth >= 0);
           CHECK(contacts[k].depth <= contacts[0].depth);
           CHECK(to_vec(contacts[k].normal) == to_vec(contacts[0].normal));
         }
 
-        // Our body is moved along the normal when it is g1, against it otherwise.
+        // Our body moves along the normal if it is g1, and against it otherwise.
         const double sign = ours_first ? 1 : -1;
         const Vec out = sign * double{contacts[0].depth} * to_vec(contacts[0].normal);
         const Vec start = to_vec(dGeomGetPosition(body));
@@ -94,7 +94,7 @@ TEST_CASE("both call orders give the same contact with the reversed normal") {
       for (int i = 0; i < 100; ++i) {
         const Geom body(random_body(random));
         const ColliderGeom collider(make_collider(kind, random));
-        collide(body, collider);  // so that both of the following find the same remembered normal
+        collide(body, collider);  // so that both of the following find the same cached normal
         collide(body, collider);
         const auto forth = collide(body, collider);
         const auto back = collide(collider, body);
@@ -105,7 +105,7 @@ TEST_CASE("both call orders give the same contact with the reversed normal") {
         CHECK(norm(to_vec(forth[0].normal) + to_vec(back[0].normal)) <= within_rounding(1e-6, 4));
         CHECK(forth[0].depth == relative(back[0].depth).epsilon(1e-8));
         if (warm_start) continue;
-        for (int axis = 0; axis < 3; ++axis) {  // a pure function of the poses: to the last bit
+        for (int axis = 0; axis < 3; ++axis) {  // a pure function of the poses, to the last bit
           CHECK(forth[0].normal[axis] == -back[0].normal[axis]);
           CHECK(forth[0].pos[axis] == back[0].pos[axis]);
         }
@@ -167,7 +167,7 @@ TEST_CASE("geoms of one body do not collide, nor does a geom with itself") {
 
 namespace {
 
-// Of the last error it is known whose it is, because one of another kind stands there before.
+// The last error is known to be new, because an error of another kind was there before.
 void check_no_contact(dGeomID one, dGeomID other) {
   CHECK(snGeomSetRounding(nullptr, 1) == 0);
   CHECK(collide(one, other).empty());

@@ -1,4 +1,4 @@
-// Tests of dConvex: its vertices as ODE tells them, whatever and wherever they are.
+// Tests of dConvex: its vertices, as read through ODE, at any place.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "supernormal/shapes/polytope.hpp"
 #include "support/relative.hpp"
 
-// dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
+// dGeomTransform is deprecated in favour of geom offsets, but programs use it and we promise to work inside it.
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
 using namespace supernormal::test;
@@ -80,8 +80,8 @@ TEST_CASE("dConvex: all vertices are found in any pose") {
     const ConvexGeom convex(points);
     const double distance = i % 5 == 4 ? 1000 : 3;
     place(convex, {random.uniform(-distance, distance), random.uniform(-distance, distance), random.uniform(-distance, distance)});
-    if (i % 4 != 3) random.turn(convex);  // in the others many vertices are on the plane that they are listed by
-    // The body is next to a vertex, so that this one counts.
+    if (i % 4 != 3) random.turn(convex);  // otherwise many vertices are on the plane by which they are listed
+    // The body is next to a vertex, so that this vertex matters.
     const Vec& vertex = points[static_cast<std::size_t>(i) % points.size()];
     dVector3 world;
     dGeomGetRelPointPos(convex, dReal(vertex[0]), dReal(vertex[1]), dReal(vertex[2]), world);
@@ -104,7 +104,7 @@ TEST_CASE("dConvex: the vertices of a box collide as a dBox") {
     random.turn(box);
     dGeomSetRotation(convex, dGeomGetRotation(box));
     const Geom body(random_body(random));
-    // This holds in overlaps as well: the faces are found from the vertices.
+    // This also holds in overlaps: the faces follow from the vertices.
     overlap(body, box, random.uniform(-0.5, 0.3) * std::min(size_of(body), size_of(box)), random);
     CHECK(std::abs(proximity(body, box).gap - proximity(body, convex).gap) < within_rounding(2e-9));
   }

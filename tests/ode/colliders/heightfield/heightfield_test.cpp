@@ -1,4 +1,4 @@
-// Bodies against dHeightfield: planes, peaks and rough ground, in every way that a heightfield can be made and placed.
+// Bodies against dHeightfield: planes, peaks and rough ground, with every kind of data and pose.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -110,7 +110,7 @@ TEST_CASE("a level heightfield gives the contacts of a plane") {
       const Pose frame = pose_of(heightfield);
       const Vector3 up = frame.rotation.col(1);
       const Geom plane(dCreatePlane(nullptr, dReal(up.x()), dReal(up.y()), dReal(up.z()), dReal(up.dot(frame.position) + 0.25)));
-      // The body is anywhere, above a line of the grid, or above a sample; from below the surface to above it.
+      // The body is anywhere, above a line of the grid or above a sample, from below the surface to above it.
       Vector3 where{random.uniform(-10, 10), 0.25 + random.uniform(-0.3, 1.6), random.uniform(-10, 10)};
       if (k % 3 > 0) where.x() = std::round(where.x());
       if (k % 3 > 1) where.z() = std::round(where.z());
@@ -210,14 +210,14 @@ TEST_CASE("any body on rough ground has the contacts with all triangles") {
   for (int k = 0; k < 400; ++k) {
     CAPTURE(k);
     const Geom body(random_body(random));
-    const double x = random.uniform(-5.5, 5.5);  // beyond the border as well
+    const double x = random.uniform(-5.5, 5.5);  // also beyond the border
     const double z = random.uniform(-5.3, 5.3);
     place(body, {x, random.uniform(0.2, 1.9), z});
     const auto& shape = require_body(body).shape();
     const std::span<const MeshContact> expected = reference.find(shape, pose_of(body), triangles, {});
     const Contacts contacts = collide(body, heightfield, 100);
     REQUIRE(contacts.size() >= expected.size());
-    // The corners of flat overlaps follow them.
+    // The manifold points of flat overlaps follow them.
     for (std::size_t i = expected.size(); i < contacts.size(); ++i) CHECK(contacts[i].depth <= contacts[0].depth);
     for (std::size_t i = 0; i < expected.size(); ++i, ++count) {
       const Proximity& proximity = expected[i].proximity;
@@ -239,7 +239,7 @@ TEST_CASE("the peak of a pyramid collides as the solid of the same shape") {
   Random random(47);
   const Terrain terrain({9, 9, 8, 8}, [](int i, int j) { return i == 4 && j == 4 ? 0.8 : 0.0; });
   const Geom heightfield(terrain.create());
-  // These are the samples next to (4, 4) on the six triangles there.
+  // The samples next to (4, 4) on the six triangles there.
   std::vector<Vector3> points = {{0, 0.8, 0}};
   for (const auto& [x, z] :
        {std::pair(1, 0), std::pair(0, 1), std::pair(-1, 1), std::pair(-1, 0), std::pair(0, -1), std::pair(1, -1)}) {
@@ -366,7 +366,7 @@ TEST_CASE("a heightfield with values that are not finite gives no such contact a
     place(body, {0, 0, 0});
     CHECK(collide(body, heightfield).empty());
   }
-  // The body is on the border to the last digit, where a ray would make ODE abort.
+  // The body is on the border to the last digit, where a ray would abort in ODE.
   const Terrain terrain({9, 9, 8, 8}, rough(54, 1));
   const Geom heightfield(terrain.create());
   for (const double x : {4.0, std::nextafter(4.0, 5.0), std::nextafter(4.0, 3.0), 4.5, 4.0 + 1e-12}) {
