@@ -1,4 +1,4 @@
-// Tests of bodies in a world: they come to rest, gain no energy, and bounce as the closed form says.
+// Tests of bodies in a world. They come to rest, gain no energy, and bounce as in the closed form.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Takes away friction and gravity.
+/// Removes friction and gravity.
 void make_elastic(World& world) {
   world.surface.mode = dContactApprox1 | dContactBounce;
   world.surface.bounce = 1;
@@ -73,7 +73,7 @@ TEST_CASE("a frictionless elastic drop of a tilted ellipsoid has the velocities 
     World world;
     world.room = 1;
     make_elastic(world);
-    dWorldSetERP(world.id(), 0);  // no push out: only the impulse acts
+    dWorldSetERP(world.id(), 0);  // no push out of the overlap: only the impulse acts
     dWorldSetCFM(world.id(), 0);
     world.add_plane();
     const dGeomID geom = snCreateSuperellipsoid(world.space(), dReal(0.5), dReal(0.3), dReal(0.25), c.exponent, c.exponent);
@@ -85,7 +85,7 @@ TEST_CASE("a frictionless elastic drop of a tilted ellipsoid has the velocities 
     REQUIRE(snGeomSupport(geom, down, lowest) == 1);
     dBodySetPosition(body, 0, 0, dReal(-lowest[2] - within_rounding(1e-9)));
     dBodySetLinearVel(body, 0, 0, -1);
-    world.exact_step(1e-7);  // the closed form is for an instant
+    world.exact_step(1e-7);  // the closed form is for an instantaneous impact
     CHECK(dBodyGetLinearVel(body)[2] == relative(c.v_z).epsilon(within_rounding(1e-6, 50)));
     CHECK(norm(to_vec(dBodyGetAngularVel(body))) == relative(c.spin).epsilon(within_rounding(1e-6)));
   }
@@ -96,7 +96,8 @@ TEST_CASE("two bodies that collide head on keep momentum and energy") {
   World world;
   world.room = 1;
   make_elastic(world);
-  dWorldSetCFM(world.id(), dReal(1e-10));  // ODE's default with double precision; that with single precision, 1e-5, is soft here
+  dWorldSetCFM(world.id(),
+               dReal(1e-10));  // ODE's default in double precision; the default in single precision, 1e-5, is too soft here
   const dBodyID body1 = world.add(snCreateSuperellipsoid(world.space(), dReal(0.5), dReal(0.3), dReal(0.25), 4, 3), 1000);
   const dBodyID body2 = world.add(snCreateEllipsoid(world.space(), dReal(0.2), dReal(0.3), dReal(0.4)), 2000);
   dBodySetPosition(body2, dReal(1.2), dReal(0.1), dReal(0.05));

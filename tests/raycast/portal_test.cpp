@@ -13,7 +13,7 @@ using namespace supernormal;
 
 namespace {
 
-// The view is down along -z: the line is the z-axis, c the origin, d = -r.
+// The view is down along -z. The line is the z-axis, c the origin, d = -r.
 const Vector3 kDown = -Vector3::UnitZ();
 constexpr double kRounding = 1e-15;
 
@@ -27,7 +27,7 @@ TEST_CASE("portal: points on one side leave a sector of directions that may sepa
   portal.add(beside(0.3, 2));
   CHECK(portal.sector() == test::relative(M_PI));
   portal.add(beside(-0.4, 0.5));
-  portal.add(beside(0.1, 7));  // it is between the two and tells nothing
+  portal.add(beside(0.1, 7));  // between the two others, so it changes nothing
   CHECK_FALSE(portal.is_pierced());
   CHECK(std::isinf(portal.upper_bound()));
   CHECK(portal.sector() == test::relative(M_PI - 0.7));
@@ -67,7 +67,7 @@ TEST_CASE("portal: a point on the line is a portal") {
   CHECK((portal.normal().normalized() + kDown).norm() < 1e-15);
 }
 
-// The line passes through a corner of the triangle or through its middle: the bound includes the rounding of the points.
+// The line passes through a vertex of the triangle or through its middle. The bound includes the rounding of the points.
 TEST_CASE("portal: the bound holds for steep portals of rounded points") {
   constexpr double kCoarse = 1e-9;
   std::mt19937_64 engine(6);

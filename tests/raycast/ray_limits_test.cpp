@@ -23,7 +23,7 @@ using namespace supernormal::test;
 
 namespace {
 
-/// Draws bodies of every kind, points, segments and flat hulls among them; `points` holds those of a hull.
+/// Draws bodies of every kind, including points, segments and flat hulls. `points` stores the points of a hull.
 std::shared_ptr<const Shape> any_shape(RandomRays& random, int k, double size, std::vector<Vector3>& points) {
   const auto length = [&] { return size * random.uniform(0.05, 1); };
   switch (k % 7) {
@@ -66,7 +66,7 @@ TEST_CASE("rays: scale, place and orientation change no answer") {
       CHECK((other.point / scale - hit.point).norm() <= other.distance_error / scale + hit.distance_error + 1e-13);
     }
     const Matrix3 R = random.rotation();
-    for (const double far : {1.0, 1e4}) {  // m; the input itself is rounded to 1e-12 m there
+    for (const double far : {1.0, 1e4}) {  // m; at this distance the input is rounded to 1e-12 m
       const Pose pose{far * random.direction(), R};
       const RayHit other = find_ray_hit(surface, pose, R * ray.origin + pose.position, R * ray.direction, kInfinity);
       REQUIRE(other.hit);
@@ -76,7 +76,7 @@ TEST_CASE("rays: scale, place and orientation change no answer") {
       CHECK(std::abs(other.distance - hit.distance) <= allowed);
       CHECK((R.transpose() * (other.point - pose.position) - hit.point).norm() <= allowed + input_error);
     }
-    // The ray starts 1e10 away, as for a program that wants "any distance"; the direction is rounded to 1e-6 m there.
+    // The ray starts 1e10 away, as from a program that wants "any distance". The direction is rounded to 1e-6 m there.
     const RayHit far = find_ray_hit(surface, {}, ray.at(-1e10), ray.direction, kInfinity);
     if (far.hit) CHECK(distance_to_boundary(surface, far) <= 1e-9 * unit + 1e-13);
   }

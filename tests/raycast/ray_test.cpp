@@ -38,9 +38,9 @@ void check_hit(const Superellipsoid& shape, const Ray& ray, const RayHit& hit, d
 
   CHECK(distance_to_boundary(shape, hit) <= 1e-9 * unit);
   CHECK(hit.boundary_error <= boundary_tolerance * unit);
-  // The distance is that of the implicit equation, with its own rounding.
+  // The distance agrees with the implicit equation, up to the equation's rounding.
   CHECK(std::abs(hit.distance - expected) <= hit.distance_error + 1e-14 * (size + hit.distance) / along);
-  // The normal is the one there; on a sharp edge, it is one whose boundary point is there.
+  // The normal is the normal at the point. On a sharp edge, its boundary point is the hit.
   const double turned = (level_normal(shape, hit.point) - hit.normal).norm();
   CHECK(std::min(turned, (shape.point(hit.normal) - hit.point).norm() / unit) <= normal_tolerance);
 }
@@ -273,7 +273,7 @@ TEST_CASE("rays at boxes agree with their slabs, and rays at capsules and cylind
     ++hits;
     CHECK(hit.status == Status::Converged);
     CHECK(std::abs(hit.distance - entry) < 1e-9 * half.minCoeff() + 1e-13);
-    if (exit - entry < 1e-3) continue;  // on an edge either normal will do
+    if (exit - entry < 1e-3) continue;  // on an edge either normal is right
     CHECK(std::abs(hit.normal[face]) > 1 - 1e-9);
   }
   CHECK(hits > 1000);

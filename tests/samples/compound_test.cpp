@@ -55,8 +55,8 @@ struct Sums {
   }
 };
 
-/// Adds the cells of a cubic lattice over the bounding box of a geom in its place, each with the share of it that follows from
-/// the distance of its middle from the boundary.
+/// Adds the cells of a cubic lattice over the bounding box of a geom in its place. The fraction of each cell follows from the
+/// distance of its middle from the boundary.
 void add_cells(const Part& part, double edge, double weight, Sums& sums) {
   std::array<dReal, 6> box{};
   dGeomGetAABB(part.geom, box.data());
@@ -109,7 +109,7 @@ TEST_CASE("compound: tapered, rotated and moved parts agree with sums over a lat
   CHECK(least_gap(parts) > 0);
 
   Sums sums;
-  // The error of the linear share is proportional to the square of the edge (Steiner's formula), so Richardson's extrapolation
+  // The error of the linear fraction is proportional to the square of the edge (Steiner's formula), so Richardson's extrapolation
   // applies.
   for (const Part& part : parts) {
     add_cells(part, 0.02, 4.0 / 3, sums);
@@ -119,7 +119,7 @@ TEST_CASE("compound: tapered, rotated and moved parts agree with sums over a lat
   constexpr double kTolerance = 5e-4;  // twice the error of the lattice
   const double size = kTolerance * (xx + yy + zz);
   CHECK(mass.mass == supernormal::test::relative(sums.mass).epsilon(kTolerance));
-  for (const double moment : sums.first) CHECK(std::abs(moment) < kTolerance * sums.mass);  // the centre of mass is the origin
+  for (const double moment : sums.first) CHECK(std::abs(moment) < kTolerance * sums.mass);  // the centre of mass is at the origin
   CHECK(std::abs(mass.I[0] - (yy + zz)) < size);
   CHECK(std::abs(mass.I[5] - (zz + xx)) < size);
   CHECK(std::abs(mass.I[10] - (xx + yy)) < size);

@@ -31,7 +31,7 @@ std::vector<std::uint64_t> samples_of(const Ranking& ranking) {
   return samples;
 }
 
-/// The tally of samples first ... end - 1, whose errors go up and down.
+/// The tally of samples first ... end - 1 with errors that go up and down.
 Tally tally_of(std::uint64_t first, std::uint64_t end) {
   Tally tally;
   for (std::uint64_t k = first; k < end; ++k)

@@ -122,7 +122,7 @@ TEST_CASE("with a smaller max_contacts the nearest manifold point keeps its gap"
   const ContactManifold manifold = find_plane_manifold_of_gaps(kBrick, pose, proximity);
   for (int room = 1; room <= 5; ++room) {
     const ContactManifold reduced = reduced_to(manifold, room);
-    CHECK(reduced.corner_count == (room < 3 ? 0 : std::min(room, 4)));  // two contacts would support a line of the face
+    CHECK(reduced.corner_count == (room < 3 ? 0 : std::min(room, 4)));  // two support only a line
     CHECK(reduced.deepest.gap == doctest::Approx(1e-3));
     for (int k = 0; k < reduced.corner_count; ++k) {
       const double depth = reduced.corners[static_cast<std::size_t>(k)].depth;

@@ -1,4 +1,5 @@
-// Tests of worlds with contacts before overlap: nothing tunnels, what rests stays up, what passes by is not held back.
+// Tests of worlds with contacts before overlap. No body tunnels, resting bodies stay up, and bodies that fly by keep their
+// velocity.
 #include <doctest/doctest.h>
 
 #include "ode/colliders/fly_bys.hpp"
@@ -24,7 +25,7 @@ enum class Wall { Plane, Box, Ours, Mesh, Heightfield };
 
 constexpr Wall kWalls[] = {Wall::Plane, Wall::Box, Wall::Ours, Wall::Mesh, Wall::Heightfield};
 
-/// A wall whose front is z = 0, for as long as this lives.
+/// A wall with its front at z = 0, as long as this lives.
 class Front {
  public:
   Front(dSpaceID space, Wall wall, double thickness) {
@@ -59,7 +60,7 @@ class Front {
   Front& operator=(Front&&) = delete;
 
  private:
-  dGeomID geom_ = nullptr;  // what has data
+  dGeomID geom_ = nullptr;  // the geom that has data
   dTriMeshDataID mesh_ = nullptr;
   dHeightfieldDataID field_ = nullptr;
   std::array<float, 12> vertices_ = {-200, -200, 0, 200, -200, 0, 200, 200, 0, -200, 200, 0};
@@ -69,19 +70,19 @@ class Front {
 
 struct Flight {
   bool is_through = false;
-  double speed_along = 0;  // m/s, less that before the impact
-  double speed = 0;        // m/s, before
+  double speed_along = 0;  // m/s, relative to the speed before the impact
+  double speed = 0;        // m/s, before the impact
 };
 
 struct Shot {
   Wall wall;
   double spin = 0;  // rad/s
   bool looks_ahead = true;
-  double most_offset = 0;  // of the middle from the centre of mass, in largest half-axes
+  double most_offset = 0;  // the largest offset of the middle from the centre of mass, in largest half-axes
   double mu = 0;
 };
 
-/// Shoots a body at a wall, and looks for its middle in or behind the wall.
+/// Shoots a body at a wall, and checks whether its middle is in or behind the wall.
 Flight shoot(Random& random, const Shot& shot) {
   const double step = random.log_uniform(1e-3, 50e-3);
   const double size = random.log_uniform(2e-3, 50e-3);
@@ -154,7 +155,7 @@ TEST_CASE("bullets: none passes through a wall of any kind, at 1 to 1000 m/s and
     INFO("wall " << static_cast<int>(wall));
     CHECK(through == 0);
   }
-  // They are bullets: many pass without it.
+  // Without look-ahead many pass through.
   Random random(1);
   int through = 0;
   for (int k = 0; k < 60; ++k) through += shoot(random, {Wall::Box, 0, false}).is_through ? 1 : 0;
@@ -197,7 +198,7 @@ TEST_CASE("two free bodies that meet off centre do not go through each other") {
       World world;
       dWorldSetGravity(world.id(), 0, 0, 0);
       std::array<dBodyID, 2> bodies{};
-      double thickness = 0;  // m; the sum of the smallest half-axes
+      double thickness = 0;  // m; the sum of the smallest half-axes of both
       for (dBodyID& body : bodies) {
         const Vec half_axes = size * Vec{1, random.uniform(0.4, 1), random.uniform(0.4, 1)};
         thickness += std::min(half_axes[1], half_axes[2]);
@@ -247,7 +248,7 @@ TEST_CASE("a body that meets a wall face on stops at the wall, to a millionth of
           CAPTURE(speed);
           CAPTURE(step);
           CAPTURE(static_cast<int>(wall));
-          CHECK(deepest < within_rounding(1e-6 * 0.01, 1 + 0.4 * speed * step));  // the way there is rounded
+          CHECK(deepest < within_rounding(1e-6 * 0.01, 1 + 0.4 * speed * step));  // the path to the wall has rounding errors
           CHECK(depth_below(geom) > -1e-4);
         }
       }
@@ -265,7 +266,7 @@ TEST_CASE("bodies that fly by with a clearance of a thousandth of the size keep 
       CHECK(fly_by(seed, passed, 1e-3) < within_rounding(1e-9, 10));
       held_back += fly_by(seed, passed, -0.3) > 1e-3 ? 1 : 0;
     }
-    CHECK(held_back >= 5);  // of 10; what comes from behind a sheet goes through
+    CHECK(held_back >= 5);  // of 10; bodies that come from behind a sheet pass through
   }
 }
 
@@ -395,7 +396,8 @@ TEST_CASE("there are at most max_contacts contacts ahead, the nearest first, and
   REQUIRE(snGeomSetLookAhead(geom, dReal(0.02)) == 1);
   for (int room = 1; room < 8; ++room) {
     const std::vector<dContactGeom> contacts = collide(geom, box, room);
-    CHECK(static_cast<int>(contacts.size()) == (room < 3 ? 1 : std::min(room, 4)));  // two would hold a line of the face
+    CHECK(static_cast<int>(contacts.size()) ==
+          (room < 3 ? 1 : std::min(room, 4)));  // two support only a line
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       CHECK(contacts[k].depth < 0);
       CHECK(contacts[k].depth <= contacts[0].depth);

@@ -1,4 +1,4 @@
-// Tests that the bounding box encloses the body, and that no box along the same axes is smaller.
+// Tests that the bounding box encloses the body, and that no axis-parallel box is smaller.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Box {
   explicit Box(dGeomID geom) { dGeomGetAABB(geom, side.data()); }
 };
 
-// Visits boundary points without our library: superquadric coordinates, rotated by hand.
+// Visits boundary points without our library, by superquadric coordinates and an own rotation.
 template <typename Visit>
 void visit_boundary(const Vec& axes, double delta, double epsilon, int steps, Visit visit) {
   const auto power = [](double base, double exponent) { return std::copysign(std::pow(std::abs(base), exponent), base); };

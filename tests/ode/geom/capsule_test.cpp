@@ -1,4 +1,4 @@
-// Tests of snCreateCapsule: a capsule as a body of ours beside ODE's own.
+// Tests of snCreateCapsule: a capsule of ours beside ODE's own.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr dReal kRadius = 2, kLength = 5;
 
-/// A capsule of radius 0.1 and length 0.4 (m) that falls on its side, a little inclined, onto a plane or a box.
+/// A capsule of radius 0.1 and length 0.4 (m) that falls on its side, slightly tilted, onto a plane or a box.
 class Fall {
  public:
   Fall(bool is_on_box, int room) : room_(room) {
@@ -80,7 +80,7 @@ TEST_CASE("capsule: size, mass and depth are equal to ODE's") {
     dGeomSetRotation(geom, turn);
     dGeomGetAABB(geom, boxes[geom == static_cast<dGeomID>(odes) ? 1 : 0].data());
   }
-  // Ours is wider by the rounding that it has to cover.
+  // Ours is wider by the rounding error that it must cover.
   const double tolerance = within_rounding(1e-6, kRadius + 0.5 * kLength);
   for (std::size_t i = 0; i < 6; ++i) {
     const double wider = (i % 2 == 0 ? -1 : 1) * (double{boxes[0][i]} - double{boxes[1][i]});

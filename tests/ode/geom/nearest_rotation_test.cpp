@@ -1,4 +1,4 @@
-// Tests of the rotations that the core gets for geoms.
+// Tests of the rotations of geoms that the core gets.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -43,7 +43,7 @@ double orthonormality_error(const Matrix3& R) { return (R.transpose() * R - Matr
 
 TEST_CASE("rotations that ODE computes in double precision are used unchanged") {
   OdeSession session;
-  if (kRealEpsilon > 1e-10) return;  // rotations of single precision are not orthonormal to rounding
+  if (kRealEpsilon > 1e-10) return;  // rotations in single precision are not orthonormal to double precision
   Draw draw;
   const Geom geom(dCreateSphere(nullptr, 1));
   for (int k = 0; k < 100000; ++k) {

@@ -1,4 +1,4 @@
-// Tests that the same geoms collide in every kind of space, inside a dGeomTransform, with an offset.
+// Tests that the same geoms collide in every kind of space, inside a dGeomTransform, and with an offset.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "ode/collider_fixture.hpp"
 #include "support/relative.hpp"
 
-// dGeomTransform is deprecated in favour of geom offsets, but programs have it and we promise to work inside.
+// dGeomTransform is deprecated in favour of geom offsets, but programs use it and we promise to work inside it.
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
 using namespace supernormal::test;
@@ -56,7 +56,7 @@ void near_callback(void* data, dGeomID o1, dGeomID o2) {
   if (!collide(o1, o2).empty()) found.touching.insert(pair);
 }
 
-// 60 bodies, five of each of ODE's geoms and two planes, crowded. Destroy it before the space.
+// 60 crowded bodies, five of each of ODE's geoms and two planes. Destroy it before the space.
 struct Crowd {
   std::vector<ColliderGeom> colliders;
   std::vector<dGeomID> geoms;
@@ -146,7 +146,7 @@ TEST_CASE("a box whose corner is in a body's bounding box but not near the body 
 
 namespace {
 
-// Puts `inner` into the transform, both anywhere near the origin, and `direct`, the same geom again, to where `inner` is then.
+// Puts `inner` into the transform, both anywhere near the origin. Puts `direct`, the same geom again, where `inner` then is.
 void wrap(dGeomID transform, dGeomID inner, dGeomID direct, Random& random) {
   random.turn(inner);
   place(inner, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
@@ -179,7 +179,7 @@ int check_same_contacts(dGeomID transform, dGeomID direct, dGeomID other) {
 
 TEST_CASE("a body inside a dGeomTransform has the contacts of the body itself") {
   OdeSession session;
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(5);
   const Geom transform(dCreateGeomTransform(nullptr));
   std::vector<ColliderGeom> others;
@@ -204,7 +204,7 @@ TEST_CASE("a body inside a dGeomTransform has the contacts of the body itself") 
 
 TEST_CASE("a collider inside a dGeomTransform has the contacts of the collider itself") {
   OdeSession session;
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(8);
   const Geom transform(dCreateGeomTransform(nullptr));
   for (const ColliderKind kind : kSolidKinds) {
@@ -226,7 +226,7 @@ TEST_CASE("a collider inside a dGeomTransform has the contacts of the collider i
 TEST_CASE("a geom offset moves the geom, not the body") {
   OdeSession session;
   const dWorldID world = dWorldCreate();
-  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is good to the root of the tolerance
+  snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(1e-13), 1000);  // the normal is accurate to the root of the tolerance
   Random random(6);
   int touching = 0;
   {

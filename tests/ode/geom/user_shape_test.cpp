@@ -1,4 +1,4 @@
-// Tests of snCreateConvex: a body that the program describes.
+// Tests of snCreateConvex: a body that the program defines.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -10,7 +10,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// An ellipsoid given by the program, which counts the calls.
+// An ellipsoid defined by the program, which counts the calls.
 struct Egg {
   double a = 1, b = 0.8, c = 0.6;
   int released = 0;
@@ -52,7 +52,7 @@ snShape describe(Egg& egg, bool with_hessian) {
 
 TEST_CASE("user shape: the contacts are those of the built-in body of the same form") {
   OdeSession session;
-  // The functions of a user's body return dReals: with single precision the query converges to no more than that.
+  // The functions of a user shape return dReals. In single precision the query converges only to this rounding.
   snSetDefaultSolver(SN_SOLVER_HYBRID, dReal(within_rounding(1e-9, 100)), 1000);
   Random random(12);
   Egg egg;
@@ -132,7 +132,7 @@ TEST_CASE("user shape: an exception in a callback becomes the error of the call 
   dGeomSetPosition(geom, 1, 1, 1);
   int pairs = 0;
   dSpaceCollide(space, &pairs, [](void* count, dGeomID, dGeomID) { ++*static_cast<int*>(count); });
-  CHECK(pairs == 3);  // no box and no test of it: ODE must assume the worst
+  CHECK(pairs == 3);  // without a box ODE must assume the worst
   CHECK(std::isnan(snGeomPointDepth(geom, 0, 0, 0)));
   dMass mass;
   CHECK(snMassSet(&mass, 1, geom) == 0);

@@ -1,4 +1,4 @@
-// Tests of warm start with ODE's own geoms, which have no serial numbers: they are recognised by their place.
+// Tests of warm start with ODE's own geoms. They have no serial numbers and are recognised by their place.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// Bodies among ODE's geoms, crowded.
+// Crowded bodies among ODE's geoms.
 struct Scene {
   std::vector<Geom> bodies;
   std::vector<ColliderGeom> colliders;
@@ -25,7 +25,7 @@ struct Scene {
     }
   }
 
-  // Returns all contacts of some steps, in which the bodies turn and move a little.
+  // Returns all contacts of some steps, in which the bodies rotate and move a little.
   std::vector<dContactGeom> run() {
     Random random(61);
     std::vector<dContactGeom> all;
@@ -65,7 +65,7 @@ TEST_CASE("warm start with every collider: a separated pair costs one evaluation
       move(body, 1e-3 * random.direction());
       snResetStatistics();
       CHECK(collide(body, collider).empty());
-      if (statistics().queries_warm == 0) continue;  // it is now seen in another cell of directions
+      if (statistics().queries_warm == 0) continue;  // its direction is now in another cell
       ++remembered;
       CHECK(statistics().evaluations_warm == 1);
     }

@@ -1,4 +1,4 @@
-// Tests that warm start saves evaluations and changes nothing else, and that without it results are a function of the poses.
+// Tests that warm start saves evaluations and changes nothing else. Without it, results are a function of the poses.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace supernormal::test;
 
 namespace {
 
-// Makes a lattice of turned bodies that touch their neighbours.
+// Makes a lattice of rotated bodies that touch their neighbours.
 std::vector<Geom> make_pile(int per_side) {
   Random random(23);
   std::vector<Geom> pile;
@@ -60,7 +60,7 @@ TEST_CASE("warm start: a separated pair costs one evaluation from the second tim
       move(g1, 1e-3 * random.direction());
       snResetStatistics();
       CHECK(collide(g1, collider).empty());
-      if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // it is now seen in another cell of directions
+      if (collider == dGeomID(sphere) && statistics().queries_warm == 0) continue;  // its direction is now in another cell
       spheres_remembered += collider == dGeomID(sphere) ? 1 : 0;
       CHECK(statistics().queries_warm == 1);
       CHECK(statistics().evaluations_warm == 1);
@@ -100,7 +100,7 @@ TEST_CASE("warm start: the contacts are the same as from a cold start, within th
   CHECK(statistics().queries_warm == 0);
   REQUIRE(warm.size() == cold.size());
   REQUIRE(warm.size() > 100);
-  // Deep overlaps may have several local maxima, and there a warm start stays with the one it knows.
+  // Deep overlaps may have several local maxima. There a warm start stays with its maximum.
   int shallow = 0;
   for (std::size_t i = 0; i < warm.size(); ++i) {
     if (warm[i].depth > 0.05) continue;
@@ -124,7 +124,7 @@ TEST_CASE("without warm start the contacts are a function of the poses, bit for 
 
 TEST_CASE("warm start: the same scene built again gives the same bits, at any addresses and cache contents") {
   OdeSession session;
-  constexpr int kPerSide = 8;  // 130 816 pairs, as many as the table holds: some are pushed out of it, the same ones in every run
+  constexpr int kPerSide = 8;  // 130 816 pairs, as many as the table holds: some are evicted, the same ones in every run
   std::vector<dContactGeom> first;
   {
     auto pile = make_pile(kPerSide);
@@ -149,7 +149,7 @@ TEST_CASE("warm start: a pair that the program has moved far starts cold, with t
     const Geom g2(snCreateSuperellipsoid(nullptr, axes[2], axes[0], axes[1], exponent, exponent));
     const Geom sphere(dCreateSphere(nullptr, dReal(0.5)));
     random.turn(g2);
-    const Vec deep_inside = 0.35 * random.direction();  // both centres lie in both bodies
+    const Vec deep_inside = 0.35 * random.direction();  // both centres are in both bodies
     const Vec starts[] = {3.0 * random.direction(), -1.0 * deep_inside, (3 / 0.35) * deep_inside};  // elsewhere, behind, far ahead
     for (const dGeomID collider : {dGeomID(g2), dGeomID(sphere)}) {
       CAPTURE(collider == dGeomID(sphere));
@@ -164,8 +164,8 @@ TEST_CASE("warm start: a pair that the program has moved far starts cold, with t
         place(collider, deep_inside);
         snResetStatistics();
         const auto moved = collide(g1, collider, 1);
-        // The sphere has an entry for each direction it was seen in, and may be back at an earlier place: the same answer,
-        // remembered.
+        // The sphere has a cache entry for each earlier direction, and may be back at an earlier place. The cached answer is the
+        // same.
         if (collider == dGeomID(g2)) CHECK(statistics().queries_cold == 1);
         REQUIRE(moved.size() == 1);
         CHECK(std::abs(moved[0].depth - cold[0].depth) < within_rounding(2e-9));
@@ -211,7 +211,7 @@ TEST_CASE("warm start: a pair with a changed shape starts cold, with the answer 
   const Change box = [&](dGeomID geom) { dGeomBoxSetLengths(geom, half(), half(), half()); };
   const Change capsule = [&](dGeomID geom) { dGeomCapsuleSetParams(geom, half(), half()); };
   const Change cylinder = [&](dGeomID geom) { dGeomCylinderSetParams(geom, half(), half()); };
-  // The vertices of a tetrahedron are mirrored: as many, in the same box.
+  // The vertices of a tetrahedron are mirrored: the same number, in the same box.
   std::array<dReal, 12> vertices = {-1, -1, -1, 1, dReal(0.8), -1, dReal(-0.6), 1, -1, dReal(0.1), dReal(0.2), 1};
   std::array<dReal, 4> plane = {0, 0, -1, 1};
   std::array<unsigned int, 4> polygon = {3, 0, 2, 1};
@@ -244,7 +244,7 @@ TEST_CASE("warm start: a pair with a changed shape starts cold, with the answer 
       const auto changed = collide(geom, other, 1);
       CHECK(statistics().queries_cold == 1);
       collide(geom, other, 1);
-      CHECK(statistics().queries_warm == 1);  // it is remembered from then on
+      CHECK(statistics().queries_warm == 1);  // it is a cache hit from then on
       snSetWarmStart(0);
       const auto cold = collide(geom, other, 1);
       snSetWarmStart(1);
@@ -267,7 +267,7 @@ TEST_CASE("warm start: a geom at the address of a destroyed one starts cold") {
 
 namespace {
 
-// Runs a scene of the thread's own (ODE computes poses lazily, inside the geom), from its creation to its contacts.
+// Runs the thread's own scene, from its creation to its contacts. (ODE computes poses lazily, inside the geom.)
 std::vector<dContactGeom> run_scene() {
   dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   auto pile = make_pile(4);

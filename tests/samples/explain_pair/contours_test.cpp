@@ -1,4 +1,4 @@
-// Tests of contour lines and what else the maps are drawn with.
+// Tests of contour lines and other elements of the maps.
 #include "method/contours.hpp"
 
 #include <doctest/doctest.h>
@@ -38,7 +38,7 @@ TEST_CASE("contours: a disc has its area, and a ring has its hole") {
   ring.fill([](double column, double row) { return -std::abs((Vector2(column, row) - Vector2(40, 40)).norm() - 20); });
   const std::vector<Polyline> polygons = superlevel_polygons(ring, -5);
   REQUIRE(polygons.size() == 2);
-  // One runs the other way round.
+  // One runs in the other direction.
   CHECK(area_of(polygons) == doctest::Approx(std::numbers::pi * (625 - 225)).epsilon(0.005));
 }
 

@@ -1,4 +1,4 @@
-// Tests of where pairs come from: the command line, a run, the hard cases.
+// Tests of the sources of pairs: the command line, a run, the hard cases.
 #include <doctest/doctest.h>
 
 #include <functional>

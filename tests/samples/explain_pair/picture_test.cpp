@@ -1,4 +1,4 @@
-// Tests of the picture of a pair: what is drawn is what the library found.
+// Tests that the picture of a pair shows the library's results.
 #include "drawing/picture.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kLargestPicture = 400'000;  // bytes
 
-/// The attributes of the first element that has all of these texts in it.
+/// The attributes of the first element that contains all of these texts.
 std::smatch find(const std::string& document, const std::string& pattern) {
   std::smatch match;
   REQUIRE(std::regex_search(document, match, std::regex(pattern)));
@@ -85,7 +85,7 @@ TEST_CASE("picture: the witness points, the planes and the scale agree with the 
       return Vector2(number(match[1]), number(match[2]));
     };
     const Vector2 point1 = point("#1F5F8F"), point2 = point("#A3600F");
-    // The scale says how long its line is.
+    // The scale states the length of its line.
     const std::smatch bar =
         find(document,
              "line x1=\"([-0-9.]+)\" y1=\"76\" x2=\"([-0-9.]+)\" y2=\"76\"[^\n]*\n[^\n]*\n[^\n]*\n<text[^>]*>([0-9.]+) (m|mm)<");

@@ -1,4 +1,4 @@
-// Tests of recorded paths: they are what the library did, and the bounds hold.
+// Tests that recorded paths equal the library's evaluations, and that the bounds hold.
 #include "method/solver_path.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ std::vector<Vector3> recorded(const Pair& pair, const Settings& settings) {
 /// s(n) from the bodies' extents in the world.
 double direct_gap(const Pair& pair, const Vector3& n) { return -pair.body1.reach(n) - pair.body2.reach(-n); }
 
-/// `rest`: how many evaluations come after the answer's. Without them only the place of the contact is another.
+/// `rest`: the number of evaluations after the answer's. Without them only the contact point differs.
 void check_only_places(const Pair& pair, Settings settings, const Proximity& answer, int rest) {
   settings.max_evaluations = answer.evaluations - rest;
   const Proximity placeless = find_proximity(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose, settings);
@@ -47,7 +47,7 @@ void check_path(const Pair& pair, Solver solver) {
   settings.solver = solver;
   const SolverPath path = solver_path(pair, settings);
   const Proximity plain = find_proximity(*pair.body1.shape, pair.body1.pose, *pair.body2.shape, pair.body2.pose, settings);
-  // To be watched changes no digit.
+  // Recording changes no digit.
   CHECK(path.answer.gap == plain.gap);
   CHECK(path.answer.normal == plain.normal);
   CHECK(path.answer.point1 == plain.point1);
@@ -55,7 +55,8 @@ void check_path(const Pair& pair, Solver solver) {
   CHECK(path.answer.evaluations == plain.evaluations);
   REQUIRE(path.evaluations.size() == static_cast<std::size_t>(plain.evaluations));
 
-  // The answer is one of the evaluations; of the solvers without a safeguard it is the last, but for those of the contact's place.
+  // The answer is one of the evaluations. For the solvers without a safeguard it is the last one before the evaluations for the
+  // contact point.
   const auto is_answer = [&](const Evaluation& one) { return one.s == plain.gap && (one.n - plain.normal).norm() < kRounding; };
   const auto last = std::find_if(path.evaluations.rbegin(), path.evaluations.rend(), is_answer);
   REQUIRE(last != path.evaluations.rend());
@@ -117,7 +118,7 @@ TEST_CASE("solver path: cuts and intervals contain the answer") {
     CHECK(path.intervals.back().evaluations == path.answer.evaluations);
     CHECK(path.intervals.back().lower == path.answer.gap);
     CHECK(path.intervals.back().upper <= path.answer.gap + path.answer.global_error);
-    // What the cuts leave holds the answer, which is below the highest evaluation by no more than the error that it states.
+    // The region that the cuts leave contains the answer. The answer is below the highest evaluation by at most its own error.
     const double room = room_left(path, path.evaluations.size(), rolling_radius, path.answer.normal);
     CHECK(room >= -path.answer.global_error - kRounding);
   }

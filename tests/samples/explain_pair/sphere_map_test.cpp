@@ -1,4 +1,4 @@
-// Tests of the maps of the sphere: they have inverses and keep areas.
+// Tests that the maps of the sphere have inverses and preserve areas.
 #include "method/sphere_map.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ using namespace explain_pair;
 
 namespace {
 
-/// A frame that is not that of the world.
+/// A frame other than the world's.
 Frame tilted_frame() {
   const Eigen::Matrix3d R = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.5).normalized().toRotationMatrix();
   return {R.col(0), R.col(1), R.col(2)};
@@ -35,7 +35,7 @@ TEST_CASE("sphere map: Hammer's map has its inverse") {
     const Vector3 back = normal_at(frame, HammerMap::to_sphere(HammerMap::to_plane(place_of(frame, n))));
     farthest = std::max(farthest, (back - n).norm());
   }
-  // Near the rim, where the map folds, digits are lost as in the square root of them.
+  // Near the rim, where the map folds, half of the digits are lost.
   CHECK(farthest < 1e-7);
 }
 

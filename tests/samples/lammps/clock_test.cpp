@@ -1,4 +1,4 @@
-// Tests of the clock of a run whose step changes.
+// Tests of the clock of a run with a changing step.
 #include "kernel/clock.hpp"
 
 #include <doctest/doctest.h>

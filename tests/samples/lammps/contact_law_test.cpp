@@ -1,4 +1,4 @@
-// What the law of a contact promises.
+// Tests of the properties of the contact law.
 #include "kernel/contact_law.hpp"
 
 #include <doctest/doctest.h>
@@ -81,7 +81,7 @@ TEST_CASE("lammps: Hertz's force becomes the force of a flat punch without a jum
     CHECK(here.force > last);
     last = here.force;
   }
-  // Deep down it is the punch, and for a flat contact it is nothing else.
+  // In a deep overlap it is the punch's force, and for a flat contact it is nothing else.
   CHECK(last == relative(hertz_force(material, 0.05 / 1.1, {}, 0.01).force).epsilon(0.1));
   CHECK(hertz_force(material, 1e-3, {}, 0.01).force == relative(2e2).epsilon(1e-12));
 }
@@ -103,7 +103,7 @@ TEST_CASE("lammps: elastic forces and torques are the derivatives of the energy"
         pair.second.place(position, Eigen::Quaterniond(Eigen::AngleAxisd(h, e)) * attitude);
         return pair.find(0).force.energy;
       };
-      // `contact` is that of body 1.
+      // `contact` belongs to body 1.
       CHECK((shifted(1e-8) - shifted(-1e-8)) / 2e-8 == doctest::Approx(contact.force.force[axis]).epsilon(1e-3));
       CHECK(std::abs((turned(1e-6) - turned(-1e-6)) / 2e-6 + contact.torque2()[axis]) < 1e-3 * contact.force.normal * 0.02);
     }
@@ -137,7 +137,7 @@ TEST_CASE("lammps: friction stays in Coulomb's cone and rotates with the pair") 
     const double friction = (before.force.force - before.force.force.dot(before.contact.normal) * before.contact.normal).norm();
     CHECK(friction <= 0.4 * before.force.normal * (1 + 1e-12));
     CHECK(before.force.rolling_torque.norm() <= 1e-3 * before.force.normal * (1 + 1e-12));
-    // Both bodies turn by half a revolution as one: the springs come along.
+    // Both bodies rotate by half a revolution as one, and the springs rotate with them.
     const Vector3 spin = 30 * Vector3(1, -2, 0.5).normalized();
     pair.first.set_velocity(Vector3::Zero(), Vector3::Zero());
     pair.second.set_velocity(Vector3::Zero(), Vector3::Zero());

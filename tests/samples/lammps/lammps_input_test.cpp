@@ -56,7 +56,7 @@ TEST_CASE("to LAMMPS: a box of grains has the masses of the scene, and springs t
   CHECK(has(input.commands, " friction 0.4"));
   CHECK(has(input.commands, "pair_coeff 3 3 exponents 2 2.8  # tablet_biconvex"));
 
-  // LAMMPS makes the mass of the volume of the ellipsoid.
+  // LAMMPS computes the mass from the volume of the ellipsoid.
   std::istringstream data(input.data.substr(input.data.find("ellipsoid\n\n", input.data.find("Atoms")) + 11));
   double lightest = INFINITY, heaviest = 0, top = 0;
   for (int i = 0; i < scene.grains_at_start(); ++i) {
@@ -96,7 +96,7 @@ TEST_CASE("to LAMMPS: a hopper and its dish are meshes, and the lid is removed w
   REQUIRE(lid != std::string::npos);
   CHECK(number_after(input.commands.substr(0, lid), "\nrun ") == relative(0.5 / step).epsilon(1e-5));
   CHECK(number_after(input.commands.substr(lid), "\nrun ") == relative(3.5 / step).epsilon(1e-5));
-  // Grains fall off the dish, into a tray that is wider than the hopper.
+  // Grains fall off the dish into a tray that is wider than the hopper.
   CHECK(number_after(input.data, "types\n\n") < -0.15);
 
   const Mesh mesh = make_mesh(std::get<Hopper>(scene.container));

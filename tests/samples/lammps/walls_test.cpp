@@ -1,4 +1,4 @@
-// Walls: where particles touch them, and what the contacts remember.
+// Walls: where particles touch them, and the histories of the contacts.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -150,7 +150,7 @@ TEST_CASE("lammps: a belt drags a ball along, and the wall's force and torque ar
   CHECK(found.force.z() == relative(1e4 * 1e-4).epsilon(1e-9));
   CHECK(found.force.x() == relative(0.5 * found.force.z()).epsilon(1e-9));
   CHECK((found.torque + found.wall_torque + (ball.body.pose.position - belt.pose.position).cross(found.force)).norm() < 1e-15);
-  // Off the belt everything is forgotten.
+  // Off the belt the history is deleted.
   CHECK(history.count == 1);
   ball.place({0, 0, 0.011}, Eigen::Quaterniond::Identity());
   CHECK(find_wall_force(plane, belt, *ball.shape, ball.body, material, 1e-5, history, scratch).contacts == 0);
@@ -166,7 +166,7 @@ TEST_CASE("lammps: in a corner each wall has its own springs, in any order of th
   walls.pose = at({0, 0, 0});
   WallHistory history;
   std::vector<WallContact> scratch;
-  // First on the floor alone, then against the wall x = -0.1 too, which the box names before the floor.
+  // First only on the floor, then also against the wall x = -0.1, which the box lists before the floor.
   ball.place({0, 0, 0.0099}, Eigen::Quaterniond::Identity());
   for (int i = 0; i < 10; ++i) find_wall_force(box, walls, *ball.shape, ball.body, material, 1e-5, history, scratch);
   const Vector3 spring = history.contacts[0].sliding;

@@ -1,4 +1,4 @@
-// Tests of the methods of the literature on published cases: none may be a straw man.
+// Tests of the methods of the literature on published cases, so that the comparison is fair.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -52,7 +52,7 @@ TEST_CASE("the first 100 pairs of Goncalves et al. have the published sum of dis
 }
 
 TEST_CASE("the 1000 pairs of Goncalves et al. are solved with few failures and no wrong answer") {
-  // The most failures of 1000, cold and with the normal of a pose a millimetre away.
+  // The largest number of failures of 1000, from a cold start and with the normal of a pose a millimetre away.
   struct Most {
     int cold, warm;
   };

@@ -1,4 +1,4 @@
-// Tests of the descriptions of the literature: derivatives against differences, and one description against the other.
+// Tests of the descriptions of the literature: derivatives against differences, and the descriptions against each other.
 #include "literature/superquadric.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using namespace literature;
 
 namespace {
 
-constexpr double kStep = 1e-6;        // of central differences; their error is about its square
+constexpr double kStep = 1e-6;        // step of central differences; their error is about its square
 constexpr double kDifference = 1e-7;  // relative: the rounding of the function over the step, and the square of the step
 
 std::vector<Superquadric> bodies() {
