@@ -177,7 +177,7 @@ struct Verdict {
   double gap = 0;             ///< m; the gap at the impact
   double earlier = 0;         ///< s; how much earlier it is than a gap of a millionth of the size
   double tolerance = 0;       ///< m; of the impact
-  double rounding = 0;        ///< m; four times that of s (lib/impact/README.md)
+  double rounding = 0;        ///< m; four times the rounding of s (lib/impact/README.md)
 
   bool is_right() const { return overlap_before <= rounding && gap <= tolerance + rounding && gap >= -rounding && earlier <= 0; }
 };

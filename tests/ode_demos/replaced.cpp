@@ -11,7 +11,7 @@
 
 namespace {
 
-// The exponents of an ellipsoid; those of boxes are larger.
+// The exponents of an ellipsoid; boxes have larger ones.
 constexpr dReal kRound = 2;
 
 struct Size {

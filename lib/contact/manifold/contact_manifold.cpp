@@ -171,7 +171,7 @@ ContactManifold find_plane_contact_manifold(const Shape& shape, const Pose& pose
 // Bodies drift least if the deepest is first (lib/contact/README.md).
 //
 // Two contacts let a body rotate about the line through them. A body that is about to meet a face still has all its velocity. With
-// max_contacts 2 it is stopped at one place, near the line through its centre of mass (ahead/small_turn).
+// max_contacts 2 it is stopped at one place, near the line through its centre of mass (ahead/small_rotation).
 ContactManifold reduced_to(ContactManifold manifold, int room) {
   if (room < 2) manifold.corner_count = 0;
   if (manifold.corner_count == 0) return manifold;
